@@ -1,0 +1,49 @@
+# make run | test | lint | bench | lock. The first three need nothing but a Python and make: they fill .venv themselves.
+PYTHON ?= python3
+
+VENV := .venv/bin/python
+PIP  := $(VENV) -m pip install --disable-pip-version-check
+# Written when an install has ended well: a .venv without it was interrupted, and is made anew.
+RUNTIME := .venv/.requirements
+TOOLS   := .venv/.requirements-dev
+
+# An upgraded or removed system Python leaves a .venv that finds no packages.
+BROKEN := $(shell test -e $(RUNTIME) && $(VENV) -c 'import pip' 2>/dev/null || echo broken)
+
+.PHONY: run test lint bench lock broken
+.DEFAULT_GOAL := run
+
+run: $(RUNTIME)
+	$(VENV) -m streamlit run app.py
+
+test: $(RUNTIME)
+	$(VENV) -m pytest
+
+lint: $(TOOLS)
+	$(VENV) -m ruff check
+	$(VENV) -m ruff format --check
+	$(VENV) -m pyright
+	.venv/bin/lint-imports
+
+bench: $(RUNTIME)
+	$(VENV) -m pytest tests/benchmarks --benchmark-only
+
+# The only target that needs uv. --upgrade: a lock is made to move; requirements.txt in git is what people install.
+LOCK := uv pip compile --universal --python-version 3.11 --upgrade --quiet --no-emit-index-url \
+	--no-annotate --custom-compile-command "make lock"
+lock:
+	$(LOCK) pyproject.toml --extra app --group test -o requirements.txt
+	$(LOCK) --group dev -c requirements.txt -o requirements-dev.txt
+
+$(RUNTIME): requirements.txt $(if $(BROKEN),broken)
+	@$(PYTHON) -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 15))' \
+		|| { echo "rotorcalc needs Python 3.11 to 3.14: try make PYTHON=python3.13" >&2; exit 1; }
+	@$(PYTHON) -m venv $(if $(BROKEN),--clear) .venv \
+		|| { echo "$(PYTHON) -m venv failed; on Debian and Ubuntu: apt install python3-venv" >&2; exit 1; }
+	@rm -f $(RUNTIME) $(TOOLS)
+	$(PIP) -r requirements.txt
+	@touch $@
+
+$(TOOLS): requirements-dev.txt $(RUNTIME)
+	$(PIP) -r requirements-dev.txt
+	@touch $@

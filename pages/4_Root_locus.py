@@ -1,0 +1,2 @@
+from ui import page as frame
+page = frame.begin("X", "test")

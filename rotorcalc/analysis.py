@@ -1,0 +1,176 @@
+"""The whole chain in one call: from load, oil, clearance and shaft to eigenvalues and orbits.
+
+Follows the calculation sheet of the notes, vectorised over running speed.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rotorcalc import modes
+from rotorcalc.coefficients import equilibrium
+from rotorcalc.films import FilmState, film_state
+from rotorcalc.machine import JournalBearing, Machine
+from rotorcalc.response import synchronous_response
+from rotorcalc.stability import WhirlOnset, flexible_threshold, whirl_onset
+from rotorcalc.typing import Array, ComplexArray
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep:
+    """Everything that the calculation sheet computes, over running speed; n is the speeds' shape.
+
+    Attributes
+    ----------
+    machine : Machine
+        The machine.
+    speed : array, (n,)
+        Running speed, Ω [rad/s].
+    sommerfeld : array, (n,)
+        Modified Sommerfeld number, σ [-] (Eq. 5.8); infinite without load.
+    journal_position : array, (n, 2)
+        Journal centre in equilibrium in X, Y from the bearing's centre [m].
+    eccentricity_ratio : array, (n,)
+        ε [-].
+    attitude_angle : array, (n,)
+        φ [rad] (Eq. 5.7).
+    minimum_film_thickness : array, (n,)
+        [m].
+    power_loss : array, (n,)
+        Per bearing [W].
+    side_flow : array, (n,)
+        Per bearing, both ends [m³/s].
+    stiffness, damping : array, (n, 2, 2)
+        K_ij [N/m] and C_ij [N·s/m] in X, Y, per bearing (Eqs. 5.30, 5.31).
+    equivalent_stiffness : array, (n,)
+        K_eq [N/m] (Eq. 5.45).
+    whirl_ratio : array, (n,)
+        ω̄ [-] (Eq. 5.46); 0 where the film cannot whirl.
+    critical_mass : array, (n,)
+        M_c [kg per bearing]: with more the rotor is unstable at this speed; infinite where the
+        film cannot whirl.
+    rigid_threshold, flexible_threshold : array, (n,)
+        Ω_s and Ω_sf [rad/s] (Eqs. 5.45 to 5.50) at this speed's equilibrium; the machine is
+        unstable where its speed lies above. Without midspan damping and journal mass.
+    rigid_eigenvalues : complex array, (n, 4)
+        λ of the rigid rotor [1/s].
+    flexible_eigenvalues : complex array, (n, 6)
+        λ of the flexible rotor [1/s]; 8 with journal mass; the rigid ones for a rigid shaft.
+    disk_response, journal_response : complex array, (n, 2)
+        Phasors of X and Y due to imbalance [m].
+    """
+
+    machine: Machine
+    speed: Array
+    sommerfeld: Array
+    journal_position: Array
+    eccentricity_ratio: Array
+    attitude_angle: Array
+    minimum_film_thickness: Array
+    power_loss: Array
+    side_flow: Array
+    stiffness: Array
+    damping: Array
+    equivalent_stiffness: Array
+    whirl_ratio: Array
+    critical_mass: Array
+    rigid_threshold: Array
+    flexible_threshold: Array
+    rigid_eigenvalues: ComplexArray
+    flexible_eigenvalues: ComplexArray
+    disk_response: ComplexArray
+    journal_response: ComplexArray
+
+
+def analyse(machine: Machine, speed: ArrayLike) -> Sweep:
+    """Return the whole calculation sheet of a machine over running speed.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : array_like, (n,) or scalar
+        Running speed, Ω [rad/s], positive.
+
+    Returns
+    -------
+    Sweep
+        Its fields have the leading shape (n,), or none for a scalar.
+
+    Raises
+    ------
+    ValueError
+        Where a speed is not positive and finite.
+    """
+    rotor = machine.rotor
+    state = equilibrium(machine, speed)
+    K, C, film = state.stiffness, state.damping, state.film
+    # K and ΩC share the unit N/m, so k_eq is K_eq and p_s² is M_c Ω².
+    onset = whirl_onset(K, C * state.speed[..., None, None])
+    K_eq = onset.equivalent_stiffness
+    rigid_threshold = onset.threshold_speed / np.sqrt(rotor.half_mass)
+    rigid_eigenvalues = modes.eigenvalues(rotor, K, C, flexible=False)
+    disk, journal = synchronous_response(rotor, K, C, state.speed)
+    return Sweep(
+        machine=machine,
+        speed=state.speed,
+        sommerfeld=film.sommerfeld,
+        journal_position=film.position * machine.bearing.radial_clearance,
+        eccentricity_ratio=film.eccentricity_ratio,
+        attitude_angle=film.attitude_angle,
+        minimum_film_thickness=state.minimum_film_thickness,
+        power_loss=state.power_loss,
+        side_flow=state.side_flow,
+        stiffness=K,
+        damping=C,
+        equivalent_stiffness=K_eq,
+        whirl_ratio=onset.whirl_ratio,
+        critical_mass=onset.critical_mass / state.speed**2,
+        rigid_threshold=rigid_threshold,
+        flexible_threshold=flexible_threshold(rigid_threshold, K_eq, 1.0 / rotor.shaft_stiffness),
+        rigid_eigenvalues=rigid_eigenvalues,
+        flexible_eigenvalues=rigid_eigenvalues if rotor.is_rigid else modes.eigenvalues(rotor, K, C),
+        disk_response=disk,
+        journal_response=journal,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class FilmCurves:
+    """A bearing's dimensionless film and whirl threshold over the modified Sommerfeld number.
+
+    Attributes
+    ----------
+    film : FilmState
+        The film (Figs. 5.5 and 5.6 show its k and c).
+    onset : WhirlOnset
+        k_eq, whirl ratio, p_s² and p_s (Figs. 5.7 to 5.9), in units of the load.
+    """
+
+    film: FilmState
+    onset: WhirlOnset
+
+
+def film_curves(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmCurves:
+    """Return what the notes draw against the modified Sommerfeld number, for one bearing.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing.
+    sommerfeld : array_like, (...)
+        σ [-], positive and finite.
+
+    Returns
+    -------
+    FilmCurves
+        Its fields have the leading shape (...).
+
+    Raises
+    ------
+    ValueError
+        Where σ is not positive.
+    """
+    film = film_state(bearing, sommerfeld)
+    return FilmCurves(film=film, onset=whirl_onset(film.k, film.c))

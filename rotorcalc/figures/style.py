@@ -1,0 +1,173 @@
+"""What all charts share: colours, axes, lines, the mark of the running speed, one template.
+
+A chart is one plain dict of Plotly's figure, built in one go; `figure` makes a `go.Figure` of it for
+a notebook. Colours name what is drawn, the same thing always in the same colour; they keep a
+contrast of 3 : 1 on white and on near-black, and differ to colour-blind eyes.
+"""
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+if TYPE_CHECKING:
+    import plotly.graph_objects as go
+
+Chart: TypeAlias = dict[str, Any]
+Trace: TypeAlias = dict[str, Any]
+Axis: TypeAlias = dict[str, Any]
+
+BLUE, GREEN, PURPLE, OCHRE, RED, GREY = (
+    "#2b7bba", "#00916a", "#b0569f", "#a8780a", "#d1541f", "#7d7d7d",
+)  # fmt: skip
+X, Y = BLUE, GREEN
+XX, YY, XY, YX = BLUE, GREEN, PURPLE, OCHRE
+JOURNAL, DISK = BLUE, OCHRE
+FLEXIBLE, RIGID = BLUE, PURPLE
+UNSTABLE = RED
+HERE = "#f0b400"
+FAINT = "rgba(127,127,127,0.28)"
+SHADE = "rgba(209,84,31,0.12)"
+
+HEIGHT = 380
+_LADDER = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
+
+
+def figure(chart: Chart) -> "go.Figure":
+    """Return a chart as Plotly's own figure object, for a notebook."""
+    import plotly.graph_objects as go  # noqa: PLC0415 - a page of dicts never needs it
+
+    return go.Figure(chart)
+
+
+def ceiling(values: ArrayLike, least: float = 0.0) -> float:
+    """Return a round number at or above all finite values: an axis that seldom needs to move."""
+    finite = np.asarray(values, dtype=float)
+    finite = finite[np.isfinite(finite)]
+    top = max(float(finite.max(initial=0.0)), least)
+    if top <= 0.0:
+        return 1.0
+    power = 10.0 ** math.floor(math.log10(top))
+    return next(step * power for step in _LADDER if step * power >= top * (1 - 1e-12))
+
+
+def axis(title: str, low: float, high: float, *, log: bool = False, **extra: Any) -> Axis:
+    """Return an axis with a fixed range, given in data units also where it is logarithmic."""
+    span = [math.log10(low), math.log10(high)] if log else [low, high]
+    kind = {"type": "log", "dtick": 1} if log else {"type": "linear"}
+    return {"title": {"text": title}, "range": span, **_AXIS, **kind, **extra}
+
+
+def line(x: ArrayLike, y: ArrayLike, name: str, colour: str, **extra: Any) -> Trace:
+    """Return a line; `dash` and `width` style it, anything else goes to the trace."""
+    style = {"color": colour, "width": extra.pop("width", 2.2), "dash": extra.pop("dash", "solid")}
+    return {
+        "type": "scatter", "mode": "lines", "x": np.asarray(x), "y": np.asarray(y),
+        "name": name, "line": style, **extra,
+    }  # fmt: skip
+
+
+def here(x: float, y: float, x_axis: Axis, y_axis: Axis, name: str = "running speed") -> list[Trace]:
+    """Return the mark of the running speed: a point with dashed lines to both axes."""
+    left, bottom = _low(x_axis), _low(y_axis)
+    guide = line([left, x, x], [y, y, bottom], name, FAINT, dash="dash", width=1.4)
+    return [
+        guide | {"showlegend": False, "hoverinfo": "skip", "line": guide["line"] | {"color": GREY}},
+        mark(x, y, name),
+    ]
+
+
+def mark(x: ArrayLike, y: ArrayLike, name: str, colour: str = HERE, **extra: Any) -> Trace:
+    """Return a point that stands out on light and dark: by default the running speed's."""
+    return {
+        "type": "scatter", "mode": "markers", "name": name,
+        "x": np.atleast_1d(x), "y": np.atleast_1d(y),
+        "marker": {"size": 11, "color": colour, "line": {"color": "#333333", "width": 1.5}},
+        **extra,
+    }  # fmt: skip
+
+
+def chart(traces: Iterable[Trace], x: Axis, y: Axis, **layout: Any) -> Chart:
+    """Return a chart of traces over two axes; `layout` adds to or replaces what charts share."""
+    return {"data": list(traces), "layout": {**_LAYOUT, "xaxis": x, "yaxis": y, **layout}}
+
+
+def with_baseline(chart: Chart, baseline: Chart) -> Chart:
+    """Return a chart with the lines and marks of another machine's behind it, thin and grey."""
+    drawn = [_outline(trace) for trace in chart["data"]]
+    ghosts = [
+        _ghost(trace)
+        for trace in baseline["data"]
+        if trace["type"] == "scatter" and _outline(trace) not in drawn
+    ]
+    return {**chart, "data": [*ghosts, *chart["data"]]}
+
+
+def themed(chart: Chart, *, dark: bool) -> Chart:
+    """Return a chart with its text in the colour that a light or dark page wants."""
+    font = {**chart["layout"]["font"], "color": _TEXT_ON_DARK if dark else _TEXT}
+    return {**chart, "layout": {**chart["layout"], "font": font}}
+
+
+def note(text: str, x: float, y: float, **extra: Any) -> dict[str, Any]:
+    """Return a short text in the chart at a place given in fractions of the plot."""
+    return {
+        "text": text, "x": x, "y": y, "xref": "paper", "yref": "paper", "showarrow": False, **extra,
+    }  # fmt: skip
+
+
+def _outline(trace: Trace) -> tuple[bytes, ...]:
+    """Return what a trace draws, to tell whether another draws the same."""
+    return tuple(np.asarray(trace.get(key, ()), dtype=float).tobytes() for key in ("x", "y"))
+
+
+def _ghost(trace: Trace) -> Trace:
+    name = f"A: {trace.get('name', '')}"
+    style = {"color": GREY, "width": 1.2, "dash": trace.get("line", {}).get("dash", "solid")}
+    marker = {"color": "rgba(0,0,0,0)", "size": 10, "line": {"color": GREY, "width": 1.6}}
+    kept = {key: value for key, value in trace.items() if not key.startswith("fill")}
+    return {**kept, "name": name, "line": style, "marker": marker, "showlegend": False}
+
+
+def _low(axis: Axis) -> float:
+    low = min(axis["range"])
+    return 10.0**low if axis["type"] == "log" else low
+
+
+def titled(words: str, symbol: str, unit: str) -> str:
+    """Return an axis title, "words symbol [unit]"."""
+    return " ".join(part for part in (words, symbol, f"[{unit}]") if part)
+
+
+def legend_below() -> dict[str, Any]:
+    """Return a legend under the chart, where it takes nothing from the plot's width."""
+    return {"orientation": "h", "x": 0, "y": -0.22, "yanchor": "top"}
+
+
+def joined(groups: Sequence[Sequence[Trace]]) -> list[Trace]:
+    """Return the traces of several groups as one list."""
+    return [trace for group in groups for trace in group]
+
+
+_TEXT, _TEXT_ON_DARK = "#20262d", "#e6eaee"
+_AXIS: Axis = {
+    "gridcolor": "rgba(127,127,127,0.18)",
+    "zeroline": False,
+    "showline": True,
+    "linecolor": "rgba(127,127,127,0.6)",
+    "ticks": "outside",
+    "tickcolor": "rgba(127,127,127,0.6)",
+    "automargin": True,
+}
+_LAYOUT: dict[str, Any] = {
+    "height": HEIGHT,
+    "margin": {"l": 64, "r": 16, "t": 44, "b": 52},
+    "paper_bgcolor": "rgba(0,0,0,0)",
+    "plot_bgcolor": "rgba(0,0,0,0)",
+    "font": {"size": 14, "color": _TEXT, "family": "Source Sans, Source Sans Pro, Arial, sans-serif"},
+    "hovermode": "closest",
+    "legend": {"orientation": "h", "x": 0, "y": 1.01, "yanchor": "bottom"},
+    "uirevision": "keep",
+}

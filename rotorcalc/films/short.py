@@ -1,0 +1,595 @@
+"""The short journal bearing in closed form.
+
+Model: Reynolds' equation without its circumferential pressure flow (Ocvirk), so for L/D of about a
+half and less; laminar, isoviscous, incompressible oil; aligned, rigid and circular surfaces;
+ambient pressure at both ends. The film carries over half the circumference: 0 ≤ θ ≤ π behind the
+thickest film, and with a moving journal the half that its motion puts under pressure.
+
+Axes: X along the static load, Y at +90° in the sense of rotation; r along the line of centres, t
+at +90° from it. θ runs from the thickest film (r) in the sense of rotation.
+
+Units: ε, x, y and film thickness in the radial clearance C; forces in μΩRL³/C²; stiffness in
+μΩRL³/C³ and damping in μRL³/C³ ("film units"), or k and c of Eq. 5.32 where a docstring says so.
+
+Source: San Andrés, Notes 5, Eqs. 5.5 to 5.37. Misprints of the source that are corrected here:
+the sign in Eq. 5.7, and f_r² printed for f_t² in k_YY and c_YY of Eq. 5.35.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.special import expit, log_expit
+
+from rotorcalc.films.state import FilmState
+from rotorcalc.frames import matrix, rotate, vector
+from rotorcalc.machine import JournalBearing
+from rotorcalc.typing import Array
+
+# The change of ln(s²/ε²) that ends the search for ε: a rounding error or two.
+_TOLERANCE = 1e-14
+_MOST_ITERATIONS = 50
+
+
+def state(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmState:
+    """Return the short bearing's film in static equilibrium, dimensionless.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing; only L/D enters, and only the drag.
+    sommerfeld : array_like, (...)
+        Modified Sommerfeld number, σ [-], positive; infinite without load.
+
+    Returns
+    -------
+    FilmState
+        Its fields have the leading shape (...).
+
+    Raises
+    ------
+    ValueError
+        Where σ is not positive, or so small that the film is thinner than the arithmetic can tell.
+    """
+    sigma = np.asarray(sommerfeld, dtype=float)
+    eps = eccentricity_ratio(sigma)
+    if np.any(eps == 1.0):
+        raise ValueError(
+            f"sommerfeld = {np.min(sigma):.3g}: too small, the film's thickness rounds to zero"
+        )
+    phi = attitude_angle(eps)
+    return FilmState(
+        sommerfeld=sigma,
+        position=vector(eps * np.cos(phi), eps * np.sin(phi)),
+        minimum_thickness=1.0 - eps,
+        stiffness=film_stiffness(eps),
+        damping=film_damping(eps),
+        side_flow=side_flow(eps),
+        drag=drag(eps, length_to_radius=bearing.length / bearing.radius),
+    )
+
+
+def modified_sommerfeld(eps: ArrayLike) -> Array:
+    """Return the modified Sommerfeld number at which the journal sits at ε (Eq. 5.8).
+
+    σ = μΩLR/(4F_o)·(L/C)² = (1−ε²)²/(ε√(16ε² + π²(1−ε²)))
+
+    Parameters
+    ----------
+    eps : array_like, (...)
+        Eccentricity ratio, ε [-], 0 ≤ ε ≤ 1.
+
+    Returns
+    -------
+    array, (...)
+        Modified Sommerfeld number, σ [-]; infinite at ε = 0, zero at ε = 1.
+
+    Raises
+    ------
+    ValueError
+        Where ε lies outside [0, 1].
+
+    Examples
+    --------
+    >>> round(float(modified_sommerfeld(0.5)), 6)
+    0.333164
+    """
+    eps = _checked_eccentricity(eps)
+    with np.errstate(divide="ignore"):
+        return _s2(eps) ** 2 / (eps * _load_root(eps))
+
+
+def eccentricity_ratio(sigma: ArrayLike) -> Array:
+    """Return the eccentricity ratio at a modified Sommerfeld number: Eq. 5.8 solved for ε.
+
+    Parameters
+    ----------
+    sigma : array_like, (...)
+        Modified Sommerfeld number, σ [-], zero or more; infinite without load.
+
+    Returns
+    -------
+    array, (...)
+        Eccentricity ratio, ε [-]. σ(ε) returns σ to 1e-12 relative over σ = 1e-6 … 1e6.
+
+    Raises
+    ------
+    ValueError
+        Where σ is negative or not a number.
+    RuntimeError
+        Where the search does not end.
+
+    Notes
+    -----
+    With x = s² = 1 − ε² and y = ln(x/(1−x)) Eq. 5.8 reads g(y) = 0,
+
+        g = 4 ln x − ln(1−x) − ln(16 − (16−π²)x) − 2 ln σ.
+
+    g rises with a slope between 1 and 4.4 and is concave. So Newton's tangents never pass the
+    root from the left, and a residual g brackets it: it lies in [y, y − g].
+
+    Examples
+    --------
+    >>> round(float(eccentricity_ratio(0.333164)), 6)
+    0.5
+    """
+    sigma = np.asarray(sigma, dtype=float)
+    if not np.all(sigma >= 0.0):
+        worst = sigma[~(sigma >= 0.0)].flat[0]
+        raise ValueError(f"sigma = {worst}: must be zero or positive")
+    between = (sigma > 0.0) & (sigma < np.inf)
+    target = 2.0 * np.log(np.where(between, sigma, 1.0))
+    y = np.minimum(target + np.log(np.pi**2), (target + np.log(np.pi**2)) / 4)  # left of the root
+    for _ in range(_MOST_ITERATIONS):
+        x, eps2 = expit(y), expit(-y)
+        rest = 16.0 - (16.0 - np.pi**2) * x
+        residual = 4.0 * log_expit(y) - log_expit(-y) - np.log(rest) - target
+        slope = 4.0 * eps2 + x + (16.0 - np.pi**2) * x * eps2 / rest
+        step = residual / slope
+        y = y - step
+        if np.all(np.abs(step) <= _TOLERANCE * (1.0 + np.abs(y))):
+            return np.where(between, np.sqrt(expit(-y)), np.where(sigma == 0.0, 1.0, 0.0))
+    raise RuntimeError(f"no eccentricity ratio found within {_MOST_ITERATIONS} iterations")
+
+
+def attitude_angle(eps: ArrayLike) -> Array:
+    """Return the attitude angle, tan φ = π√(1−ε²)/(4ε) (Eq. 5.7, its sign corrected).
+
+    Parameters
+    ----------
+    eps : array_like, (...)
+        Eccentricity ratio, ε [-], 0 ≤ ε ≤ 1.
+
+    Returns
+    -------
+    array, (...)
+        Attitude angle, φ [rad], from the load line to the line of centres in the sense of rotation.
+
+    Raises
+    ------
+    ValueError
+        Where ε lies outside [0, 1].
+    """
+    eps = _checked_eccentricity(eps)
+    return np.arctan2(np.pi * np.sqrt(_s2(eps)), 4.0 * eps)
+
+
+def static_force(eps: ArrayLike) -> Array:
+    """Return the static force of the film on the journal in (r, t) (Eq. 5.5).
+
+    Parameters
+    ----------
+    eps : array_like, (...)
+        Eccentricity ratio, ε [-], 0 ≤ ε < 1.
+
+    Returns
+    -------
+    array, (..., 2)
+        (f_r, f_t) in μΩRL³/C²; f_r < 0 pushes the journal back to the centre, f_t > 0 forward.
+
+    Raises
+    ------
+    ValueError
+        Where ε lies outside [0, 1).
+    """
+    eps, s2 = _open(eps)
+    return vector(-(eps**2) / s2**2, np.pi * eps / (4.0 * s2**1.5))
+
+
+def stiffness(eps: ArrayLike) -> Array:
+    """Return the dimensionless stiffness k = K·C/F_o in X, Y (Eq. 5.35, k_YY corrected).
+
+    Parameters
+    ----------
+    eps : array_like, (...)
+        Eccentricity ratio, ε [-], 0 ≤ ε < 1.
+
+    Returns
+    -------
+    array, (..., 2, 2)
+        k [-]. At ε = 0 the direct terms take their limits 4/π and 8/π, the others are infinite.
+
+    Raises
+    ------
+    ValueError
+        Where ε lies outside [0, 1).
+
+    Examples
+    --------
+    >>> stiffness(0.5).round(4)
+    array([[ 1.7842,  2.9337],
+           [-0.3889,  2.0163]])
+    """
+    return _xy_stiffness(eps, *_load_units(eps))
+
+
+def damping(eps: ArrayLike) -> Array:
+    """Return the dimensionless damping c = C·ΩC/F_o in X, Y (Eq. 5.35, c_YY corrected).
+
+    Parameters
+    ----------
+    eps : array_like, (...)
+        Eccentricity ratio, ε [-], 0 ≤ ε < 1.
+
+    Returns
+    -------
+    array, (..., 2, 2)
+        c [-]. At ε = 0 the cross terms take their limit 8/π, the direct ones are infinite.
+
+    Raises
+    ------
+    ValueError
+        Where ε lies outside [0, 1).
+    """
+    return _xy_damping(eps, *_load_units(eps))
+
+
+def film_stiffness(eps: ArrayLike) -> Array:
+    """Return the stiffness in X, Y in film units (Eq. 5.35, k_YY corrected).
+
+    Parameters
+    ----------
+    eps : array_like, (...)
+        Eccentricity ratio, ε [-], 0 ≤ ε < 1.
+
+    Returns
+    -------
+    array, (..., 2, 2)
+        K in μΩRL³/C³. At ε = 0 only the cross terms remain, ±π/4 (Eq. 5.37).
+
+    Raises
+    ------
+    ValueError
+        Where ε lies outside [0, 1).
+    """
+    return _xy_stiffness(eps, *_film_units(eps))
+
+
+def film_damping(eps: ArrayLike) -> Array:
+    """Return the damping in X, Y in film units (Eq. 5.35, c_YY corrected).
+
+    Parameters
+    ----------
+    eps : array_like, (...)
+        Eccentricity ratio, ε [-], 0 ≤ ε < 1.
+
+    Returns
+    -------
+    array, (..., 2, 2)
+        C in μRL³/C³. At ε = 0 only the direct terms remain, π/2 (Eq. 5.37).
+
+    Raises
+    ------
+    ValueError
+        Where ε lies outside [0, 1).
+    """
+    return _xy_damping(eps, *_film_units(eps))
+
+
+def radial_stiffness(eps: ArrayLike) -> Array:
+    """Return the stiffness in (r, t) in film units (Eq. 5.30).
+
+    Parameters
+    ----------
+    eps : array_like, (...)
+        Eccentricity ratio, ε [-], 0 ≤ ε < 1.
+
+    Returns
+    -------
+    array, (..., 2, 2)
+        [[K_rr, K_rt], [K_tr, K_tt]] in μΩRL³/C³.
+
+    Raises
+    ------
+    ValueError
+        Where ε lies outside [0, 1).
+    """
+    eps, s2 = _open(eps)
+    K_rr = 2.0 * eps * (1.0 + eps**2) / s2**3
+    K_rt = np.pi / (4.0 * s2**1.5)
+    K_tr = -np.pi * (1.0 + 2.0 * eps**2) / (4.0 * s2**2.5)
+    K_tt = eps / s2**2
+    return matrix(K_rr, K_rt, K_tr, K_tt)
+
+
+def radial_damping(eps: ArrayLike) -> Array:
+    """Return the damping in (r, t) in film units (Eq. 5.31).
+
+    Parameters
+    ----------
+    eps : array_like, (...)
+        Eccentricity ratio, ε [-], 0 ≤ ε < 1.
+
+    Returns
+    -------
+    array, (..., 2, 2)
+        [[C_rr, C_rt], [C_tr, C_tt]] in μRL³/C³.
+
+    Raises
+    ------
+    ValueError
+        Where ε lies outside [0, 1).
+    """
+    eps, s2 = _open(eps)
+    C_rr = np.pi * (1.0 + 2.0 * eps**2) / (2.0 * s2**2.5)
+    C_rt = -2.0 * eps / s2**2
+    C_tt = np.pi / (2.0 * s2**1.5)
+    return matrix(C_rr, C_rt, C_rt, C_tt)
+
+
+def film_thickness(eps: ArrayLike, theta: ArrayLike) -> Array:
+    """Return the film's thickness, H = 1 + ε cos θ (Eq. 5.19).
+
+    Parameters
+    ----------
+    eps : array_like, (...)
+        Eccentricity ratio, ε [-].
+    theta : array_like, (...)
+        Angle from the thickest film in the sense of rotation, θ [rad].
+
+    Returns
+    -------
+    array, (...)
+        Film thickness, H = h/C [-].
+
+    Raises
+    ------
+    ValueError
+        Where ε lies outside [0, 1].
+    """
+    return 1.0 + _checked_eccentricity(eps) * np.cos(theta)
+
+
+def pressure(eps: ArrayLike, theta: ArrayLike, zeta: ArrayLike = 0.0) -> Array:
+    """Return the film's pressure above ambient in static equilibrium (Eq. 5.25).
+
+    p = 3ε sin θ/H³·(1/4 − ζ²) over 0 ≤ θ ≤ π; the cavitated half is at ambient pressure.
+
+    Parameters
+    ----------
+    eps : array_like, (...)
+        Eccentricity ratio, ε [-], 0 ≤ ε < 1.
+    theta : array_like, (...)
+        Angle from the thickest film in the sense of rotation, θ [rad].
+    zeta : array_like, (...)
+        Axial position from the bearing's middle, ζ = z/L [-], −1/2 ≤ ζ ≤ 1/2.
+
+    Returns
+    -------
+    array, (...)
+        Pressure, p in μΩ(L/C)².
+
+    Raises
+    ------
+    ValueError
+        Where ε lies outside [0, 1) or ζ outside the bearing.
+    """
+    eps, _ = _open(eps)
+    zeta = np.asarray(zeta, dtype=float)
+    if not np.all(np.abs(zeta) <= 0.5):
+        raise ValueError("zeta = z/L: must lie within the bearing, -0.5 to 0.5")
+    H = film_thickness(eps, theta)
+    wedge = np.maximum(np.sin(theta), 0.0)  # cavitated where the film diverges
+    return 3.0 * eps * wedge / H**3 * (0.25 - zeta**2)
+
+
+def side_flow(eps: ArrayLike) -> Array:
+    """Return the oil that leaves at both ends together: ε, in ΩRLC.
+
+    The converging film takes in ½ΩRL·C(1+ε) at θ = 0 and hands on ½ΩRL·C(1−ε) at θ = π; the
+    difference leaves at the ends. Source: continuity with the flow of Eq. 5.22.
+
+    Parameters
+    ----------
+    eps : array_like, (...)
+        Eccentricity ratio, ε [-], 0 ≤ ε ≤ 1.
+
+    Returns
+    -------
+    array, (...)
+        Side flow in ΩRLC.
+
+    Raises
+    ------
+    ValueError
+        Where ε lies outside [0, 1].
+    """
+    return _checked_eccentricity(eps)
+
+
+def drag(eps: ArrayLike, *, length_to_radius: float) -> Array:
+    """Return the film's torque on the journal: 2π/s + ½ε f_t (L/R)², in μΩR³L/C.
+
+    The first term is the shear of the turning surface, over the whole circumference; the second
+    is half the couple of the load, ½e·F_o sin φ, which the pressure flow takes. Torque times
+    speed is all the energy that the film turns into heat.
+
+    Parameters
+    ----------
+    eps : array_like, (...)
+        Eccentricity ratio, ε [-], 0 ≤ ε < 1.
+    length_to_radius : float
+        Length over radius, L/R [-].
+
+    Returns
+    -------
+    array, (...)
+        Drag torque in μΩR³L/C.
+
+    Raises
+    ------
+    ValueError
+        Where ε lies outside [0, 1).
+    """
+    eps, s2 = _open(eps)
+    shear = 2.0 * np.pi / np.sqrt(s2)
+    couple = 0.5 * eps * static_force(eps)[..., 1]
+    return shear + couple * length_to_radius**2
+
+
+def added_mass(eps: ArrayLike) -> Array:
+    """Return the film's added mass in X, Y: the integrals I_ij of temporal fluid inertia.
+
+    I_rr = (π/ε²)(1/s − 1), I_tt = (π/ε²)(1 − s), I_rt = I_tr = 2/ε − ln((1+ε)/(1−ε))/ε².
+    The added mass is M_ij = α_m ρRL³/(12C)·I_ij, with α_m = 6/5 at low Reynolds number and 1 in
+    bulk flow. Source: temporal inertia of the film integrated over the full half film.
+
+    Parameters
+    ----------
+    eps : array_like, (...)
+        Eccentricity ratio, ε [-], 0 ≤ ε < 1.
+
+    Returns
+    -------
+    array, (..., 2, 2)
+        I_ij [-]; π/2 times the identity at ε = 0.
+
+    Raises
+    ------
+    ValueError
+        Where ε lies outside [0, 1).
+    """
+    eps, s2 = _open(eps)
+    s = np.sqrt(s2)
+    I_rr = np.pi / (s * (1.0 + s))  # (1/s − 1)/ε² with ε² = (1−s)(1+s), so no difference is lost
+    I_tt = np.pi / (1.0 + s)
+    return rotate(matrix(I_rr, _inertia_cross(eps), _inertia_cross(eps), I_tt), attitude_angle(eps))
+
+
+def film_force(position: ArrayLike, velocity: ArrayLike) -> Array:
+    """Return the nonlinear force of the film on the journal in X, Y.
+
+    The film carries over the half circumference that the journal's rotation and motion together
+    put under pressure. With x, y in C and ' = d/d(Ωt): A = x' + y/2, B = y' − x/2,
+    V = √(A² + B²); a and b are the position along and across the axis on which that half film is
+    centred. The force vanishes with V: at half speed whirl about the centre.
+
+    Parameters
+    ----------
+    position : array_like, (..., 2)
+        Journal centre from the bearing's centre, (x, y) in C, inside the clearance circle.
+    velocity : array_like, (..., 2)
+        Its velocity, (x', y') in CΩ.
+
+    Returns
+    -------
+    array, (..., 2)
+        Force in μΩRL³/C².
+
+    Raises
+    ------
+    ValueError
+        Where the position lies outside the clearance circle.
+
+    Notes
+    -----
+    Source: Eq. 5.25 integrated over its positive half, 0 < z' < π, for any velocity; its value at
+    rest is Eq. 5.5 and its derivatives are Eqs. 5.30 and 5.31.
+    """
+    x, y = np.moveaxis(np.asarray(position, dtype=float), -1, 0)
+    dx, dy = np.moveaxis(np.asarray(velocity, dtype=float), -1, 0)
+    kappa2 = 1.0 - x**2 - y**2
+    if not np.all(kappa2 > 0.0):
+        raise ValueError("position: must lie inside the clearance circle, x² + y² < 1")
+    A, B = dx + y / 2.0, dy - x / 2.0
+    V = np.hypot(A, B)
+    still = V == 0.0
+    sin, cos = A / np.where(still, 1.0, V), -B / np.where(still, 1.0, V)
+    a, b = x * cos + y * sin, -x * sin + y * cos
+    kappa = np.sqrt(kappa2)
+    G = 2.0 / kappa * np.arctan2(kappa, b)  # π/2 − atan(b/κ)
+    F_a = V / 2.0 * a * (3.0 * b * G - 4.0 - 2.0 * b**2 / (1.0 - a**2)) / kappa2**2
+    F_b = V / 2.0 * (G / kappa2 + 3.0 * b * (b * G - 2.0) / kappa2**2)
+    return vector(F_a * cos - F_b * sin, F_a * sin + F_b * cos)
+
+
+def _checked_eccentricity(eps: ArrayLike) -> Array:
+    eps = np.asarray(eps, dtype=float)
+    if not np.all((eps >= 0.0) & (eps <= 1.0)):
+        raise ValueError("eps: the eccentricity ratio must lie between 0 and 1")
+    return eps
+
+
+def _open(eps: ArrayLike) -> tuple[Array, Array]:
+    """Return ε and s² = 1 − ε² where ε < 1, as the forces need it."""
+    eps = _checked_eccentricity(eps)
+    if np.any(eps == 1.0):
+        raise ValueError("eps = 1: the journal touches the wall, the film's force is infinite")
+    return eps, _s2(eps)
+
+
+def _s2(eps: Array) -> Array:
+    return (1.0 - eps) * (1.0 + eps)
+
+
+def _load_root(eps: Array) -> Array:
+    """Return √(16ε² + π²(1−ε²)), which Eqs. 5.6 to 5.8 share."""
+    return np.sqrt(16.0 * eps**2 + np.pi**2 * _s2(eps))
+
+
+def _load_units(eps: ArrayLike) -> tuple[Array, Array]:
+    """Return f_r/ε and f_t/ε of Eq. 5.33, which scale Eq. 5.35 to k and c of Eq. 5.32."""
+    eps, s2 = _open(eps)
+    root = _load_root(eps)
+    with np.errstate(divide="ignore"):
+        return 4.0 / root, np.pi * np.sqrt(s2) / (eps * root)
+
+
+def _film_units(eps: ArrayLike) -> tuple[Array, Array]:
+    """Return the same times F_o, in film units: ε/s⁴ and π/(4s³)."""
+    eps, s2 = _open(eps)
+    return eps / s2**2, np.pi / (4.0 * s2**1.5)
+
+
+def _xy_stiffness(eps: ArrayLike, radial: Array, tangential: Array) -> Array:
+    """Return Eq. 5.35 for K, scaled by `radial` and `tangential`."""
+    eps, s2 = _open(eps)
+    fr2, ft2 = _direction(eps)
+    K_XX = radial / s2 * (fr2 + 1.0 + 2.0 * eps**2)
+    K_XY = tangential / s2 * (fr2 + 1.0 + 2.0 * eps**2)
+    K_YX = tangential / s2 * (fr2 - s2)
+    K_YY = radial / s2 * (ft2 + s2)  # the source prints f_r²
+    return matrix(K_XX, K_XY, K_YX, K_YY)
+
+
+def _xy_damping(eps: ArrayLike, radial: Array, tangential: Array) -> Array:
+    """Return Eq. 5.35 for C, scaled by `radial` and `tangential`."""
+    eps, s2 = _open(eps)
+    fr2, ft2 = _direction(eps)
+    C_XX = 2.0 * tangential / s2 * ((2.0 + eps**2) * fr2 + s2)
+    C_XY = 2.0 * radial / s2 * ((2.0 + eps**2) * ft2 - s2)
+    C_YY = 2.0 * tangential / s2 * ((2.0 + eps**2) * ft2 - s2)  # the source prints f_r²
+    return matrix(C_XX, C_XY, C_XY, C_YY)
+
+
+def _direction(eps: Array) -> tuple[Array, Array]:
+    """Return cos²φ and sin²φ, the squares of f_r and f_t of Eq. 5.33."""
+    load2 = _load_root(eps) ** 2
+    return 16.0 * eps**2 / load2, np.pi**2 * _s2(eps) / load2
+
+
+def _inertia_cross(eps: Array) -> Array:
+    """Return I_rt = 2/ε − ln((1+ε)/(1−ε))/ε², by its series −2Σ ε^(2n−1)/(2n+1) where ε is small."""
+    n = np.arange(1, 8)
+    small = -2.0 * np.sum(eps[..., None] ** (2 * n - 1) / (2 * n + 1), axis=-1)
+    safe = np.where(eps < 0.1, 0.5, eps)
+    closed = 2.0 / safe - 2.0 * np.arctanh(safe) / safe**2
+    return np.where(eps < 0.1, small, closed)

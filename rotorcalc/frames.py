@@ -1,0 +1,52 @@
+"""Frames of reference: from radial and tangential (r, t) to the load's X and Y.
+
+X points along the static load, Y at +90° in the sense of rotation; r points along the line of
+centres, at the attitude angle φ from X, and t at +90° from r. Source: notes, Eqs. 5.11 and 5.16.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rotorcalc.typing import Array
+
+
+def matrix(xx: ArrayLike, xy: ArrayLike, yx: ArrayLike, yy: ArrayLike) -> Array:
+    """Return the 2×2 matrices [[xx, xy], [yx, yy]].
+
+    Parameters
+    ----------
+    xx, xy, yx, yy : array_like, (...)
+        Elements, in any one unit.
+
+    Returns
+    -------
+    array, (..., 2, 2)
+        The matrices.
+    """
+    elements = np.broadcast_arrays(xx, xy, yx, yy)
+    return np.stack(elements, axis=-1).reshape(*elements[0].shape, 2, 2).astype(float, copy=False)
+
+
+def vector(x: ArrayLike, y: ArrayLike) -> Array:
+    """Return the vectors (x, y), shape (..., 2), from their components, shape (...)."""
+    return np.stack(np.broadcast_arrays(x, y), axis=-1).astype(float, copy=False)
+
+
+def rotate(coefficients: ArrayLike, angle: ArrayLike) -> Array:
+    """Return force coefficients in a frame turned back by an angle (Eq. 5.16).
+
+    Parameters
+    ----------
+    coefficients : array_like, (..., 2, 2)
+        Stiffness, damping or added mass in (r, t).
+    angle : array_like, (...)
+        Angle from X to r, φ [rad]. With −φ the function leads from (X, Y) to (r, t).
+
+    Returns
+    -------
+    array, (..., 2, 2)
+        The same in (X, Y): Q K Qᵀ with Q of Eq. 5.11.
+    """
+    cos, sin = np.cos(angle), np.sin(angle)
+    Q = matrix(cos, -sin, sin, cos)
+    return Q @ np.asarray(coefficients, dtype=float) @ Q.swapaxes(-1, -2)

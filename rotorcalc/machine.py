@@ -1,0 +1,378 @@
+"""The machine: oil, journal bearing, rotor, and the three together.
+
+A symmetric rotor of mass 2M turns on two identical journal bearings. Everything but the rotor's
+mass is per bearing. SI units inside; temperature in °C. The records are frozen and hashable, so
+that they serve as keys of a cache, and each checks its values once, when it is made.
+"""
+
+import functools
+import json
+import math
+import numbers
+import reprlib
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Annotated, Any, NoReturn, Self, TypeVar, get_args, get_origin, get_type_hints
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.constants import g, zero_Celsius
+
+from rotorcalc.typing import Array
+
+FORMAT_VERSION = 1
+
+
+@dataclass(frozen=True)
+class Bound:
+    """The unit and the range of a number: what a record's field accepts."""
+
+    unit: str
+    above: float = -math.inf
+    at_least: float = -math.inf
+    infinite: bool = False
+
+    def check(self, name: str, value: object) -> float:
+        """Return `value` as a float, or raise ValueError naming field, value and bound."""
+        shown = f"{name} = {reprlib.repr(value)}"
+        if isinstance(value, bool) or not isinstance(value, numbers.Real):
+            raise ValueError(f"{shown}: must be a number in {self.unit}")
+        try:
+            number = float(value)
+        except OverflowError:
+            number = math.inf
+        if math.isnan(number) or (math.isinf(number) and not self.infinite):
+            raise ValueError(f"{shown} {self.unit}: must be finite")
+        if number <= self.above:
+            rule = "positive" if self.above == 0 else f"greater than {self.above:g} {self.unit}"
+            raise ValueError(f"{shown} {self.unit}: must be {rule}")
+        if number < self.at_least:
+            raise ValueError(f"{shown} {self.unit}: must be at least {self.at_least:g} {self.unit}")
+        return number
+
+
+@dataclass(frozen=True)
+class Choice:
+    """The words that a record's field accepts."""
+
+    words: tuple[str, ...]
+
+    def check(self, name: str, value: object) -> str:
+        """Return `value`, or raise ValueError naming field, value and the words."""
+        if not isinstance(value, str) or value not in self.words:
+            raise ValueError(f"{name} = {reprlib.repr(value)}: must be one of {self.words}")
+        return value
+
+
+@functools.cache
+def _checks(record: type) -> dict[str, Any]:
+    """Return what each field of a record class must pass: a Bound, a Choice or a class."""
+    hints = get_type_hints(record, include_extras=True)
+    return {
+        field.name: get_args(hints[field.name])[1]
+        if get_origin(hints[field.name]) is Annotated
+        else hints[field.name]
+        for field in fields(record)
+    }
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Record:
+    """A frozen record that checks its fields once, when it is made."""
+
+    def __post_init__(self) -> None:
+        for name, check in _checks(type(self)).items():
+            value = getattr(self, name)
+            if isinstance(check, type):
+                if not isinstance(value, check):
+                    raise ValueError(f"{name} = {reprlib.repr(value)}: must be {check.__name__}")
+            elif name != "load" or value is not None:
+                object.__setattr__(self, name, check.check(name, value))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Oil(_Record):
+    """A lubricant whose viscosity falls exponentially with temperature.
+
+    Parameters
+    ----------
+    reference_viscosity : float
+        Viscosity at the reference temperature, μ_R [Pa·s], positive.
+    reference_temperature : float
+        Reference temperature, T_R [°C].
+    temperature_coefficient : float
+        Viscosity-temperature coefficient, α [1/°C], zero or more.
+    density : float
+        Density, ρ [kg/m³]. It enters the film's Reynolds number and its added mass, nothing
+        else; the default is that of a mineral turbine oil.
+
+    Raises
+    ------
+    ValueError
+        Naming the field, its value and its bound.
+    """
+
+    reference_viscosity: Annotated[float, Bound("Pa·s", above=0.0)]
+    reference_temperature: Annotated[float, Bound("°C", at_least=-zero_Celsius)]
+    temperature_coefficient: Annotated[float, Bound("1/°C", at_least=0.0)]
+    density: Annotated[float, Bound("kg/m³", above=0.0)] = 860.0
+
+    def viscosity(self, temperature: ArrayLike) -> Array:
+        """Return the viscosity, μ = μ_R exp(−α(T − T_R)) (calculation sheet of the notes).
+
+        Parameters
+        ----------
+        temperature : array_like, (...)
+            Film temperature, T [°C].
+
+        Returns
+        -------
+        array, (...)
+            Viscosity, μ [Pa·s].
+
+        Examples
+        --------
+        >>> oil = Oil(
+        ...     reference_viscosity=0.02, reference_temperature=50.0, temperature_coefficient=0.03
+        ... )
+        >>> float(oil.viscosity(50.0))
+        0.02
+        """
+        rise = np.asarray(temperature, dtype=float) - self.reference_temperature
+        return self.reference_viscosity * np.exp(-self.temperature_coefficient * rise)
+
+
+@dataclass(frozen=True, kw_only=True)
+class JournalBearing(_Record):
+    """A cylindrical journal bearing.
+
+    Parameters
+    ----------
+    diameter : float
+        Journal diameter, D = 2R [m], positive.
+    length : float
+        Axial length, L [m], positive.
+    radial_clearance : float
+        Radial clearance, C [m], positive.
+    film : str
+        The film model that answers for this bearing; "short" is the short bearing in closed form.
+
+    Raises
+    ------
+    ValueError
+        Naming the field, its value and its bound.
+    """
+
+    diameter: Annotated[float, Bound("m", above=0.0)]
+    length: Annotated[float, Bound("m", above=0.0)]
+    radial_clearance: Annotated[float, Bound("m", above=0.0)]
+    film: Annotated[str, Choice(("short",))] = "short"
+
+    @property
+    def radius(self) -> float:
+        """Journal radius, R = D/2 [m]."""
+        return self.diameter / 2
+
+
+@dataclass(frozen=True, kw_only=True)
+class Rotor(_Record):
+    """A symmetric rotor: a disk at midspan of a massless shaft.
+
+    Parameters
+    ----------
+    mass : float
+        Mass of the whole rotor, 2M [kg], positive.
+    shaft_stiffness : float
+        Stiffness of one side of the shaft, K_rot [N/m], positive; infinite for a rigid shaft.
+    imbalance : float
+        Distance of the disk's mass centre from the shaft's axis, u [m], zero or more.
+    disk_damping : float
+        External damping at the disk, one side, C_s [N·s/m], zero or more.
+    journal_mass : float
+        Mass lumped at each journal, M_j [kg], zero or more. It is taken out of the disk, which
+        keeps mass/2 − journal_mass a side.
+
+    Raises
+    ------
+    ValueError
+        Naming the field, its value and its bound; also where the journals leave no disk.
+    """
+
+    mass: Annotated[float, Bound("kg", above=0.0)]
+    shaft_stiffness: Annotated[float, Bound("N/m", above=0.0, infinite=True)] = math.inf
+    imbalance: Annotated[float, Bound("m", at_least=0.0)] = 0.0
+    disk_damping: Annotated[float, Bound("N·s/m", at_least=0.0)] = 0.0
+    journal_mass: Annotated[float, Bound("kg", at_least=0.0)] = 0.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.journal_mass >= self.half_mass:
+            raise ValueError(
+                f"journal_mass = {self.journal_mass!r} kg: must be less than half the rotor's "
+                f"mass, {self.half_mass!r} kg, or no disk is left"
+            )
+
+    @property
+    def half_mass(self) -> float:
+        """Half the rotor's mass, M [kg], the share of one bearing."""
+        return self.mass / 2
+
+    @property
+    def disk_mass(self) -> float:
+        """Mass of the disk, one side, M − M_j [kg]."""
+        return self.half_mass - self.journal_mass
+
+    @property
+    def is_rigid(self) -> bool:
+        """Whether the shaft is rigid, K_rot = ∞."""
+        return math.isinf(self.shaft_stiffness)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Machine(_Record):
+    """A rotor on two identical journal bearings.
+
+    Parameters
+    ----------
+    oil : Oil
+        The lubricant.
+    bearing : JournalBearing
+        Either of the two bearings.
+    rotor : Rotor
+        The rotor.
+    temperature : float
+        Temperature of the film, T [°C].
+    load : float or None
+        Static load per bearing, F_o [N], zero or more; None for half the rotor's weight.
+
+    Raises
+    ------
+    ValueError
+        Naming the field, its value and its bound; also where the temperature leaves the oil with
+        no finite viscosity.
+    """
+
+    oil: Oil
+    bearing: JournalBearing
+    rotor: Rotor
+    temperature: Annotated[float, Bound("°C", at_least=-zero_Celsius)]
+    load: Annotated[float | None, Bound("N", at_least=0.0)] = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        with np.errstate(over="ignore", under="ignore"):
+            viscosity = self.viscosity
+        if not 0.0 < viscosity < math.inf:
+            raise ValueError(
+                f"temperature = {self.temperature!r} °C: gives the oil a viscosity of "
+                f"{viscosity} Pa·s, must be positive and finite"
+            )
+
+    @property
+    def viscosity(self) -> float:
+        """Viscosity of the oil in the film, μ [Pa·s]."""
+        return float(self.oil.viscosity(self.temperature))
+
+    @property
+    def static_load(self) -> float:
+        """Static load per bearing, F_o [N]."""
+        return self.rotor.half_mass * g if self.load is None else self.load
+
+    @property
+    def static_sag(self) -> float:
+        """Elastic sag of the shaft at midspan, Γ = F_o/K_rot [m] (below Eq. 5.50)."""
+        return self.static_load / self.rotor.shaft_stiffness
+
+    def to_json(self) -> str:
+        """Return the machine as JSON text, exact to the last bit."""
+        document = {"version": FORMAT_VERSION, **_to_dict(self)}
+        return json.dumps(document, indent=2, allow_nan=False, ensure_ascii=False)
+
+    @classmethod
+    def from_json(cls, text: str) -> Self:
+        """Return the machine that `to_json` wrote.
+
+        Parameters
+        ----------
+        text : str
+            JSON text.
+
+        Returns
+        -------
+        Machine
+            Equal to the one written.
+
+        Raises
+        ------
+        ValueError
+            Where the text is no JSON, a key is unknown, missing or given twice, a value has the
+            wrong type or lies out of its bound, or the version is not this program's.
+        """
+        document = _parse(text)
+        version = document.pop("version", None)
+        if version != FORMAT_VERSION:
+            shown = reprlib.repr(version)
+            raise ValueError(f"version = {shown}: this program reads version {FORMAT_VERSION}")
+        return _from_dict(cls, document, where="")
+
+
+R = TypeVar("R", bound=_Record)
+
+
+def _to_dict(record: _Record) -> dict[str, object]:
+    """Return a record as a tree of JSON values; JSON has no infinity, so it is the word inf."""
+    tree: dict[str, object] = {}
+    for field in fields(record):
+        value = getattr(record, field.name)
+        if isinstance(value, _Record):
+            tree[field.name] = _to_dict(value)
+        else:
+            tree[field.name] = "inf" if value == math.inf else value
+    return tree
+
+
+def _from_dict(cls: type[R], tree: object, *, where: str) -> R:
+    """Return the record that a tree of JSON values describes; `where` is the path to it."""
+    if not isinstance(tree, Mapping):
+        raise ValueError(f"{where or 'machine'} = {reprlib.repr(tree)}: must be a JSON object")
+    values: dict[str, Any] = dict(tree)
+    checks = _checks(cls)
+    for unknown in values.keys() - checks.keys():
+        raise ValueError(f"{where}{unknown[:80]}: unknown key; known are {', '.join(checks)}")
+    for missing in checks.keys() - values.keys():
+        raise ValueError(f"{where}{missing}: missing")
+    for name, check in checks.items():
+        if isinstance(check, type) and issubclass(check, _Record):
+            values[name] = _from_dict(check, values[name], where=f"{where}{name}.")
+        elif isinstance(check, Bound) and check.infinite and values[name] == "inf":
+            values[name] = math.inf
+    return cls(**values)
+
+
+def _parse(text: str) -> dict[str, Any]:
+    """Return the object that JSON text holds, strictly: no NaN, no key twice."""
+    try:
+        document = json.loads(
+            text,
+            # As a float at once: an integer of a million digits is then just too large a number.
+            parse_int=float,
+            parse_constant=_refuse_constant,
+            object_pairs_hook=_unique_keys,
+        )
+    except (json.JSONDecodeError, RecursionError, TypeError) as error:
+        raise ValueError(f"no JSON text of a machine: {error}") from error
+    if not isinstance(document, dict):
+        raise ValueError(f"machine = {reprlib.repr(document)}: must be a JSON object")
+    return document
+
+
+def _refuse_constant(word: str) -> NoReturn:
+    raise ValueError(f"{word}: no number of JSON; an infinite shaft_stiffness is written 'inf'")
+
+
+def _unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    keys = [key for key, _ in pairs]
+    for key in keys:
+        if keys.count(key) > 1:
+            raise ValueError(f"{key[:80]}: given twice")
+    return dict(pairs)

@@ -1,0 +1,11 @@
+"""Settings of every test."""
+
+import os
+
+from hypothesis import settings
+
+# No deadline: an example that meets a cold cache or a busy machine is slow, not wrong.
+settings.register_profile("local", deadline=None)
+# The same examples in every run, so that a red build is red for its change.
+settings.register_profile("ci", deadline=None, derandomize=True, database=None, print_blob=True)
+settings.load_profile("ci" if os.environ.get("CI") else "local")

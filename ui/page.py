@@ -1,0 +1,69 @@
+"""The frame of every page: title, navigation, sidebar, and the means to show a machine's results."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import streamlit as st
+
+from rotorcalc.figures import Chart, with_baseline
+from rotorcalc.figures.units import Units
+from ui import sidebar
+from ui.state import state, write_address_bar
+from ui.view import View, view_of
+from ui.widgets import show_chart
+
+_ICON = str(Path(__file__).with_name("icon.svg"))
+
+PAGES = {
+    "app.py": "Machine",
+    "pages/1_Equilibrium.py": "Equilibrium",
+    "pages/2_Coefficients.py": "Coefficients",
+    "pages/3_Stability.py": "Stability",
+    "pages/4_Root_locus.py": "Root locus",
+    "pages/5_Response.py": "Response",
+    "pages/6_Notes.py": "Notes",
+}
+
+
+@dataclass(frozen=True)
+class Page:
+    """A page's machine, the pinned one beside it, and the units shown."""
+
+    view: View
+    baseline: View | None
+    units: Units
+
+    def chart(self, draw: Callable[[View], Chart], key: str, *, alt: str, caption: str) -> None:
+        """Show a chart of the live machine, the pinned one thin and grey behind it."""
+        chart = draw(self.view)
+        if self.baseline is not None:
+            chart = with_baseline(chart, draw(self.baseline))
+        show_chart(chart, key=key, alt=alt)
+        st.caption(caption)
+
+
+def begin(title: str, sentence: str) -> Page:
+    """Draw a page's frame and return its machine; stop where the inputs make none."""
+    st.set_page_config(page_title=f"{title} · rotorcalc", page_icon=_ICON, layout="wide")
+    kept = state()
+    sidebar.draw()
+    write_address_bar()
+    _navigation()
+    st.header(title, anchor=False)
+    st.markdown(sentence)
+    for problem in kept.problems:
+        st.warning(problem)
+    try:
+        view = view_of(kept.values)
+        baseline = None if kept.baseline is None else view_of(kept.baseline)
+    except ValueError as error:
+        st.error(f"{error}", title="These inputs make no machine")
+        st.stop()
+    return Page(view=view, baseline=baseline, units=kept.units)
+
+
+def _navigation() -> None:
+    with st.container(horizontal=True, gap="small"):
+        for path, label in PAGES.items():
+            st.page_link(path, label=label)

@@ -1,0 +1,69 @@
+"""What a visitor's session holds: one machine, its preset, the units shown, the pinned baseline.
+
+Widgets read from here and write to here, and the address bar is written from here. So a value
+survives a change of page, whether it was moved or came with a link.
+"""
+
+from dataclasses import dataclass, field
+
+import streamlit as st
+
+from rotorcalc.figures.units import SYSTEMS, Units
+from ui import link
+from ui.inputs import PRESET_VALUES, Values
+
+_KEY = "rotorcalc"
+
+
+@dataclass
+class State:
+    """One visitor's machine and how it is shown."""
+
+    preset: str
+    values: Values
+    units_name: str
+    problems: list[str] = field(default_factory=list)
+    baseline: Values | None = None
+    typed: bool = False
+    image_format: str = "png"
+
+    @property
+    def units(self) -> Units:
+        """The units shown."""
+        return SYSTEMS[self.units_name]
+
+    def set_value(self, key: str, value: float | None) -> None:
+        """Keep a moved value; what a link or a file got wrong has been read by now."""
+        self.values[key] = value
+        self.problems.clear()
+
+    def set_preset(self, preset: str) -> None:
+        """Take over a preset's machine and speeds."""
+        self.preset, self.values = preset, dict(PRESET_VALUES[preset])
+        self.problems.clear()
+
+    def swap_baseline(self) -> None:
+        """Exchange the live machine and the pinned one."""
+        if self.baseline is not None:
+            self.values, self.baseline = self.baseline, self.values
+
+
+def state() -> State:
+    """Return this session's state; a new session's comes from the address bar."""
+    if _KEY not in st.session_state:
+        given = link.read(st.query_params.to_dict())
+        st.session_state[_KEY] = State(
+            preset=given.preset,
+            values=given.values,
+            units_name=given.units,
+            problems=given.problems,
+        )
+    return st.session_state[_KEY]
+
+
+def write_address_bar() -> None:
+    """Put the whole machine into the address bar, where it is not there yet."""
+    kept = state()
+    params = link.write(kept.preset, kept.values, kept.units_name)
+    if st.query_params.to_dict() != params:
+        st.query_params.from_dict(params)

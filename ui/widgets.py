@@ -1,0 +1,110 @@
+"""One function that makes an input, and one that shows a chart.
+
+How an input sends and how a chart is drawn are decided here and nowhere else.
+"""
+
+import math
+from typing import Any
+
+import numpy as np
+import streamlit as st
+from plotly.basedatatypes import BaseFigure
+
+from rotorcalc.figures import Chart, themed
+from rotorcalc.figures.units import Units
+from ui.inputs import Input
+from ui.state import state
+
+
+class _Checked(BaseFigure):
+    """A chart that Streamlit need not validate again.
+
+    Streamlit turns a dict into a `go.Figure` to validate it, 3 to 4 ms a chart; the tests have
+    done that. What it takes for a figure it asks for its dict.
+    """
+
+    def __init__(self, chart: Chart) -> None:
+        self._chart = chart
+
+    def to_dict(self) -> Chart:
+        """Return the dict."""
+        return self._chart
+
+
+def show_chart(chart: Chart, *, key: str, alt: str) -> None:
+    """Show a chart; `alt` says in words what is to be seen."""
+    config: dict[str, Any] = {
+        "displaylogo": False,
+        "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d"],
+        "toImageButtonOptions": {"format": state().image_format, "filename": key, "scale": 2},
+    }
+    drawn = themed(chart, dark=st.context.theme.type == "dark")
+    st.plotly_chart(_Checked(drawn), key=f"chart_{key}", theme=None, config=config, alt=alt)
+
+
+def show_input(item: Input, *, disabled: bool = False) -> None:
+    """Show a slider, or a field to type in, for one input; it reads and writes the session's state."""
+    kept = state()
+    units = kept.units
+    value = kept.values[item.key]
+    shown = item.shown(value, units) if value is not None else item.low
+    key = f"input_{item.key}_{units.name}_{'typed' if kept.typed else 'slider'}"
+    common: dict[str, Any] = {
+        "label": item.name(units), "key": key, "help": item.help, "disabled": disabled,
+        "on_change": _keep, "args": (item, key, units),
+    }  # fmt: skip
+    if kept.typed:
+        _typed(item, shown, units, common)
+    elif item.log:
+        _log_slider(item, shown, units, common)
+    else:
+        _slider(item, shown, units, common)
+
+
+def _keep(item: Input, key: str, units: Units) -> None:
+    state().set_value(item.key, item.kept(float(st.session_state[key]), units))
+
+
+def _slider(item: Input, shown: float, units: Units, common: dict[str, Any]) -> None:
+    low, high = item.shown(item.low, units), item.shown(item.high, units)
+    step = _round_step(item.shown(item.low + item.step, units) - low)
+    _set(common["key"], float(min(max(shown, low), high)))
+    decimals = max(0, -math.floor(math.log10(step)))
+    st.slider(
+        min_value=float(low), max_value=float(high), step=step, format=f"%.{decimals}f", **common
+    )
+
+
+def _log_slider(item: Input, shown: float, units: Units, common: dict[str, Any]) -> None:
+    low, high = item.shown(item.low, units), item.shown(item.high, units)
+    number = round(math.log10(high / low) * item.step) + 1
+    options = {float(f"{value:.3g}") for value in np.geomspace(low, high, number)} | {shown}
+    if item.infinite:
+        options.add(math.inf)
+    _set(common["key"], shown)
+    st.select_slider(
+        options=sorted(options), format_func=lambda value: _word(item, value), **common
+    )
+
+
+def _typed(item: Input, shown: float, units: Units, common: dict[str, Any]) -> None:
+    low, high = item.shown(item.low, units), item.shown(item.high, units)
+    step = _round_step(item.shown(item.low + item.step, units) - low) if not item.log else low
+    _set(common["key"], float(min(shown, high)))
+    st.number_input(min_value=float(low), max_value=float(high), step=step, format="%.6g", **common)
+
+
+def _set(key: str, value: float) -> None:
+    """Give a widget its value before it is drawn, only where it has another: no needless message."""
+    if st.session_state.get(key) != value:
+        st.session_state[key] = value
+
+
+def _word(item: Input, value: float) -> str:
+    return item.infinite if math.isinf(value) else f"{value:.4g}".replace("e+0", "e").replace("e+", "e")
+
+
+def _round_step(step: float) -> float:
+    """Return the largest of 1, 2, 5 times a power of ten that is not above a step."""
+    power = 10.0 ** math.floor(math.log10(step * (1 + 1e-9)))
+    return max(factor * power for factor in (1.0, 2.0, 5.0) if factor * power <= step * (1 + 1e-9))
