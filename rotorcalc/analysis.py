@@ -3,7 +3,8 @@
 Follows the calculation sheet of the notes, vectorised over running speed.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,10 +12,13 @@ from numpy.typing import ArrayLike
 from rotorcalc import modes
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.films import FilmState, film_state
+from rotorcalc.frames import rotate
 from rotorcalc.machine import JournalBearing, Machine
 from rotorcalc.response import synchronous_response
 from rotorcalc.stability import WhirlOnset, flexible_threshold, whirl_onset
 from rotorcalc.typing import Array, ComplexArray
+
+Axes: TypeAlias = Literal["XY", "rt"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +45,12 @@ class Sweep:
         Per bearing [W].
     side_flow : array, (n,)
         Per bearing, both ends [m³/s].
+    drag_torque : array, (n,)
+        Torque of the film on one journal [N·m].
+    friction_coefficient : array, (n,)
+        Drag torque over radius and load, f = T/(R F_o) [-]; infinite without load.
+    peak_pressure : array, (n,)
+        Highest pressure of the film above ambient [Pa] (Eq. 5.25).
     stiffness, damping : array, (n, 2, 2)
         K_ij [N/m] and C_ij [N·s/m] in X, Y, per bearing (Eqs. 5.30, 5.31).
     equivalent_stiffness : array, (n,)
@@ -70,6 +80,9 @@ class Sweep:
     minimum_film_thickness: Array
     power_loss: Array
     side_flow: Array
+    drag_torque: Array
+    friction_coefficient: Array
+    peak_pressure: Array
     stiffness: Array
     damping: Array
     equivalent_stiffness: Array
@@ -122,6 +135,9 @@ def analyse(machine: Machine, speed: ArrayLike) -> Sweep:
         minimum_film_thickness=state.minimum_film_thickness,
         power_loss=state.power_loss,
         side_flow=state.side_flow,
+        drag_torque=state.drag_torque,
+        friction_coefficient=state.friction_coefficient,
+        peak_pressure=state.peak_pressure,
         stiffness=K,
         damping=C,
         equivalent_stiffness=K_eq,
@@ -130,7 +146,9 @@ def analyse(machine: Machine, speed: ArrayLike) -> Sweep:
         rigid_threshold=rigid_threshold,
         flexible_threshold=flexible_threshold(rigid_threshold, K_eq, 1.0 / rotor.shaft_stiffness),
         rigid_eigenvalues=rigid_eigenvalues,
-        flexible_eigenvalues=rigid_eigenvalues if rotor.is_rigid else modes.eigenvalues(rotor, K, C),
+        flexible_eigenvalues=rigid_eigenvalues
+        if rotor.is_rigid
+        else modes.eigenvalues(rotor, K, C),
         disk_response=disk,
         journal_response=journal,
     )
@@ -174,3 +192,76 @@ def film_curves(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmCurves:
     """
     film = film_state(bearing, sommerfeld)
     return FilmCurves(film=film, onset=whirl_onset(film.k, film.c))
+
+
+@dataclass(frozen=True, eq=False)
+class ForceCoefficients:
+    """A film's force coefficients in one frame, all with dimensions or all without.
+
+    Attributes
+    ----------
+    axes : "XY" or "rt"
+        The frame: X along the load, or r along the line of centres.
+    sommerfeld, eccentricity_ratio : array, (...)
+        σ and ε [-] at which they hold.
+    stiffness, damping : array, (..., 2, 2)
+        K_ij [N/m] and C_ij [N·s/m], or k_ij and c_ij [-] (Eq. 5.32).
+    equivalent_stiffness : array, (...)
+        K_eq [N/m] or k_eq [-] (Eq. 5.45), the same in both frames.
+    """
+
+    axes: Axes
+    sommerfeld: Array
+    eccentricity_ratio: Array
+    stiffness: Array
+    damping: Array
+    equivalent_stiffness: Array
+
+
+def force_coefficients(source: Sweep | FilmCurves, *, axes: Axes) -> ForceCoefficients:
+    """Return force coefficients in the load's frame, X and Y, or in that of the line of centres.
+
+    Parameters
+    ----------
+    source : Sweep or FilmCurves
+        A sweep gives the coefficients with dimensions, a bearing's curves those without.
+    axes : "XY" or "rt"
+        The frame.
+
+    Returns
+    -------
+    ForceCoefficients
+        Its fields have the leading shape of the source's.
+    """
+    if isinstance(source, Sweep):
+        found = ForceCoefficients(
+            axes="XY",
+            sommerfeld=source.sommerfeld,
+            eccentricity_ratio=source.eccentricity_ratio,
+            stiffness=source.stiffness,
+            damping=source.damping,
+            equivalent_stiffness=source.equivalent_stiffness,
+        )
+    else:
+        found = ForceCoefficients(
+            axes="XY",
+            sommerfeld=source.film.sommerfeld,
+            eccentricity_ratio=source.film.eccentricity_ratio,
+            stiffness=source.film.k,
+            damping=source.film.c,
+            equivalent_stiffness=source.onset.equivalent_stiffness,
+        )
+    return found if axes == "XY" else _in_radial_axes(found, _attitude_angle(source))
+
+
+def _attitude_angle(source: Sweep | FilmCurves) -> Array:
+    return source.attitude_angle if isinstance(source, Sweep) else source.film.attitude_angle
+
+
+def _in_radial_axes(found: ForceCoefficients, phi: Array) -> ForceCoefficients:
+    return replace(
+        found,
+        axes="rt",
+        stiffness=rotate(found.stiffness, -phi),  # Eq. 5.16 backwards
+        damping=rotate(found.damping, -phi),
+    )

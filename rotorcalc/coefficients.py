@@ -1,4 +1,4 @@
-"""The film's static equilibrium and force coefficients of a machine, with their dimensions.
+"""The film's static equilibrium, pressure and force coefficients of a machine, with dimensions.
 
 Scales the dimensionless answer of the film model by this machine's oil, bearing, load and speed.
 Coefficients are K_ij = −∂F_i/∂X_j and C_ij = −∂F_i/∂Ẋ_j in X, Y (Eq. 5.14), per bearing.
@@ -10,9 +10,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotorcalc.films import FilmState, film_state
+from rotorcalc.films import FilmState, film_added_mass, film_pressure, film_state
 from rotorcalc.machine import Machine
-from rotorcalc.typing import Array
+from rotorcalc.typing import Array, BoolArray
+
+# Factors α_m of the film's inertia: a parabolic velocity profile, and a flat one.
+LAMINAR, BULK_FLOW = 6.0 / 5.0, 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +40,10 @@ class Equilibrium:
         Torque of the film on the journal [N·m].
     power_loss : array, (...)
         Drag torque times speed [W].
+    friction_coefficient : array, (...)
+        Drag torque over radius and load, f = T/(R F_o) [-]; infinite without load.
+    peak_pressure : array, (...)
+        Highest pressure of the film above ambient [Pa].
     """
 
     speed: Array
@@ -47,6 +54,105 @@ class Equilibrium:
     side_flow: Array
     drag_torque: Array
     power_loss: Array
+    friction_coefficient: Array
+    peak_pressure: Array
+
+
+@dataclass(frozen=True, eq=False)
+class PressureField:
+    """Thickness and pressure of a film over the unwrapped bearing, with dimensions.
+
+    Attributes
+    ----------
+    speed : array, scalar
+        Running speed, Ω [rad/s].
+    theta : array, (m,)
+        Angle θ in the sense of rotation from the place opposite to the line of centres, where a
+        circular bearing's film is thickest [rad].
+    axial_position : array, (n,)
+        z from the bearing's middle [m].
+    thickness : array, (m,)
+        Film thickness in the middle plane, h [m].
+    pressure : array, (m, n)
+        Pressure above ambient, p [Pa].
+    cavitated : boolean array, (m,)
+        Whether the film is broken there, in the middle plane.
+    load_theta : array, scalar
+        θ at which the load points [rad].
+    peak_theta : array, scalar
+        θ of the highest pressure [rad].
+    """
+
+    speed: Array
+    theta: Array
+    axial_position: Array
+    thickness: Array
+    pressure: Array
+    cavitated: BoolArray
+    load_theta: Array
+    peak_theta: Array
+
+
+@dataclass(frozen=True, eq=False)
+class FilmForces:
+    """Static forces of a film on the journal, with dimensions.
+
+    Attributes
+    ----------
+    eccentricity_ratio : array, (...)
+        ε [-].
+    radial, tangential : array, (...)
+        F_r and F_t [N] (Eq. 5.5); F_r < 0 pushes the journal back to the centre.
+    total : array, (...)
+        Their resultant: the load that this film carries [N] (Eq. 5.6).
+    """
+
+    eccentricity_ratio: Array
+    radial: Array
+    tangential: Array
+    total: Array
+
+
+@dataclass(frozen=True, eq=False)
+class AddedMass:
+    """The mass of oil that moves with the journal, and what it weighs against.
+
+    Attributes
+    ----------
+    speed : array, (...)
+        Running speed, Ω [rad/s].
+    mass : array, (..., 2, 2)
+        M_ij in X, Y [kg per bearing] (Eq. 5.14).
+    to_rotor : array, (...)
+        Mean of M_XX and M_YY over half the rotor's mass, M [-].
+    to_damping : array, (...)
+        Force of the film's inertia over that of its damping in a circular orbit at running speed,
+        Ω(M_XX + M_YY)/(C_XX + C_YY) [-].
+    """
+
+    speed: Array
+    mass: Array
+    to_rotor: Array
+    to_damping: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Unloading:
+    """A film's coefficients on the way to the centre: its load varied, speed and oil as they are.
+
+    Attributes
+    ----------
+    eccentricity_ratio : array, (...)
+        ε [-].
+    stiffness : array, (..., 2, 2)
+        K_ij in X, Y [N/m].
+    whirl_damping : array, (..., 2, 2)
+        (Ω/2)·C_ij in X, Y [N/m]: the force of damping on a whirl at half running speed.
+    """
+
+    eccentricity_ratio: Array
+    stiffness: Array
+    whirl_damping: Array
 
 
 def equilibrium(machine: Machine, speed: ArrayLike) -> Equilibrium:
@@ -75,6 +181,8 @@ def equilibrium(machine: Machine, speed: ArrayLike) -> Equilibrium:
     film = film_state(bearing, modified_sommerfeld(machine, speed))
     damping_unit = mu * R * L**3 / C**3
     drag_torque = film.drag * mu * speed * R**3 * L / C
+    with np.errstate(divide="ignore"):
+        friction = drag_torque / (R * np.float64(machine.static_load))
     return Equilibrium(
         speed=speed,
         film=film,
@@ -84,6 +192,161 @@ def equilibrium(machine: Machine, speed: ArrayLike) -> Equilibrium:
         side_flow=film.side_flow * speed * R * L * C,
         drag_torque=drag_torque,
         power_loss=drag_torque * speed,
+        friction_coefficient=friction,
+        peak_pressure=film.peak_pressure * mu * speed * (L / C) ** 2,
+    )
+
+
+def film_field(
+    machine: Machine, speed: float, *, theta: ArrayLike, zeta: ArrayLike = (0.0,)
+) -> PressureField:
+    """Return thickness and pressure of the film over the unwrapped bearing in static equilibrium.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : float
+        Running speed, Ω [rad/s], positive.
+    theta : array_like, (m,)
+        Angle θ in the sense of rotation from the place opposite to the line of centres [rad].
+    zeta : array_like, (n,)
+        Axial position from the bearing's middle, ζ = z/L [-], −1/2 ≤ ζ ≤ 1/2.
+
+    Returns
+    -------
+    PressureField
+        Pressure over the grid of θ and ζ, thickness over θ.
+
+    Raises
+    ------
+    ValueError
+        Where the speed is not positive and finite or ζ lies outside the bearing.
+    """
+    state = equilibrium(machine, speed)
+    bearing, film = machine.bearing, state.film
+    theta, zeta = np.atleast_1d(np.asarray(theta, float)), np.atleast_1d(np.asarray(zeta, float))
+    opposite = film.attitude_angle + np.pi
+    angle = opposite + theta
+    middle = film_pressure(bearing, film.sommerfeld, angle=angle)
+    field = film_pressure(bearing, film.sommerfeld, angle=angle[:, None], zeta=zeta)
+    C = bearing.radial_clearance
+    unit = machine.viscosity * state.speed * (bearing.length / C) ** 2
+    return PressureField(
+        speed=state.speed,
+        theta=theta,
+        axial_position=zeta * bearing.length,
+        thickness=middle.thickness * C,
+        pressure=field.pressure * unit,
+        cavitated=middle.cavitated,
+        load_theta=np.mod(-opposite, 2.0 * np.pi),
+        peak_theta=np.mod(film.peak_angle - opposite, 2.0 * np.pi),
+    )
+
+
+def film_forces(machine: Machine, speed: ArrayLike, *, sommerfeld: ArrayLike) -> FilmForces:
+    """Return the static forces of a machine's film wherever its journal may sit (Eq. 5.5).
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; its load does not enter.
+    speed : array_like, (...)
+        Running speed, Ω [rad/s], positive.
+    sommerfeld : array_like, (...)
+        Modified Sommerfeld number of the positions, σ [-], positive; infinite in the centre.
+
+    Returns
+    -------
+    FilmForces
+        Its fields have the leading shape (...).
+
+    Raises
+    ------
+    ValueError
+        Where a speed is not positive and finite or σ is not positive.
+    """
+    bearing = machine.bearing
+    R, L, C = bearing.radius, bearing.length, bearing.radial_clearance
+    film = film_state(bearing, sommerfeld)
+    F = film.force * (machine.viscosity * checked_speed(speed) * R * L**3 / C**2)[..., None]
+    return FilmForces(
+        eccentricity_ratio=film.eccentricity_ratio,
+        radial=F[..., 0],
+        tangential=F[..., 1],
+        total=np.hypot(F[..., 0], F[..., 1]),
+    )
+
+
+def added_mass(machine: Machine, speed: ArrayLike, *, factor: float = LAMINAR) -> AddedMass:
+    """Return the film's added mass in static equilibrium, M_ij = α_m ρRL³/(12C)·I_ij.
+
+    Temporal inertia only, of the half of the film that carries. Everything else in the program
+    leaves it out, as the notes do.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : array_like, (...)
+        Running speed, Ω [rad/s], positive.
+    factor : float
+        α_m [-] for the velocity's profile across the film: 6/5 in laminar flow, 1 in bulk flow.
+
+    Returns
+    -------
+    AddedMass
+        Its fields have the leading shape (...).
+
+    Raises
+    ------
+    ValueError
+        Where a speed is not positive and finite.
+    """
+    state = equilibrium(machine, speed)
+    bearing = machine.bearing
+    R, L, C = bearing.radius, bearing.length, bearing.radial_clearance
+    unit = factor * machine.oil.density * R * L**3 / (12.0 * C)
+    M = unit * film_added_mass(bearing, state.film.sommerfeld)
+    return AddedMass(
+        speed=state.speed,
+        mass=M,
+        to_rotor=_trace(M) / 2.0 / machine.rotor.half_mass,
+        to_damping=state.speed * _trace(M) / _trace(state.damping),
+    )
+
+
+def unloading(machine: Machine, speed: float, *, sommerfeld: ArrayLike) -> Unloading:
+    """Return how the film's coefficients change as the load is taken off (Eqs. 5.36 and 5.37).
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; its load does not enter.
+    speed : float
+        Running speed, Ω [rad/s], positive.
+    sommerfeld : array_like, (...)
+        Modified Sommerfeld number of the positions, σ [-], positive; infinite in the centre, where
+        the direct stiffness vanishes and K_XY = −K_YX = (Ω/2)·C_XX.
+
+    Returns
+    -------
+    Unloading
+        Its fields have the leading shape (...).
+
+    Raises
+    ------
+    ValueError
+        Where the speed is not positive and finite or σ is not positive.
+    """
+    bearing = machine.bearing
+    film = film_state(bearing, sommerfeld)
+    R, L, C = bearing.radius, bearing.length, bearing.radial_clearance
+    unit = machine.viscosity * float(checked_speed(speed)) * R * (L / C) ** 3
+    return Unloading(
+        eccentricity_ratio=film.eccentricity_ratio,
+        stiffness=film.stiffness * unit,
+        whirl_damping=film.damping * unit / 2.0,
     )
 
 
@@ -111,7 +374,14 @@ def modified_sommerfeld(machine: Machine, speed: ArrayLike) -> Array:
     bearing = machine.bearing
     R, L, C = bearing.radius, bearing.length, bearing.radial_clearance
     with np.errstate(divide="ignore"):
-        return machine.viscosity * speed * L * R / (4.0 * np.float64(machine.static_load)) * (L / C) ** 2
+        return (
+            machine.viscosity
+            * speed
+            * L
+            * R
+            / (4.0 * np.float64(machine.static_load))
+            * (L / C) ** 2
+        )
 
 
 def checked_speed(speed: ArrayLike) -> Array:
@@ -121,3 +391,7 @@ def checked_speed(speed: ArrayLike) -> Array:
     if not np.all(good):
         raise ValueError(f"speed = {speeds[~good].flat[0]} rad/s: must be positive and finite")
     return speeds
+
+
+def _trace(coefficients: Array) -> Array:
+    return coefficients[..., 0, 0] + coefficients[..., 1, 1]

@@ -12,7 +12,7 @@ import numbers
 import reprlib
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import Annotated, Any, NoReturn, Self, TypeVar, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, NoReturn, Self, TypeVar, cast, get_args, get_origin, get_type_hints
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -335,7 +335,7 @@ def _from_dict(cls: type[R], tree: object, *, where: str) -> R:
     """Return the record that a tree of JSON values describes; `where` is the path to it."""
     if not isinstance(tree, Mapping):
         raise ValueError(f"{where or 'machine'} = {reprlib.repr(tree)}: must be a JSON object")
-    values: dict[str, Any] = dict(tree)
+    values = dict(cast("Mapping[str, Any]", tree))
     checks = _checks(cls)
     for unknown in values.keys() - checks.keys():
         raise ValueError(f"{where}{unknown[:80]}: unknown key; known are {', '.join(checks)}")
@@ -363,7 +363,7 @@ def _parse(text: str) -> dict[str, Any]:
         raise ValueError(f"no JSON text of a machine: {error}") from error
     if not isinstance(document, dict):
         raise ValueError(f"machine = {reprlib.repr(document)}: must be a JSON object")
-    return document
+    return cast("dict[str, Any]", document)
 
 
 def _refuse_constant(word: str) -> NoReturn:

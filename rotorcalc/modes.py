@@ -9,14 +9,53 @@ Source: San Andrés, Notes 5, Eq. 5.38 (rigid), and the calculation sheet (flexi
 and journal mass are the two extensions that the sheet leaves to its reader.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linear_sum_assignment
 
 from rotorcalc.machine import Rotor
 from rotorcalc.typing import Array, ComplexArray
 
 _I = np.eye(2)
+# Newton's steps from an eigenvalue that is all but right, and the size of the last of them,
+# relative to λ: convergence is quadratic.
+_REFINEMENTS = 3
+_SETTLED = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class ModeShapes:
+    """The free motions e^{λt} of a machine: eigenvalues λ, and what moves how in each.
+
+    A mode's motion is Re{P e^{λt}}, P its phasors here. Each mode is scaled so that the largest of
+    its displacements is 1.
+
+    Attributes
+    ----------
+    eigenvalues : complex array, (..., n)
+        λ [1/s].
+    vectors : complex array, (..., n, n)
+        Right eigenvectors of the state matrix, a column a mode: A v = λ v. Displacements in the
+        unit of the scaling, velocities in that unit per second.
+    disk, journal : complex array, (..., n, 2)
+        Phasors of X and Y [-], a row a mode; the same for a rigid rotor.
+    """
+
+    eigenvalues: ComplexArray
+    vectors: ComplexArray
+    disk: ComplexArray
+    journal: ComplexArray
+
+    def ordered(self, order: NDArray[np.intp]) -> "ModeShapes":
+        """Return the modes of these indices, shape (m,), in their order."""
+        return ModeShapes(
+            eigenvalues=self.eigenvalues[..., order],
+            vectors=self.vectors[..., order],
+            disk=self.disk[..., order, :],
+            journal=self.journal[..., order, :],
+        )
 
 
 def state_matrix(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> Array:
@@ -65,6 +104,85 @@ def eigenvalues(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> C
     return np.linalg.eigvals(state_matrix(rotor, K, C, flexible=flexible)).astype(complex)
 
 
+def mode_shapes(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> ModeShapes:
+    """Return the eigenvalues of the free motion with the shapes of its modes.
+
+    Parameters
+    ----------
+    rotor : Rotor
+        The rotor.
+    K, C : array, (..., 2, 2)
+        The film's stiffness [N/m] and damping [N·s/m] in X, Y.
+    flexible : bool
+        Whether the shaft bends; a rigid shaft never does.
+
+    Returns
+    -------
+    ModeShapes
+        In no particular order; n as in `state_matrix`.
+    """
+    values, vectors = np.linalg.eig(state_matrix(rotor, K, C, flexible=flexible))
+    n = values.shape[-1]
+    positions = vectors[..., : 2 if n == 4 else 4, :]
+    largest = np.argmax(np.abs(positions), axis=-2)[..., None, :]
+    vectors = vectors / np.take_along_axis(positions, largest, axis=-2)
+    disk = vectors[..., :2, :].swapaxes(-1, -2)
+    journal = disk if n == 4 else vectors[..., 2:4, :].swapaxes(-1, -2)
+    return ModeShapes(
+        eigenvalues=values.astype(complex),
+        vectors=vectors.astype(complex),
+        disk=disk.astype(complex),
+        journal=journal.astype(complex),
+    )
+
+
+def refined_eigenvalues(
+    rotor: Rotor, K: Array, C: Array, *, flexible: bool = True
+) -> ComplexArray:
+    """Return the eigenvalues λ of the free motion, each to a rounding error of its own.
+
+    A matrix eigenvalue is good to a rounding error of the matrix's largest entries, which for a
+    light load, a stiff shaft or a light journal is far more than a mode grows or decays. Here
+    Newton's method on the impedance of the machine takes that error out.
+
+    Parameters
+    ----------
+    rotor : Rotor
+        The rotor.
+    K, C : array, (..., 2, 2)
+        The film's stiffness [N/m] and damping [N·s/m] in X, Y.
+    flexible : bool
+        Whether the shaft bends; a rigid shaft never does.
+
+    Returns
+    -------
+    complex array, (..., n + 2)
+        λ [1/s], in no particular order; n as in `state_matrix`. Some stand there more than once,
+        and one that Newton's method does not settle on is not a number.
+
+    Notes
+    -----
+    With Z = K + λC + λ²M_j I for film and journal, z = λ²m_d + λC_s for the disk and s = 1/K_rot for
+    the shaft, the free motion's journal j obeys W j = (Z + z I + s z Z) j = 0, as the synchronous
+    response does with jΩ for λ. Newton's step for det W = 0 is −1/tr(W⁻¹ dW/dλ). It starts from
+    the matrix eigenvalues, and from the two of K + λ(C + C_s I), to which the slow ones tend as
+    the masses lose their part in them: those are the ones that the matrix tells least.
+    """
+    s = 1.0 / rotor.shaft_stiffness if flexible else 0.0
+    slow = np.linalg.eigvals(np.linalg.solve(C + rotor.disk_damping * _I, -K))
+    values = np.concatenate([eigenvalues(rotor, K, C, flexible=flexible), slow], axis=-1)
+    step = values
+    for _ in range(_REFINEMENTS):
+        lam = values[..., None, None]
+        Z = K[..., None, :, :] + lam * C[..., None, :, :] + lam**2 * rotor.journal_mass * _I
+        dZ = C[..., None, :, :] + 2.0 * lam * rotor.journal_mass * _I
+        z = lam**2 * rotor.disk_mass + lam * rotor.disk_damping
+        dz = 2.0 * lam * rotor.disk_mass + rotor.disk_damping
+        step = _newton_step(Z + z * (_I + s * Z), dZ * (1.0 + s * z) + dz * (_I + s * Z))
+        values = values + step
+    return np.where(np.abs(step) <= _SETTLED * np.abs(values), values, np.nan)
+
+
 def damped_frequency(eigenvalue: ArrayLike) -> Array:
     """Return the frequency of a mode, ω_d = |Im λ| [rad/s], shape (...) of `eigenvalue` [1/s]."""
     return np.abs(np.imag(eigenvalue))
@@ -108,6 +226,28 @@ def logarithmic_decrement(eigenvalue: ArrayLike) -> Array:
         return -2.0 * np.pi * np.real(eigenvalue) / np.abs(np.imag(eigenvalue))
 
 
+def undamped_frequency(stiffness: ArrayLike, mass: ArrayLike) -> Array:
+    """Return the frequency of a mass on a spring, ω = √(K/M).
+
+    With the film's K_eq it is the whirl frequency of a rigid rotor at its threshold (Eq. 5.47),
+    with K_rot the natural frequency of the shaft in rigid bearings (calculation sheet).
+
+    Parameters
+    ----------
+    stiffness : array_like, (...)
+        K [N/m].
+    mass : array_like, (...)
+        M [kg].
+
+    Returns
+    -------
+    array, (...)
+        ω [rad/s]; not a number where the stiffness is negative.
+    """
+    ratio = np.asarray(stiffness, dtype=float) / np.asarray(mass, dtype=float)
+    return np.sqrt(np.where(ratio < 0.0, np.nan, ratio))
+
+
 def follow_branches(eigenvalues: ArrayLike) -> ComplexArray:
     """Return eigenvalues reordered so that each column is one mode followed over the sweep.
 
@@ -135,6 +275,18 @@ def follow_branches(eigenvalues: ArrayLike) -> ComplexArray:
         _, order = linear_sum_assignment(np.abs(predicted[:, None] - branches[i][None, :]))
         branches[i] = branches[i][order]
     return branches
+
+
+def _newton_step(W: ComplexArray, dW: ComplexArray) -> ComplexArray:
+    """Return −1/tr(W⁻¹ dW) = −det W/tr(adj W · dW) of 2×2 matrices."""
+    determinant = W[..., 0, 0] * W[..., 1, 1] - W[..., 0, 1] * W[..., 1, 0]
+    slope = (
+        W[..., 1, 1] * dW[..., 0, 0]
+        + W[..., 0, 0] * dW[..., 1, 1]
+        - W[..., 0, 1] * dW[..., 1, 0]
+        - W[..., 1, 0] * dW[..., 0, 1]
+    )
+    return -determinant / slope
 
 
 def _rigid(rotor: Rotor, K: Array, C: Array) -> Array:

@@ -14,13 +14,12 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq, minimize_scalar
 
 from rotorcalc import modes
-from rotorcalc.coefficients import equilibrium, modified_sommerfeld
-from rotorcalc.films import film_state
-from rotorcalc.machine import Machine
-from rotorcalc.typing import Array
+from rotorcalc.coefficients import Equilibrium, equilibrium, modified_sommerfeld
+from rotorcalc.machine import Machine, Rotor
+from rotorcalc.typing import Array, ComplexArray
 
-# Speeds at which the search for the onset looks before it closes in.
-_SEARCH_POINTS = 160
+# Speeds a decade at which the search for the onset looks before it closes in.
+_POINTS_PER_DECADE = 30
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,25 +146,23 @@ def onset_speed(machine: Machine, flexible: bool = True) -> Onset:
         Speed, whirl frequency and eccentricity ratio at the onset. Without load the direct
         stiffness vanishes (Eq. 5.37), and the onset is at speed 0: the machine whirls at any speed.
     """
-    if machine.static_load == 0.0:
-        return _unloaded_onset(machine, flexible)
-    speeds = _search_speeds(machine)
-    growth = _growth(machine, speeds, flexible)
+    speeds, growth = _search(machine, flexible)
+    if growth[0] > 0.0:
+        state = equilibrium(machine, float(speeds[0]))
+        return Onset(
+            speed=0.0,
+            whirl_frequency=0.0,
+            eccentricity_ratio=float(state.film.eccentricity_ratio),
+        )
     bracket = _first_crossing(machine, flexible, speeds, growth)
     if bracket is None:
         return Onset(speed=math.inf, whirl_frequency=math.nan, eccentricity_ratio=math.nan)
-
-    def at(speed: float) -> float:
-        return float(_growth(machine, speed, flexible))
-
-    low, high = bracket
-    speed = float(brentq(at, low, high, xtol=1e-14 * high, rtol=1e-14))
+    speed = _crossing(machine, flexible, *bracket)
     state = equilibrium(machine, speed)
-    eigenvalues = modes.eigenvalues(machine.rotor, state.stiffness, state.damping, flexible=flexible)
-    crossing = eigenvalues[np.argmax(eigenvalues.real)]
+    whirl = _fastest(machine.rotor, state.stiffness, state.damping, flexible)
     return Onset(
         speed=speed,
-        whirl_frequency=float(modes.damped_frequency(crossing)),
+        whirl_frequency=float(modes.damped_frequency(whirl)),
         eccentricity_ratio=float(state.film.eccentricity_ratio),
     )
 
@@ -175,27 +172,82 @@ def _elements(coefficients: ArrayLike) -> tuple[Array, Array, Array, Array]:
     return m[..., 0, 0], m[..., 0, 1], m[..., 1, 0], m[..., 1, 1]
 
 
+def _fastest(rotor: Rotor, K: Array, C: Array, flexible: bool) -> ComplexArray:
+    """Return the eigenvalue of the mode that grows fastest [1/s]."""
+    lam = modes.refined_eigenvalues(rotor, K, C, flexible=flexible)
+    rightmost = np.argmax(np.where(np.isfinite(lam), lam.real, -np.inf), axis=-1)
+    return np.take_along_axis(lam, rightmost[..., None], axis=-1)[..., 0]
+
+
 def _growth(machine: Machine, speed: ArrayLike, flexible: bool) -> Array:
     """Return the fastest growth of any mode, max Re λ/Ω [-], shape of `speed`."""
     state = equilibrium(machine, speed)
-    eigenvalues = modes.eigenvalues(machine.rotor, state.stiffness, state.damping, flexible=flexible)
-    return eigenvalues.real.max(axis=-1) / state.speed
+    return _fastest(machine.rotor, state.stiffness, state.damping, flexible).real / state.speed
 
 
-def _search_speeds(machine: Machine) -> Array:
-    """Return speeds that span every onset the machine can have [rad/s].
+def _search(machine: Machine, flexible: bool) -> tuple[Array, Array]:
+    """Return speeds that span every onset that the machine can have [rad/s], and the growth there.
 
-    Below σ = 1e-3 the film lies so near the wall that it damps every whirl. Above σ = 10 it is
-    all but centred, where the threshold of a rigid rotor no longer changes; midspan damping raises
-    it at most as it raises the damping of the film.
+    A film that cannot whirl feeds no mode, whatever the rotor, so the search begins at the last
+    speed before the film can; near the wall, below σ = 1e-3, none can. Above σ = 10 the film is all
+    but centred and no longer changes. Without load it is centred at every speed, and the search
+    begins far below every rate of the rotor.
     """
-    unit = modified_sommerfeld(machine, 1.0)
-    centred = equilibrium(machine, float(10.0 / unit))
+    unit = float(modified_sommerfeld(machine, 1.0))
+    lowest = 1e-3 / unit if math.isfinite(unit) else 1e-6 * _slowest_rate(machine, flexible)
+    centred = equilibrium(machine, 10.0 / unit if math.isfinite(unit) else lowest)
+    highest = 2.0 * max(float(centred.speed), _highest_onset(machine.rotor, centred, flexible))
+    points = 1 + math.ceil(_POINTS_PER_DECADE * math.log10(highest / lowest))
+    state = equilibrium(machine, np.geomspace(lowest, highest, points))
+    ratio = whirl_onset(state.stiffness, state.damping * state.speed[:, None, None]).whirl_ratio
+    first = max(int(np.argmax(ratio > 0.0)) - 1, 0)
+    growth = _fastest(machine.rotor, state.stiffness[first:], state.damping[first:], flexible).real
+    return state.speed[first:], growth / state.speed[first:]
+
+
+def _slowest_rate(machine: Machine, flexible: bool) -> float:
+    """Return the slowest of the machine's own rates on a centred film [rad/s]."""
+    rotor = machine.rotor
+    film_damping = float(np.trace(equilibrium(machine, 1.0).damping))
+    rates = [film_damping / rotor.half_mass]
+    if flexible and not rotor.is_rigid:
+        k = rotor.shaft_stiffness
+        rates += [math.sqrt(k / rotor.half_mass), k / (rotor.disk_damping + film_damping)]
+    return min(rates)
+
+
+def _highest_onset(rotor: Rotor, centred: Equilibrium, flexible: bool) -> float:
+    """Return a speed above every onset on a centred film [rad/s].
+
+    The whirl's frequency is bounded by the rotor's: on the film's stiffness alone; with midspan
+    damping, which can quench that whirl, also by that of the disk on the shaft and of the journal
+    between shaft and film. The film feeds the whirl at the whirl ratio and more speed feeds it
+    more, by so much as the midspan damping takes from the journal.
+    """
     film = whirl_onset(centred.stiffness, centred.damping * centred.speed)
-    threshold = np.sqrt(film.critical_mass / machine.rotor.half_mass) * centred.speed
-    slack = 1.0 + 2.0 * machine.rotor.disk_damping / np.trace(centred.damping)
-    highest = 2.0 * slack * max(float(centred.speed), float(threshold))
-    return np.geomspace(1e-3 / unit, highest, _SEARCH_POINTS)
+    C, C_s, m = float(np.trace(centred.damping)) / 2.0, rotor.disk_damping, rotor.disk_mass
+    squares = [max(float(film.equivalent_stiffness), 0.0) / rotor.half_mass]
+    taken = C_s
+    if flexible and not rotor.is_rigid and C_s > 0.0:
+        k = rotor.shaft_stiffness
+        squares.append(2.0 * k / m)
+        if rotor.journal_mass > 0.0:
+            squares.append((float(np.trace(centred.stiffness)) + 2.0 * k) / rotor.journal_mass)
+        # Largest of k²C_s/|k + z|² over frequency; a light damper's is cut off, for it quenches
+        # no whirl.
+        taken = C_s if C_s**2 >= 2.0 * k * m else min(2.0 * k * m / C_s, 1e6 * C)
+    return math.sqrt(max(squares)) * (1.0 + taken / C) / float(film.whirl_ratio)
+
+
+def _crossing(machine: Machine, flexible: bool, low: float, high: float) -> float:
+    """Return the speed between a stable and an unstable one at which the growth vanishes."""
+
+    def at(speed: float) -> float:
+        return float(_growth(machine, speed, flexible))
+
+    if at(low) >= 0.0:  # within a rounding error of the onset
+        return low
+    return float(brentq(at, low, high, xtol=1e-14 * high, rtol=1e-14))
 
 
 def _first_crossing(
@@ -219,14 +271,3 @@ def _first_crossing(
             if top.fun < 0.0:
                 return float(speeds[i - 1]), float(top.x)
     return None
-
-
-def _unloaded_onset(machine: Machine, flexible: bool) -> Onset:
-    """Return the onset without load, where the film's state is the same at every speed."""
-    film = film_state(machine.bearing, math.inf)
-    slow = np.trace(equilibrium(machine, 1.0).damping) / machine.rotor.half_mass * 1e-6
-    if _growth(machine, slow, flexible) > 0.0:
-        return Onset(
-            speed=0.0, whirl_frequency=0.0, eccentricity_ratio=float(film.eccentricity_ratio)
-        )
-    return Onset(speed=math.inf, whirl_frequency=math.nan, eccentricity_ratio=math.nan)

@@ -68,8 +68,8 @@ class Input:
         return f"lies outside {self.low:g} to {self.high:g} {unit}"
 
 
-GROUPS = ("Load", "Oil", "Bearing", "Shaft and disk", "Speed")
-OPEN_GROUPS = ("Load", "Oil", "Bearing")
+GROUPS = ("Speed", "Load", "Oil", "Bearing", "Shaft and disk")
+OPEN_GROUPS = ("Speed", "Load", "Oil", "Bearing")
 
 INPUTS: dict[str, Input] = {
     item.key: item

@@ -31,7 +31,7 @@ def read(params: Mapping[str, str]) -> Link:
         {key: params[key] for key in INPUTS if key in params}, link.preset, link.problems
     )
     for key in params.keys() - INPUTS.keys() - {"preset", "units"}:
-        link.problems.append(f"{_quoted(key)} is no quantity of this program and was left out.")
+        link.problems.append(f"{quoted(key)} is no quantity of this program and was left out.")
     return link
 
 
@@ -40,7 +40,9 @@ def write(preset: str, values: Values, units: str) -> dict[str, str]:
     params = {} if preset == DEFAULT_PRESET else {"preset": preset}
     for key, value in values.items():
         if value != PRESET_VALUES[preset][key]:
-            params[key] = "weight" if value is None else f"{value:.17g}" if _long(value) else f"{value:g}"
+            params[key] = (
+                "weight" if value is None else f"{value:.17g}" if _long(value) else f"{value:g}"
+            )
     return params if units == "SI" else params | {"units": units}
 
 
@@ -50,7 +52,9 @@ def checked_values(given: Mapping[str, object], preset: str, problems: list[str]
     for key, word in given.items():
         value, problem = _value(key, word)
         if problem:
-            problems.append(f"{INPUTS[key].label} ({key} = {_quoted(word)}) {problem}; {_kept(key, preset)}")
+            problems.append(
+                f"{INPUTS[key].label} ({key} = {quoted(word)}) {problem}; {_kept(key, preset)}"
+            )
         else:
             values[key] = value
     try:
@@ -73,12 +77,16 @@ def _value(key: str, word: object) -> tuple[float | None, str]:
 
 
 def _word(
-    params: Mapping[str, str], key: str, default: str, known: Mapping[str, object], problems: list[str]
+    params: Mapping[str, str],
+    key: str,
+    default: str,
+    known: Mapping[str, object],
+    problems: list[str],
 ) -> str:
     word = params.get(key, default)
     if word in known:
         return word
-    problems.append(f"{key} = {_quoted(word)} is not one of {', '.join(known)}; {default} is used.")
+    problems.append(f"{key} = {quoted(word)} is not one of {', '.join(known)}; {default} is used.")
     return default
 
 
@@ -88,7 +96,7 @@ def _kept(key: str, preset: str) -> str:
     return f"the preset's {shown} is used."
 
 
-def _quoted(word: object) -> str:
+def quoted(word: object) -> str:
     """Return what a visitor typed, short, and with nothing that a page could take for markup."""
     text = reprlib.repr(word).replace("`", "'")
     return f"`{text}`"

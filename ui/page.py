@@ -1,4 +1,4 @@
-"""The frame of every page: title, navigation, sidebar, and the means to show a machine's results."""
+"""The frame of every page: title, navigation, sidebar, and means to show a machine's results."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -6,14 +6,26 @@ from pathlib import Path
 
 import streamlit as st
 
+from rotorcalc import __version__
 from rotorcalc.figures import Chart, with_baseline
 from rotorcalc.figures.units import Units
-from ui import sidebar
+from ui import checks, compare, share, sidebar
+from ui.results import show_results
 from ui.state import state, write_address_bar
 from ui.view import View, view_of
 from ui.widgets import show_chart
 
 _ICON = str(Path(__file__).with_name("icon.svg"))
+
+_ABOUT = f"rotorcalc {__version__}: rotors on fluid-film bearings, after San Andrés, Notes 5."
+# The answer first: Streamlit leaves six rem free above a page.
+# On a narrow screen results stand two in a row.
+_STYLE = """<style>
+.stMainBlockContainer {padding-top: 4.2rem; padding-bottom: 3rem;}
+@media (max-width: 640px) {
+  [class*="st-key-results"] .stColumn {min-width: calc(50% - 1rem); flex: 1 1 calc(50% - 1rem);}
+}
+</style>"""
 
 PAGES = {
     "app.py": "Machine",
@@ -42,12 +54,25 @@ class Page:
         show_chart(chart, key=key, alt=alt)
         st.caption(caption)
 
+    def results(self, *keys: str) -> None:
+        """Show results in a row, each with its equation and its change from the pinned machine."""
+        show_results(self.view, self.baseline, self.units, *keys)
+
 
 def begin(title: str, sentence: str) -> Page:
     """Draw a page's frame and return its machine; stop where the inputs make none."""
-    st.set_page_config(page_title=f"{title} · rotorcalc", page_icon=_ICON, layout="wide")
+    st.set_page_config(
+        page_title=f"{title} · rotorcalc",
+        page_icon=_ICON,
+        layout="wide",
+        menu_items={"About": _ABOUT},
+    )
+    st.html(_STYLE)
     kept = state()
-    sidebar.draw()
+    with st.sidebar:
+        sidebar.draw_presets()
+        compare.draw_buttons()
+        sidebar.draw_inputs()
     write_address_bar()
     _navigation()
     st.header(title, anchor=False)
@@ -60,6 +85,10 @@ def begin(title: str, sentence: str) -> Page:
     except ValueError as error:
         st.error(f"{error}", title="These inputs make no machine")
         st.stop()
+    with st.sidebar:
+        share.draw(view, baseline, kept.units)
+        checks.draw(view)
+    compare.draw_differences(kept.units)
     return Page(view=view, baseline=baseline, units=kept.units)
 
 

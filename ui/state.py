@@ -42,8 +42,16 @@ class State:
         self.preset, self.values = preset, dict(PRESET_VALUES[preset])
         self.problems.clear()
 
-    def swap_baseline(self) -> None:
-        """Exchange the live machine and the pinned one."""
+    def pin(self) -> None:
+        """Keep the live machine as the baseline A."""
+        self.baseline = dict(self.values)
+
+    def unpin(self) -> None:
+        """Forget the baseline."""
+        self.baseline = None
+
+    def swap(self) -> None:
+        """Exchange the live machine and the baseline."""
         if self.baseline is not None:
             self.values, self.baseline = self.baseline, self.values
 
@@ -67,3 +75,9 @@ def write_address_bar() -> None:
     params = link.write(kept.preset, kept.values, kept.units_name)
     if st.query_params.to_dict() != params:
         st.query_params.from_dict(params)
+
+
+def mirror(key: str, value: object) -> None:
+    """Give a widget its value before it is drawn, where it has another: no needless message."""
+    if st.session_state.get(key) != value:
+        st.session_state[key] = value

@@ -13,7 +13,7 @@ from plotly.basedatatypes import BaseFigure
 from rotorcalc.figures import Chart, themed
 from rotorcalc.figures.units import Units
 from ui.inputs import Input
-from ui.state import state
+from ui.state import mirror, state
 
 
 class _Checked(BaseFigure):
@@ -43,7 +43,7 @@ def show_chart(chart: Chart, *, key: str, alt: str) -> None:
 
 
 def show_input(item: Input, *, disabled: bool = False) -> None:
-    """Show a slider, or a field to type in, for one input; it reads and writes the session's state."""
+    """Show a slider, or a field to type in, that reads and writes the session's state."""
     kept = state()
     units = kept.units
     value = kept.values[item.key]
@@ -68,7 +68,7 @@ def _keep(item: Input, key: str, units: Units) -> None:
 def _slider(item: Input, shown: float, units: Units, common: dict[str, Any]) -> None:
     low, high = item.shown(item.low, units), item.shown(item.high, units)
     step = _round_step(item.shown(item.low + item.step, units) - low)
-    _set(common["key"], float(min(max(shown, low), high)))
+    mirror(common["key"], float(min(max(shown, low), high)))
     decimals = max(0, -math.floor(math.log10(step)))
     st.slider(
         min_value=float(low), max_value=float(high), step=step, format=f"%.{decimals}f", **common
@@ -81,7 +81,7 @@ def _log_slider(item: Input, shown: float, units: Units, common: dict[str, Any])
     options = {float(f"{value:.3g}") for value in np.geomspace(low, high, number)} | {shown}
     if item.infinite:
         options.add(math.inf)
-    _set(common["key"], shown)
+    mirror(common["key"], shown)
     st.select_slider(
         options=sorted(options), format_func=lambda value: _word(item, value), **common
     )
@@ -90,18 +90,16 @@ def _log_slider(item: Input, shown: float, units: Units, common: dict[str, Any])
 def _typed(item: Input, shown: float, units: Units, common: dict[str, Any]) -> None:
     low, high = item.shown(item.low, units), item.shown(item.high, units)
     step = _round_step(item.shown(item.low + item.step, units) - low) if not item.log else low
-    _set(common["key"], float(min(shown, high)))
+    mirror(common["key"], float(min(shown, high)))
     st.number_input(min_value=float(low), max_value=float(high), step=step, format="%.6g", **common)
 
 
-def _set(key: str, value: float) -> None:
-    """Give a widget its value before it is drawn, only where it has another: no needless message."""
-    if st.session_state.get(key) != value:
-        st.session_state[key] = value
-
-
 def _word(item: Input, value: float) -> str:
-    return item.infinite if math.isinf(value) else f"{value:.4g}".replace("e+0", "e").replace("e+", "e")
+    return (
+        item.infinite
+        if math.isinf(value)
+        else f"{value:.4g}".replace("e+0", "e").replace("e+", "e")
+    )
 
 
 def _round_step(step: float) -> float:

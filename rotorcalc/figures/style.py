@@ -1,7 +1,7 @@
 """What all charts share: colours, axes, lines, the mark of the running speed, one template.
 
-A chart is one plain dict of Plotly's figure, built in one go; `figure` makes a `go.Figure` of it for
-a notebook. Colours name what is drawn, the same thing always in the same colour; they keep a
+A chart is one plain dict of Plotly's figure, built in one go; `figure` makes a `go.Figure` of it
+for a notebook. Colours name what is drawn, the same thing always in the same colour; they keep a
 contrast of 3 : 1 on white and on near-black, and differ to colour-blind eyes.
 """
 
@@ -32,6 +32,8 @@ FAINT = "rgba(127,127,127,0.28)"
 SHADE = "rgba(209,84,31,0.12)"
 
 HEIGHT = 380
+# The share of two panes, one above the other, in a chart's height.
+UPPER, LOWER = [0.55, 1.0], [0.0, 0.45]
 _LADDER = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 
 
@@ -53,6 +55,14 @@ def ceiling(values: ArrayLike, least: float = 0.0) -> float:
     return next(step * power for step in _LADDER if step * power >= top * (1 - 1e-12))
 
 
+def decades(values: ArrayLike) -> tuple[float, float]:
+    """Return the powers of ten at or around all positive finite values, for a logarithmic axis."""
+    values = np.asarray(values, dtype=float)
+    values = values[np.isfinite(values) & (values > 0.0)]
+    low, high = math.floor(np.log10(values.min())), math.ceil(np.log10(values.max()))
+    return 10.0**low, 10.0**high
+
+
 def axis(title: str, low: float, high: float, *, log: bool = False, **extra: Any) -> Axis:
     """Return an axis with a fixed range, given in data units also where it is logarithmic."""
     span = [math.log10(low), math.log10(high)] if log else [low, high]
@@ -69,7 +79,9 @@ def line(x: ArrayLike, y: ArrayLike, name: str, colour: str, **extra: Any) -> Tr
     }  # fmt: skip
 
 
-def here(x: float, y: float, x_axis: Axis, y_axis: Axis, name: str = "running speed") -> list[Trace]:
+def here(
+    x: float, y: float, x_axis: Axis, y_axis: Axis, name: str = "running speed"
+) -> list[Trace]:
     """Return the mark of the running speed: a point with dashed lines to both axes."""
     left, bottom = _low(x_axis), _low(y_axis)
     guide = line([left, x, x], [y, y, bottom], name, FAINT, dash="dash", width=1.4)
@@ -77,6 +89,11 @@ def here(x: float, y: float, x_axis: Axis, y_axis: Axis, name: str = "running sp
         guide | {"showlegend": False, "hoverinfo": "skip", "line": guide["line"] | {"color": GREY}},
         mark(x, y, name),
     ]
+
+
+def lower(traces: Iterable[Trace]) -> list[Trace]:
+    """Return traces in the lower of two panes, whose axis is `yaxis2`."""
+    return [{**trace, "yaxis": "y2"} for trace in traces]
 
 
 def mark(x: ArrayLike, y: ArrayLike, name: str, colour: str = HERE, **extra: Any) -> Trace:
@@ -102,7 +119,13 @@ def with_baseline(chart: Chart, baseline: Chart) -> Chart:
         for trace in baseline["data"]
         if trace["type"] == "scatter" and _outline(trace) not in drawn
     ]
-    return {**chart, "data": [*ghosts, *chart["data"]]}
+    behind = {**chart, "data": [*ghosts, *chart["data"]]}
+    if "frames" in chart:  # a frame names the traces that it moves by their places
+        behind["frames"] = [
+            {**frame, "traces": [place + len(ghosts) for place in frame["traces"]]}
+            for frame in chart["frames"]
+        ]
+    return behind
 
 
 def themed(chart: Chart, *, dark: bool) -> Chart:
@@ -166,7 +189,7 @@ _LAYOUT: dict[str, Any] = {
     "margin": {"l": 64, "r": 16, "t": 44, "b": 52},
     "paper_bgcolor": "rgba(0,0,0,0)",
     "plot_bgcolor": "rgba(0,0,0,0)",
-    "font": {"size": 14, "color": _TEXT, "family": "Source Sans, Source Sans Pro, Arial, sans-serif"},
+    "font": {"size": 14, "color": _TEXT, "family": "Source Sans, Arial, sans-serif"},
     "hovermode": "closest",
     "legend": {"orientation": "h", "x": 0, "y": 1.01, "yanchor": "bottom"},
     "uirevision": "keep",

@@ -64,6 +64,7 @@ class Units:
     frequency: Unit = Unit("Hz", 1 / (2 * constants.pi))
     angle: Unit = Unit("°", 1 / constants.degree)
     growth: Unit = Unit("1/s")
+    percent: Unit = Unit("%", 100.0)
     number: Unit = Unit("-")
 
 

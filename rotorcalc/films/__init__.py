@@ -1,21 +1,34 @@
 """Film models: where the journal sits, and how the film holds it.
 
-A film model is a module with a function `state(bearing, sommerfeld)`, which answers for whole
-arrays of modified Sommerfeld numbers with a `FilmState`. A bearing names its model in its field
-`film`.
+A film model is a module with three functions, which answer for whole arrays: `state(bearing,
+sommerfeld)` with a `FilmState`, `field(bearing, sommerfeld, angle=..., zeta=...)` with a
+`FilmField`, and `inertia(bearing, sommerfeld)` with the film's added mass. A bearing names its
+model in its field `film`.
 """
 
-from collections.abc import Callable
+from typing import Protocol
 
 from numpy.typing import ArrayLike
 
 from rotorcalc.films import short
-from rotorcalc.films.state import FilmState
+from rotorcalc.films.state import FilmField, FilmState
 from rotorcalc.machine import JournalBearing
+from rotorcalc.typing import Array
 
-__all__ = ["FilmState", "film_state", "short"]
+__all__ = ["FilmField", "FilmState", "film_added_mass", "film_pressure", "film_state", "short"]
 
-_STATES: dict[str, Callable[[JournalBearing, ArrayLike], FilmState]] = {"short": short.state}
+
+class _FilmModel(Protocol):
+    def state(self, bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmState: ...
+
+    def field(
+        self, bearing: JournalBearing, sommerfeld: ArrayLike, *, angle: ArrayLike, zeta: ArrayLike
+    ) -> FilmField: ...
+
+    def inertia(self, bearing: JournalBearing, sommerfeld: ArrayLike) -> Array: ...
+
+
+_MODELS: dict[str, _FilmModel] = {"short": short}
 
 
 def film_state(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmState:
@@ -38,4 +51,57 @@ def film_state(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmState:
     ValueError
         Where σ is not positive.
     """
-    return _STATES[bearing.film](bearing, sommerfeld)
+    return _MODELS[bearing.film].state(bearing, sommerfeld)
+
+
+def film_pressure(
+    bearing: JournalBearing, sommerfeld: ArrayLike, *, angle: ArrayLike, zeta: ArrayLike = 0.0
+) -> FilmField:
+    """Return thickness and pressure of a bearing's film in static equilibrium, by its own model.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing.
+    sommerfeld : array_like, (...)
+        Modified Sommerfeld number, σ [-], positive; infinite without load.
+    angle : array_like, (...)
+        Angle Θ around the bearing from X in the sense of rotation [rad].
+    zeta : array_like, (...)
+        Axial position from the bearing's middle, ζ = z/L [-], −1/2 ≤ ζ ≤ 1/2.
+
+    Returns
+    -------
+    FilmField
+        Its fields have the shape that σ, angle and ζ give together.
+
+    Raises
+    ------
+    ValueError
+        Where σ is not positive or ζ lies outside the bearing.
+    """
+    return _MODELS[bearing.film].field(bearing, sommerfeld, angle=angle, zeta=zeta)
+
+
+def film_added_mass(bearing: JournalBearing, sommerfeld: ArrayLike) -> Array:
+    """Return the added mass of a bearing's film, dimensionless, by the bearing's own film model.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing.
+    sommerfeld : array_like, (...)
+        Modified Sommerfeld number, σ [-], positive; infinite without load.
+
+    Returns
+    -------
+    array, (..., 2, 2)
+        Integrals of the film's inertia in X, Y, I_ij [-]: the added mass in ρRL³/(12C), without
+        the factor for the velocity's profile.
+
+    Raises
+    ------
+    ValueError
+        Where σ is not positive.
+    """
+    return _MODELS[bearing.film].inertia(bearing, sommerfeld)

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.special import expit, log_expit
 
-from rotorcalc.films.state import FilmState
+from rotorcalc.films.state import FilmField, FilmState
 from rotorcalc.frames import matrix, rotate, vector
 from rotorcalc.machine import JournalBearing
 from rotorcalc.typing import Array
@@ -59,11 +59,56 @@ def state(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmState:
     return FilmState(
         sommerfeld=sigma,
         position=vector(eps * np.cos(phi), eps * np.sin(phi)),
+        attitude_angle=phi,
         minimum_thickness=1.0 - eps,
         stiffness=film_stiffness(eps),
         damping=film_damping(eps),
         side_flow=side_flow(eps),
         drag=drag(eps, length_to_radius=bearing.length / bearing.radius),
+        peak_pressure=peak_pressure(eps),
+        peak_angle=phi + np.pi + peak_position(eps),
+    )
+
+
+def field(
+    bearing: JournalBearing,  # noqa: ARG001 - other film models need it
+    sommerfeld: ArrayLike,
+    *,
+    angle: ArrayLike,
+    zeta: ArrayLike,
+) -> FilmField:
+    """Return the short bearing's film thickness and pressure in static equilibrium, dimensionless.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing; nothing of it enters.
+    sommerfeld : array_like, (...)
+        Modified Sommerfeld number, σ [-], positive; infinite without load.
+    angle : array_like, (...)
+        Angle Θ around the bearing from X in the sense of rotation [rad].
+    zeta : array_like, (...)
+        Axial position from the bearing's middle, ζ = z/L [-], −1/2 ≤ ζ ≤ 1/2.
+
+    Returns
+    -------
+    FilmField
+        Its fields have the shape that σ, angle and ζ give together.
+
+    Raises
+    ------
+    ValueError
+        Where σ is not positive or ζ lies outside the bearing.
+    """
+    eps, angle, zeta = np.broadcast_arrays(eccentricity_ratio(sommerfeld), angle, zeta)
+    # The thickest film lies opposite to the line of centres.
+    theta = angle - attitude_angle(eps) - np.pi
+    return FilmField(
+        angle=angle,
+        zeta=zeta,
+        thickness=film_thickness(eps, theta),
+        pressure=pressure(eps, theta, zeta),
+        cavitated=np.sin(theta) < -1e-12,  # θ = 0 and π, as they round, belong to the full film
     )
 
 
@@ -137,9 +182,11 @@ def eccentricity_ratio(sigma: ArrayLike) -> Array:
         raise ValueError(f"sigma = {worst}: must be zero or positive")
     between = (sigma > 0.0) & (sigma < np.inf)
     target = 2.0 * np.log(np.where(between, sigma, 1.0))
-    y = np.minimum(target + np.log(np.pi**2), (target + np.log(np.pi**2)) / 4)  # left of the root
+    start = target + np.log(np.pi**2)
+    y: Array = np.minimum(start, start / 4)  # left of the root
     for _ in range(_MOST_ITERATIONS):
-        x, eps2 = expit(y), expit(-y)
+        x: Array = expit(y)
+        eps2: Array = expit(-y)
         rest = 16.0 - (16.0 - np.pi**2) * x
         residual = 4.0 * log_expit(y) - log_expit(-y) - np.log(rest) - target
         slope = 4.0 * eps2 + x + (16.0 - np.pi**2) * x * eps2 / rest
@@ -391,6 +438,51 @@ def pressure(eps: ArrayLike, theta: ArrayLike, zeta: ArrayLike = 0.0) -> Array:
     return 3.0 * eps * wedge / H**3 * (0.25 - zeta**2)
 
 
+def peak_position(eps: ArrayLike) -> Array:
+    """Return where the pressure is highest: cos θ = −6ε/(1 + √(1+24ε²)).
+
+    Source: Eq. 5.25 with ∂p/∂θ = 0, H cos θ + 3ε sin²θ = 0.
+
+    Parameters
+    ----------
+    eps : array_like, (...)
+        Eccentricity ratio, ε [-], 0 ≤ ε ≤ 1.
+
+    Returns
+    -------
+    array, (...)
+        Angle from the thickest film in the sense of rotation, θ [rad], from π/2 at ε = 0 to π.
+
+    Raises
+    ------
+    ValueError
+        Where ε lies outside [0, 1].
+    """
+    eps = _checked_eccentricity(eps)
+    return np.arccos(-6.0 * eps / (1.0 + np.sqrt(1.0 + 24.0 * eps**2)))
+
+
+def peak_pressure(eps: ArrayLike) -> Array:
+    """Return the highest pressure of the film above ambient, in its middle plane (Eq. 5.25).
+
+    Parameters
+    ----------
+    eps : array_like, (...)
+        Eccentricity ratio, ε [-], 0 ≤ ε < 1.
+
+    Returns
+    -------
+    array, (...)
+        Pressure, p in μΩ(L/C)².
+
+    Raises
+    ------
+    ValueError
+        Where ε lies outside [0, 1).
+    """
+    return pressure(eps, peak_position(eps))
+
+
 def side_flow(eps: ArrayLike) -> Array:
     """Return the oil that leaves at both ends together: ε, in ΩRLC.
 
@@ -472,6 +564,29 @@ def added_mass(eps: ArrayLike) -> Array:
     I_rr = np.pi / (s * (1.0 + s))  # (1/s − 1)/ε² with ε² = (1−s)(1+s), so no difference is lost
     I_tt = np.pi / (1.0 + s)
     return rotate(matrix(I_rr, _inertia_cross(eps), _inertia_cross(eps), I_tt), attitude_angle(eps))
+
+
+def inertia(bearing: JournalBearing, sommerfeld: ArrayLike) -> Array:  # noqa: ARG001 - the seam's
+    """Return the film's added mass in X, Y in static equilibrium: `added_mass` at a σ.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing; the short bearing's integrals do not ask for its shape.
+    sommerfeld : array_like, (...)
+        Modified Sommerfeld number, σ [-], positive; infinite without load.
+
+    Returns
+    -------
+    array, (..., 2, 2)
+        I_ij [-], in ρRL³/(12C).
+
+    Raises
+    ------
+    ValueError
+        Where σ is negative, or so small that the film's thickness rounds to zero.
+    """
+    return added_mass(eccentricity_ratio(sommerfeld))
 
 
 def film_force(position: ArrayLike, velocity: ArrayLike) -> Array:

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotorcalc.typing import Array
+from rotorcalc.frames import vector
+from rotorcalc.typing import Array, BoolArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,6 +25,8 @@ class FilmState:
         Modified Sommerfeld number, σ [-] (Eq. 5.8); infinite without load.
     position : array, (..., 2)
         Journal centre in X, Y from the bearing's centre, in radial clearances, C.
+    attitude_angle : array, (...)
+        From the load line to the line of centres, φ [rad]; at the centre its limit there.
     minimum_thickness : array, (...)
         Smallest film thickness, in C.
     stiffness : array, (..., 2, 2)
@@ -34,15 +37,22 @@ class FilmState:
         Oil that leaves at both ends together, in ΩRLC.
     drag : array, (...)
         Torque of the film on the journal, in μΩR³L/C.
+    peak_pressure : array, (...)
+        Highest pressure above ambient, in μΩ(L/C)².
+    peak_angle : array, (...)
+        Where that is: angle Θ around the bearing from X in the sense of rotation [rad].
     """
 
     sommerfeld: Array
     position: Array
+    attitude_angle: Array
     minimum_thickness: Array
     stiffness: Array
     damping: Array
     side_flow: Array
     drag: Array
+    peak_pressure: Array
+    peak_angle: Array
 
     @property
     def eccentricity_ratio(self) -> Array:
@@ -50,9 +60,13 @@ class FilmState:
         return np.hypot(self.position[..., 0], self.position[..., 1])
 
     @property
-    def attitude_angle(self) -> Array:
-        """Attitude angle, φ [rad], from the load line to the line of centres, shape (...)."""
-        return np.arctan2(self.position[..., 1], self.position[..., 0])
+    def force(self) -> Array:
+        """Static force of the film on the journal in (r, t), in μΩRL³/C², shape (..., 2).
+
+        It carries the load, F_r = −F_o cos φ and F_t = F_o sin φ (Eq. 5.4).
+        """
+        load = 0.25 / self.sommerfeld
+        return vector(-load * np.cos(self.attitude_angle), load * np.sin(self.attitude_angle))
 
     @property
     def k(self) -> Array:
@@ -74,3 +88,28 @@ class FilmState:
         # F_o = μΩRL³/(4σC²), so one film unit is 4σ units of the load.
         with np.errstate(invalid="ignore"):
             return 4.0 * self.sommerfeld[..., None, None] * coefficients
+
+
+@dataclass(frozen=True, eq=False)
+class FilmField:
+    """Thickness and pressure of the film over the bearing's surface, dimensionless.
+
+    Attributes
+    ----------
+    angle : array, (...)
+        Angle Θ around the bearing from X in the sense of rotation [rad].
+    zeta : array, (...)
+        Axial position from the bearing's middle, ζ = z/L [-].
+    thickness : array, (...)
+        Film thickness, in C.
+    pressure : array, (...)
+        Pressure above ambient, in μΩ(L/C)².
+    cavitated : boolean array, (...)
+        Whether the film is broken there.
+    """
+
+    angle: Array
+    zeta: Array
+    thickness: Array
+    pressure: Array
+    cavitated: BoolArray

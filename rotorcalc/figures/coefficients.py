@@ -1,0 +1,209 @@
+"""Charts of the film's force coefficients, and of its added mass.
+
+Dimensionless coefficients stand on logarithmic axes, as in the notes' Figs. 5.5 and 5.6; what is
+negative shows its absolute value, dashed, under a name with a minus sign.
+"""
+
+import math
+from typing import Literal
+
+import numpy as np
+
+from rotorcalc.analysis import ForceCoefficients, Sweep
+from rotorcalc.coefficients import AddedMass, Unloading
+from rotorcalc.figures import style
+from rotorcalc.figures.style import Axis, Chart, Trace
+from rotorcalc.figures.units import Unit, Units
+from rotorcalc.typing import Array, BoolArray
+
+_COLOURS = {
+    (0, 0): style.XX,
+    (0, 1): style.XY,
+    (1, 0): style.YX,
+    (1, 1): style.YY,
+}
+_NAMES = {"XY": ("X", "Y"), "rt": ("r", "t")}
+# Speeds below this share of the top speed do not set a linear axis: coefficients run away there.
+_SLOW = 0.1
+
+
+def dimensionless(
+    curve: ForceCoefficients,
+    here: ForceCoefficients,
+    symbol: Literal["k", "c"],
+    against: Literal["ε", "σ"],
+) -> Chart:
+    """Return k with k_eq, or c, against ε (Fig. 5.5) or σ (Fig. 5.6)."""
+    is_stiffness = symbol == "k"
+    places, place = (
+        (curve.eccentricity_ratio, here.eccentricity_ratio)
+        if against == "ε"
+        else (curve.sommerfeld, here.sommerfeld)
+    )
+    values = curve.stiffness if is_stiffness else curve.damping
+    values_here = here.stiffness if is_stiffness else here.damping
+    x = _abscissa(places, against)
+    words = "Stiffness" if is_stiffness else "Damping"
+    y = _decades(f"{words} |{symbol}ᵢⱼ| [-]", values_here)
+    traces = _elements(symbol, curve.axes, places, values)
+    if is_stiffness:
+        k_eq = curve.equivalent_stiffness
+        traces.append(style.line(places, k_eq, "k<sub>eq</sub>", style.GREY, dash="dot"))
+    return style.chart([*traces, *_points(float(place), values_here, (x, y))], x, y)
+
+
+def stiffness_against_speed(
+    sweep: Sweep, point: Sweep, curve: ForceCoefficients, here: ForceCoefficients, units: Units
+) -> Chart:
+    """Return K and K_eq against running speed, with dimensions."""
+    return _dimensional("K", sweep, point, (curve, here), units)
+
+
+def damping_against_speed(
+    sweep: Sweep, point: Sweep, curve: ForceCoefficients, here: ForceCoefficients, units: Units
+) -> Chart:
+    """Return C against running speed, with dimensions."""
+    return _dimensional("C", sweep, point, (curve, here), units)
+
+
+def unloading(curve: Unloading, here: Unloading, centred: Unloading, units: Units) -> Chart:
+    """Return K and (Ω/2)·C_XX at the running speed as the journal nears the centre (Eq. 5.37)."""
+    unit = units.stiffness
+    x = style.axis("Eccentricity ratio ε [-]", 1e-2, 1.0, log=True)
+    cross = float(unit.of(centred.stiffness[0, 1]))
+    title = style.titled("Stiffness", "Kᵢⱼ", unit.name)
+    middle = math.floor(math.log10(cross))
+    y = style.axis(title, 10.0 ** (middle - 2), 10.0 ** (middle + 3), log=True)
+    eps, eps_here = curve.eccentricity_ratio, float(here.eccentricity_ratio)
+    traces: list[Trace] = []
+    for place, colour in _COLOURS.items():
+        name = f"K<sub>{_indices('XY', place)}</sub>"
+        traces += _signed(eps, unit.of(curve.stiffness[:, *place]), name, colour)
+    damping = unit.of(curve.whirl_damping[:, 0, 0])
+    traces.append(style.line(eps, damping, "½Ω C<sub>XX</sub>", style.GREY, dash="dot"))
+    traces += _points(eps_here, unit.of(here.stiffness), (x, y))
+    return style.chart(traces, x, y)
+
+
+def added_mass(laminar: AddedMass, bulk: AddedMass, here: AddedMass, units: Units) -> Chart:
+    """Return the film's added mass against running speed, for two profiles of velocity."""
+    x, unit = _speed_axis(laminar.speed, units), units.mass
+    low, high = _span(unit.of(laminar.mass[_settled(laminar.speed)]))
+    y = style.axis(style.titled("Added mass per bearing", "Mᵢⱼ", unit.name), low, high)
+    speed = units.speed.of(laminar.speed)
+    traces: list[Trace] = []
+    for place in ((0, 0), (1, 1), (0, 1)):
+        name = f"M<sub>{_indices('XY', place)}</sub>"
+        traces.append(style.line(speed, unit.of(laminar.mass[:, *place]), name, _COLOURS[place]))
+    for place in ((0, 0), (1, 1)):
+        name = f"M<sub>{_indices('XY', place)}</sub>, bulk flow"
+        flat, colour = unit.of(bulk.mass[:, *place]), _COLOURS[place]
+        traces.append(style.line(speed, flat, name, colour, dash="dot", width=1.6))
+    values = unit.of(here.mass[[0, 1, 0], [0, 1, 1]])
+    now = float(units.speed.of(here.speed))
+    return style.chart([*traces, *_points(now, values, (x, y), signed=True)], x, y)
+
+
+def _dimensional(
+    symbol: str,
+    sweep: Sweep,
+    point: Sweep,
+    coefficients: tuple[ForceCoefficients, ForceCoefficients],
+    units: Units,
+) -> Chart:
+    curve, here = coefficients
+    is_stiffness = symbol == "K"
+    unit: Unit = units.stiffness if is_stiffness else units.damping
+    values = unit.of(curve.stiffness if is_stiffness else curve.damping)
+    values_here = unit.of(here.stiffness if is_stiffness else here.damping)
+    x = _speed_axis(sweep.speed, units)
+    low, high = _span(np.append(values[_settled(sweep.speed)], values_here))
+    words = "Stiffness" if is_stiffness else "Damping"
+    y = style.axis(style.titled(words, f"{symbol}ᵢⱼ", unit.name), low, high)
+    speed = units.speed.of(sweep.speed)
+    traces = [
+        style.line(
+            speed,
+            values[:, *place],
+            f"{symbol}<sub>{_indices(curve.axes, place)}</sub>",
+            colour,
+        )
+        for place, colour in _COLOURS.items()
+    ]
+    if is_stiffness:
+        K_eq = unit.of(curve.equivalent_stiffness)
+        traces.append(style.line(speed, K_eq, "K<sub>eq</sub>", style.GREY, dash="dot"))
+    now = float(units.speed.of(point.speed))
+    return style.chart([*traces, *_points(now, values_here, (x, y), signed=True)], x, y)
+
+
+def _elements(symbol: str, axes: str, places: Array, values: Array) -> list[Trace]:
+    """Return the lines of the four elements, what is negative dashed."""
+    return style.joined(
+        [
+            _signed(
+                places,
+                values[:, *place],
+                f"{symbol}<sub>{_indices(axes, place)}</sub>",
+                colour,
+            )
+            for place, colour in _COLOURS.items()
+        ]
+    )
+
+
+def _signed(x: Array, y: Array, name: str, colour: str) -> list[Trace]:
+    """Return |y| as a line where y is positive and as a dashed line where it is negative."""
+    parts = [(y, name, "solid"), (-y, f"−{name}", "dash")]
+    return [
+        style.line(x, np.where(part > 0.0, part, np.nan), label, colour, dash=dash)
+        for part, label, dash in parts
+        if np.any(part > 0.0)
+    ]
+
+
+def _points(
+    x: float, values: Array, axes: tuple[Axis, Axis], *, signed: bool = False
+) -> list[Trace]:
+    """Return the running speed's marks, one on each element's line, guides from the largest."""
+    levels = (values if signed else np.abs(values)).ravel()
+    finite = levels[np.isfinite(levels)]
+    if not (math.isfinite(x) and len(finite)):
+        return []
+    largest = float(finite.max())
+    others = style.mark(np.full(len(levels), x), levels, "running speed", showlegend=False)
+    return [*style.here(x, largest, *axes), others]
+
+
+def _indices(axes: str, place: tuple[int, int]) -> str:
+    names = _NAMES[axes]
+    return names[place[0]] + names[place[1]]
+
+
+def _abscissa(places: Array, against: str) -> Axis:
+    if against == "ε":
+        return style.axis("Eccentricity ratio ε [-]", 0.0, 1.0)
+    low, high = float(places.min()), float(places.max())
+    return style.axis("Modified Sommerfeld number σ [-]", low, high, log=True)
+
+
+def _decades(title: str, values: Array) -> Axis:
+    """Return a logarithmic axis from 0.1 to 100, or as far up as the running speed's values go."""
+    sizes = np.abs(values[np.isfinite(values)])
+    top = max(2, math.ceil(math.log10(float(sizes.max(initial=1.0)))))
+    return style.axis(title, 0.1, 10.0**top, log=True)
+
+
+def _speed_axis(speed: Array, units: Units) -> Axis:
+    top = float(units.speed.of(speed[-1]))
+    return style.axis(style.titled("Running speed", "Ω", units.speed.name), 0.0, top)
+
+
+def _settled(speed: Array) -> BoolArray:
+    return speed >= _SLOW * speed[-1]
+
+
+def _span(values: Array) -> tuple[float, float]:
+    """Return round bounds of a linear axis around values, zero within."""
+    lowest = float(np.nanmin(values))
+    return (-style.ceiling(-lowest) if lowest < 0.0 else 0.0), style.ceiling(values)

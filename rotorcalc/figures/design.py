@@ -1,0 +1,196 @@
+"""Charts of what moves the onset: a map over two inputs, a tornado, the onset over one input."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from rotorcalc.design import OnsetMap, OnsetSolution, Sensitivities
+from rotorcalc.figures import style
+from rotorcalc.figures.style import Axis, Chart, Trace, titled
+from rotorcalc.figures.units import Unit, Units
+from rotorcalc.typing import Array
+
+# Onset speeds [rpm] at which a map changes colour: always the same, so that maps compare.
+_LADDER = np.array([500, 700, 1e3, 1.5e3, 2e3, 3e3, 5e3, 7e3, 1e4, 1.5e4, 2e4, 3e4, 5e4])
+# One hue from dark to light, for colour-blind eyes and for grey paper; dark is a low onset.
+_SEQUENCE = [
+    [0.0, "#06264d"], [0.2, "#0b4a85"], [0.4, "#2b7bba"],
+    [0.6, "#6aaed6"], [0.8, "#b0d2e8"], [1.0, "#eff6fc"],
+]  # fmt: skip
+_LESS, _MORE = style.BLUE, style.OCHRE
+_HIGHEST = 1e7  # rpm: stands for an onset at infinity
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """An input on an axis: its name for readers, its unit, its range in SI, its kind of scale."""
+
+    words: str
+    symbol: str
+    unit: Unit
+    low: float
+    high: float
+    log: bool = False
+
+    def axis(self) -> Axis:
+        """Return the axis."""
+        low, high = (float(self.unit.of(end)) for end in (self.low, self.high))
+        title = titled(self.words, self.symbol, self.unit.name)
+        return style.axis(title, low, high, log=self.log)
+
+    def place(self, value: float) -> float:
+        """Return where a value stands on the axis, at its nearer end where it lies outside."""
+        return float(self.unit.of(min(max(value, self.low), self.high)))
+
+    def text(self, value: float) -> str:
+        """Return a value with its unit."""
+        return f"{float(self.unit.of(value)):.4g} {self.unit.name}"
+
+
+def onset_map(
+    shown: OnsetMap,
+    quantities: tuple[Quantity, Quantity],
+    here: tuple[float, float],
+    speed: float,
+    units: Units,
+) -> Chart:
+    """Return the onset speed over two inputs, with a machine on it.
+
+    `here` is the machine's place in SI, `speed` the running speed [rad/s], along whose onset a
+    line runs: beyond it the machine would be unstable there.
+    """
+    x, y = (quantity.axis() for quantity in quantities)
+    left, bottom = (
+        quantity.place(value) for quantity, value in zip(quantities, here, strict=True)
+    )
+    return style.chart(
+        [
+            *_contours(shown, quantities, float(units.speed.of(speed)), units),
+            *style.here(left, bottom, x, y, "this machine"),
+        ],
+        x,
+        y,
+        height=500,
+        legend=style.legend_below(),
+        margin={"l": 64, "r": 16, "t": 16, "b": 84},
+    )
+
+
+def tornado(found: Sensitivities, names: Mapping[str, str], units: Units) -> Chart:
+    """Return how far the onset moves with each input, a pair of bars an input, largest on top."""
+    onset, unit = found.onset, units.speed
+    inputs = found.inputs[::-1]  # the axis counts from below
+    places = np.arange(len(inputs), dtype=float)
+    less, more = (
+        np.array([_change(getattr(one, end), onset) for one in inputs])
+        for end in ("onset_low", "onset_high")
+    )
+    shown_less, shown_more = unit.per_si * less, unit.per_si * more
+    reach = style.ceiling(1.45 * np.abs([*shown_less, *shown_more, 1.0 / 1.45]))
+    return style.chart(
+        [
+            _bars(shown_less, places, "less", less / onset if onset else less, _LESS),
+            _bars(shown_more, places, "more", more / onset if onset else more, _MORE),
+        ],
+        style.axis(titled("Movement of the onset", "ΔΩ_s", unit.name), -reach, reach),
+        style.axis(
+            "", -0.6, len(inputs) - 0.4, tickvals=places, ticktext=[names[i.field] for i in inputs]
+        ),
+        barmode="overlay",
+        height=110 + 34 * max(len(inputs), 4),
+        legend=style.legend_below() | {"y": -0.2},
+        margin={"l": 64, "r": 16, "t": 16, "b": 96},
+        shapes=[_zero()],
+    )
+
+
+def solution(
+    found: OnsetSolution, quantity: Quantity, here: tuple[float, float], units: Units
+) -> Chart:
+    """Return the onset over one input, with the target, the values that meet it, and the machine.
+
+    `here` is the machine's value of the input and its onset, in SI.
+    """
+    unit = units.speed
+    x, now = quantity.axis(), float(unit.of(here[1]))
+    target = float(unit.of(found.target))
+    top = style.ceiling([1.6 * target, min(1.2 * now, 6.0 * target)])
+    y = style.axis(titled("Onset speed", "Ω_s", unit.name), 0.0, top)
+    onset = unit.of(np.where(np.isinf(found.onset), np.nan, found.onset))
+    values = quantity.unit.of(found.values)
+    ends = [values[0], values[-1]]
+    wanted = quantity.unit.of(found.solutions)
+    traces = [
+        style.line(values, onset, "onset", style.FLEXIBLE),
+        style.line(ends, [target] * 2, f"wanted {target:.0f} {unit.name}", style.RED, dash="dot"),
+    ]
+    if len(wanted):
+        heights = np.full(len(wanted), target)
+        traces.append(style.mark(wanted, heights, "meets it", style.RED))
+    if np.isfinite(now) and now <= top:
+        traces += style.here(quantity.place(here[0]), now, x, y, "this machine")
+    return style.chart(
+        traces,
+        x,
+        y,
+        legend=style.legend_below(),
+        margin={"l": 64, "r": 16, "t": 16, "b": 96},
+    )
+
+
+def _contours(
+    shown: OnsetMap, quantities: tuple[Quantity, Quantity], speed: float, units: Units
+) -> list[Trace]:
+    xs, ys = quantities[0].unit.of(shown.xs), quantities[1].unit.of(shown.ys)
+    rpm = np.minimum(units.speed.of(shown.speed), _HIGHEST)
+    with np.errstate(divide="ignore"):
+        steps = np.interp(np.log(rpm), np.log(_LADDER), np.arange(len(_LADDER)))
+    hover = f"%{{x:.4g}}, %{{y:.4g}}<br>onset %{{customdata:.0f}} {units.speed.name}<extra></extra>"
+    place: dict[str, Any] = {"type": "contour", "x": xs, "y": ys, "hoverongaps": False}
+    steps[np.isnan(rpm)] = np.nan
+    return [
+        place | {
+            "z": steps, "zmin": 0, "zmax": len(_LADDER) - 1, "colorscale": _SEQUENCE,
+            "contours": {"start": 0, "end": len(_LADDER) - 1, "size": 1, "coloring": "fill"},
+            "line": {"width": 0.6, "color": "rgba(255,255,255,0.5)"},
+            "customdata": rpm, "hovertemplate": hover, "name": "onset", "showlegend": False,
+            "colorbar": _colour_bar(units.speed.name),
+        },
+        place | {
+            "z": rpm, "name": f"onset at the running speed, {speed:.0f} {units.speed.name}",
+            "contours": {"type": "constraint", "operation": "=", "value": speed},
+            "line": {"width": 3, "color": style.RED}, "hoverinfo": "skip",
+            "showlegend": True, "showscale": False,
+        },
+    ]  # fmt: skip
+
+
+def _colour_bar(unit: str) -> dict[str, Any]:
+    return {
+        "title": {"text": f"Onset<br>[{unit}]"}, "tickvals": np.arange(len(_LADDER)),
+        "ticktext": [f"{step:.0f}" for step in _LADDER], "thickness": 16, "outlinewidth": 0,
+    }  # fmt: skip
+
+
+def _change(onset: float, base: float) -> float:
+    """Return an onset's distance from another; none between infinite ones."""
+    change = onset - base if onset != base else 0.0
+    return change if np.isfinite(change) else 0.0
+
+
+def _bars(x: Array, y: Array, name: str, shares: Array, colour: str) -> Trace:
+    texts = [f"{move:+.0f} ({share:+.1%})" for move, share in zip(x, shares, strict=True)]
+    return {
+        "type": "bar", "orientation": "h", "x": x, "y": y, "name": name, "width": 0.62,
+        "marker": {"color": colour}, "text": texts, "textposition": "outside",
+        "cliponaxis": False, "hovertemplate": "%{text}<extra></extra>",
+    }  # fmt: skip
+
+
+def _zero() -> dict[str, Any]:
+    return {
+        "type": "line", "x0": 0, "x1": 0, "y0": 0, "y1": 1, "yref": "paper",
+        "line": {"color": style.GREY, "width": 1.4},
+    }  # fmt: skip

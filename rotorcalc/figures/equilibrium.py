@@ -1,0 +1,235 @@
+"""Charts of the static equilibrium: where the journal sits, and what its film costs."""
+
+import math
+
+import numpy as np
+
+from rotorcalc.analysis import FilmCurves, Sweep
+from rotorcalc.coefficients import Equilibrium
+from rotorcalc.figures import plane, style, text
+from rotorcalc.figures.plane import Part
+from rotorcalc.figures.style import Axis, Chart, Trace
+from rotorcalc.figures.units import Unit, Units
+from rotorcalc.typing import Array
+
+HEIGHT = 440
+SMALL_HEIGHT = 300
+
+_SOFT = "rgba(127,127,127,0.8)"
+_MARGIN = {"l": 64, "r": 16, "t": 26, "b": 48}
+# Half the width of the drawn plane, in radial clearances.
+_EDGE = 1.24
+# Marks of speed closer than this, in radial clearances, would write over each other.
+_SPACING = 0.17
+# The arrow that shows the sense of rotation: its ends [rad] and its radius.
+_TURN = (1.9, 2.45, 1.08)
+
+
+def locus(
+    curves: FilmCurves, sweep: Sweep, marks: Equilibrium, point: Sweep, units: Units
+) -> Chart:
+    """Return the journal's path in the clearance circle, traced by speed.
+
+    `curves` gives the whole path, `sweep` its part up to the top speed, `marks` round speeds.
+    """
+    at = point.journal_position / point.machine.bearing.radial_clearance
+    shown = _spaced(marks.film.position, at)
+    ticks, speeds = marks.film.position[shown], units.speed.of(marks.speed[shown])
+    traces = [
+        *_behind_path(curves, point),
+        _path(sweep, units),
+        _dots(ticks),
+        _guides(at),
+        style.mark(at[1], at[0], "running speed", hovertemplate=_position_hover(point, units)),
+    ]
+    beside: Part = {"size": 12, "xshift": 7, "yshift": -8, "xanchor": "left"}
+    labels = [
+        *(
+            plane.label(f"{rpm:.0f}", place, **beside)
+            for rpm, place in zip(speeds, ticks, strict=True)
+        ),
+        *_locus_labels(point, at, units),
+        *_load_arrow(point, units),
+        plane.turning_head(*_TURN[1:]),
+    ]  # fmt: skip
+    shapes = [
+        plane.circle(1.0),
+        plane.stroke((-1.0, 0.0), (1.0, 0.0)),
+        plane.stroke((0.0, -1.0), (0.0, 1.0)),
+        *plane.turning(*_TURN),
+    ]
+    x = style.axis("Y/C, across the load, in the sense of rotation →", -_EDGE, _EDGE, dtick=0.5)
+    y = style.axis("← X/C, along the load", _EDGE, -_EDGE, dtick=0.5)
+    return plane.chart(
+        traces, x, y, height=HEIGHT, margin=_MARGIN, annotations=labels, shapes=shapes
+    )
+
+
+def position_over_speed(sweep: Sweep, point: Sweep, units: Units) -> Chart:
+    """Return ε and φ over running speed."""
+    x, speed = _speed_axis(sweep, units), float(units.speed.of(point.speed))
+    return _panes(units.speed.of(sweep.speed), sweep, (speed, point), x, units)
+
+
+def position_over_sommerfeld(curves: FilmCurves, sweep: Sweep, point: Sweep, units: Units) -> Chart:
+    """Return ε and φ over the modified Sommerfeld number; without load it is infinite."""
+    film, sigma = curves.film, float(point.sommerfeld)
+    low, high = style.decades([1e-2, 1e2, sigma])
+    loaded = math.isfinite(sigma)
+    x = style.axis(style.titled("Modified Sommerfeld number", "σ", "-"), low, high, log=True)
+    chart = _panes(sweep.sommerfeld, sweep, (sigma if loaded else high, point), x, units)
+    soft: Part = {"width": 1.4, "dash": "dot", "hoverinfo": "skip"}
+    phi = units.angle.of(film.attitude_angle)
+    behind = [
+        style.line(film.sommerfeld, film.eccentricity_ratio, "any speed", _SOFT, **soft),
+        *style.lower([style.line(film.sommerfeld, phi, "any speed", _SOFT, **soft)]),
+    ]
+    notes = [] if loaded else [text.remark("no load: σ is infinite", 0.98, 0.97)]
+    return {
+        "data": [*behind, *chart["data"]],
+        "layout": {**chart["layout"], "annotations": notes},
+    }
+
+
+def power_loss(sweep: Sweep, point: Sweep, units: Units) -> Chart:
+    """Return the power that one film turns into heat over running speed."""
+    title = style.titled("Power loss per bearing", "P", units.power.name)
+    return _over_speed(sweep, point, units, ("power_loss", units.power, title))
+
+
+def side_flow(sweep: Sweep, point: Sweep, units: Units) -> Chart:
+    """Return the oil that leaves one bearing at both ends over running speed."""
+    title = style.titled("Side flow per bearing", "Q", units.flow.name)
+    return _over_speed(sweep, point, units, ("side_flow", units.flow, title))
+
+
+def friction_coefficient(sweep: Sweep, point: Sweep, units: Units) -> Chart:
+    """Return the friction coefficient over running speed; without load it has no value."""
+    title = style.titled("Friction coefficient", "f", "-")
+    return _over_speed(sweep, point, units, ("friction_coefficient", units.number, title))
+
+
+def drag_torque(sweep: Sweep, point: Sweep, units: Units) -> Chart:
+    """Return the film's torque on one journal over running speed."""
+    title = style.titled("Drag torque per bearing", "T", units.torque.name)
+    return _over_speed(sweep, point, units, ("drag_torque", units.torque, title))
+
+
+def minimum_film_thickness(sweep: Sweep, point: Sweep, units: Units) -> Chart:
+    """Return the smallest film thickness over running speed, below the radial clearance."""
+    C = float(units.film.of(point.machine.bearing.radial_clearance))
+    title = style.titled("Smallest film", "h", units.film.name)
+    chart = _over_speed(sweep, point, units, ("minimum_film_thickness", units.film, title), least=C)
+    across = chart["layout"]["xaxis"]["range"]
+    clearance = style.line(across, [C, C], "radial clearance C", _SOFT, width=1.4, dash="dot")
+    return {**chart, "data": [clearance, *chart["data"]]}
+
+
+def _over_speed(
+    sweep: Sweep, point: Sweep, units: Units, quantity: tuple[str, Unit, str], least: float = 0.0
+) -> Chart:
+    """Return a field of the sweep over running speed; `quantity` is its name, unit and title."""
+    name, unit, title = quantity
+    values, value = unit.of(getattr(sweep, name)), float(unit.of(getattr(point, name)))
+    speed, hover = units.speed.of(sweep.speed), text.hover("%{x:.0f} rpm", unit)
+    x, y = _speed_axis(sweep, units), style.axis(title, 0.0, style.ceiling(values, least))
+    line = style.line(speed, values, name.replace("_", " "), style.BLUE, hovertemplate=hover)
+    here = style.here(float(units.speed.of(point.speed)), value, x, y)
+    return style.chart([line, *here], x, y, height=SMALL_HEIGHT, showlegend=False, margin=_MARGIN)
+
+
+def _panes(across: Array, sweep: Sweep, at: tuple[float, Sweep], x: Axis, units: Units) -> Chart:
+    """Return ε above φ over one axis; `at` is the running speed's place there and its record."""
+    place, point = at
+    x = {**x, "anchor": "y2"}
+    eps, phi = sweep.eccentricity_ratio, units.angle.of(sweep.attitude_angle)
+    y = style.axis("Eccentricity ratio ε [-]", 0.0, 1.0, dtick=0.25, domain=style.UPPER)
+    y2 = style.axis("Attitude angle φ [°]", 0.0, 90.0, dtick=30, domain=style.LOWER)
+    hover = text.hover("%{x:.4g}", units.number)
+    traces = [
+        style.line(across, eps, "ε", style.JOURNAL, hovertemplate=hover),
+        *style.here(place, float(point.eccentricity_ratio), x, y),
+        *style.lower([
+            style.line(across, phi, "φ", style.PURPLE, hovertemplate=hover),
+            *style.here(place, float(units.angle.of(point.attitude_angle)), x, y2),
+        ]),
+    ]  # fmt: skip
+    height = HEIGHT - 40  # a control stands above
+    return style.chart(traces, x, y, yaxis2=y2, height=height, showlegend=False, margin=_MARGIN)
+
+
+def _speed_axis(sweep: Sweep, units: Units) -> Axis:
+    top = float(units.speed.of(sweep.speed[-1]))
+    return style.axis(style.titled("Running speed", "Ω", units.speed.name), 0.0, top)
+
+
+def _behind_path(curves: FilmCurves, point: Sweep) -> list[Trace]:
+    """Return the whole path, and the line of centres with the attitude angle."""
+    phi, quiet = float(point.attitude_angle), {"hoverinfo": "skip"}
+    centres = [(0.0, 0.0), plane.at(phi, 1.0)]
+    return [
+        plane.line(curves.film.position, "any speed", _SOFT, width=1.4, dash="dot", **quiet),
+        plane.line(centres, "line of centres", style.PURPLE, width=1.4, **quiet),
+        plane.line(plane.arc(0.0, phi, 0.3), "attitude angle", style.PURPLE, width=1.6, **quiet),
+    ]
+
+
+def _path(sweep: Sweep, units: Units) -> Trace:
+    """Return the journal's path up to the top speed, which tells speed and ε."""
+    places = sweep.journal_position / sweep.machine.bearing.radial_clearance
+    told = np.stack([units.speed.of(sweep.speed), sweep.eccentricity_ratio], axis=-1)
+    hover = "%{customdata[0]:.0f} rpm<br>ε = %{customdata[1]:.4f}<extra></extra>"
+    extra: Part = {"width": 3.5, "customdata": told, "hovertemplate": hover}
+    return plane.line(places, "up to the top speed", style.JOURNAL, **extra)
+
+
+def _spaced(places: Array, at: Array) -> list[int]:
+    """Return which places to mark so that they keep apart from each other and from the point."""
+    kept: list[int] = []
+    for i, place in enumerate(places):
+        others = [at, *(places[j] for j in kept)]
+        if all(math.dist(place, other) >= _SPACING for other in others):
+            kept.append(i)
+    return kept
+
+
+def _dots(places: Array) -> Trace:
+    marker = {"size": 7, "color": style.JOURNAL, "line": {"color": "#ffffff", "width": 1}}
+    extra: Part = {"marker": marker, "hoverinfo": "skip"}
+    return style.mark(places[:, 1], places[:, 0], "round speeds", **extra)
+
+
+def _guides(at: Array) -> Trace:
+    """Return the dashed lines from the journal's place to both axes of the plane."""
+    places = np.array([(at[0], -_EDGE), (at[0], at[1]), (_EDGE, at[1])])
+    return plane.line(places, "to the axes", style.GREY, width=1.4, dash="dash", hoverinfo="skip")
+
+
+def _position_hover(point: Sweep, units: Units) -> str:
+    X, Y = point.journal_position
+    place = f"X = {text.amount(units.film, X)}<br>Y = {text.amount(units.film, Y)}"
+    return f"{place}<br>ε = {float(point.eccentricity_ratio):.4f}<extra>running speed</extra>"
+
+
+def _locus_labels(point: Sweep, at: Array, units: Units) -> list[Part]:
+    C, rpm = point.machine.bearing.radial_clearance, float(units.speed.of(point.speed))
+    phi = text.amount(units.angle, point.attitude_angle).replace(" ", "")
+    circle = f"clearance circle, C = {text.amount(units.film, C)}"
+    left: Part = {"xanchor": "right", "xshift": -6}
+    return [
+        plane.label(f"<b>{rpm:.0f} rpm</b>", at, xshift=9, yshift=15, xanchor="left"),
+        plane.label(f"φ = {phi}", (0.3, 0.0), **left),
+        plane.label("Ω", plane.at(2.2, 1.18)),
+        plane.label(circle, (1.1, 0.0), size=12, **left),
+    ]
+
+
+def _load_arrow(point: Sweep, units: Units) -> list[Part]:
+    load = point.machine.static_load
+    if load == 0.0:
+        return [plane.label("no load: the journal is centred", (-0.6, 0.0))]
+    words = f"Fₒ = {text.amount(units.force, load)}"
+    return [
+        plane.label(words, (-0.75, 0.0), xshift=8, xanchor="left"),
+        plane.arrow((-0.95, 0.0), (-0.45, 0.0), style.GREY),
+    ]

@@ -1,0 +1,180 @@
+"""Charts of the film in static equilibrium: its thickness, its pressure, the forces it exerts."""
+
+import math
+from typing import Any
+
+import numpy as np
+
+from rotorcalc.analysis import Sweep
+from rotorcalc.coefficients import FilmForces, PressureField
+from rotorcalc.figures import plane, style, text
+from rotorcalc.figures.plane import Part
+from rotorcalc.figures.style import Axis, Chart, Trace
+from rotorcalc.figures.units import Units
+from rotorcalc.typing import BoolArray
+
+HEIGHT = 440
+
+_RADIAL, _TANGENTIAL, _RESULTANT = style.PURPLE, style.OCHRE, style.BLUE
+_THICKNESS, _PRESSURE, _PRESSURE_FILL = style.BLUE, style.PURPLE, "rgba(176,86,159,0.16)"
+_SOFT = "rgba(127,127,127,0.8)"
+_CAVITATED = "rgba(127,127,127,0.12)"
+
+
+def film_around(field: PressureField, point: Sweep, units: Units) -> Chart:
+    """Return the film's thickness and its pressure in the middle plane around the journal."""
+    theta, h = units.angle.of(field.theta), units.film.of(field.thickness)
+    middle = int(np.argmin(np.abs(field.axial_position)))
+    p = units.pressure.of(field.pressure[:, middle])
+    thinnest = int(np.argmin(h))
+    peak = float(units.angle.of(field.peak_theta))
+    top = float(units.pressure.of(point.peak_pressure))
+    C = float(units.film.of(point.machine.bearing.radial_clearance))
+    x = _around(anchor="y2")
+    y = style.axis(
+        style.titled("Film", "h", units.film.name), 0.0, style.ceiling(2 * C), domain=style.UPPER
+    )
+    y2 = style.axis(
+        style.titled("Pressure", "p", units.pressure.name), 0.0, style.ceiling(top),
+        domain=style.LOWER,
+    )  # fmt: skip
+    traces = [
+        style.line(
+            theta, h, "film thickness", _THICKNESS,
+            hovertemplate=text.hover("θ = %{x:.0f}°", units.film),
+        ),
+        style.line(
+            theta, p, "pressure", _PRESSURE, yaxis="y2", fill="tozeroy", fillcolor=_PRESSURE_FILL,
+            hovertemplate=text.hover("θ = %{x:.0f}°", units.pressure),
+        ),
+        *style.here(theta[thinnest], h[thinnest], x, y, "thinnest film"),
+        *style.lower(style.here(peak, top, x, y2, "highest pressure")),
+    ]  # fmt: skip
+    notes = _over_theta(field, point, units, level=0.3)
+    return style.chart(traces, x, y, yaxis2=y2, height=HEIGHT, showlegend=False, **notes)
+
+
+def pressure_map(field: PressureField, point: Sweep, units: Units) -> Chart:
+    """Return the pressure over the unwrapped bearing, p(θ, z), as a contour map."""
+    z = units.length.of(field.axial_position)
+    edge, high = style.ceiling(z), style.ceiling(units.pressure.of(point.peak_pressure))
+    p = np.where(field.cavitated[:, None], np.nan, units.pressure.of(field.pressure))
+    x = _around()
+    y = style.axis(style.titled("Axial position", "z", units.length.name), -edge, edge)
+    title = style.titled("Pressure", "p", units.pressure.name)
+    contour: Trace = {
+        "type": "contour", "name": "pressure", "x": units.angle.of(field.theta), "y": z,
+        "z": p.T.astype(np.float32),  # half the digits, half the message
+        "zmin": 0.0, "zmax": high, "colorscale": "Cividis", "line": {"width": 0.4},
+        "contours": {"start": 0.0, "end": high, "size": high / 10},
+        "colorbar": {"title": {"text": title, "side": "right"}, "thickness": 14, "outlinewidth": 0},
+        "hovertemplate": f"θ = %{{x:.0f}}°<br>z = %{{y:.3g}} {units.length.name}<br>"
+        f"%{{z:.3g}} {units.pressure.name}<extra></extra>",
+    }  # fmt: skip
+    peak = style.here(float(units.angle.of(field.peak_theta)), 0.0, x, y, "highest pressure")
+    notes = _over_theta(field, point, units, level=0.5)
+    return style.chart([contour, *peak], x, y, height=HEIGHT, showlegend=False, **notes)
+
+
+def forces(curves: FilmForces, at: FilmForces, units: Units) -> Chart:
+    """Return the film's forces over ε at the running speed (Fig. 5.2), and the load on them."""
+    eps, load = curves.eccentricity_ratio, float(units.force.of(at.total))
+    within = units.force.of(curves.total[(eps > 0.02) & (eps < 0.8)])
+    low, high = style.decades([within.min(), within.max(), load])
+    x = style.axis(style.titled("Eccentricity ratio", "ε", "-"), 0.0, 1.0, dtick=0.2)
+    y = style.axis(style.titled("Film force", "F", units.force.name), low, high, log=True)
+    hover = text.hover("ε = %{x:.4f}", units.force)
+    traces = [
+        style.line(eps, units.force.of(force), name, colour, hovertemplate=hover)
+        for force, name, colour in (
+            (curves.total, "resultant F", _RESULTANT),
+            (curves.tangential, "tangential Fₜ", _TANGENTIAL),
+            (-curves.radial, "radial −Fᵣ", _RADIAL),
+        )
+    ]
+    if load == 0.0:
+        note = text.remark("no load: the journal is centred, the film does not push", 0.98, 0.03)
+        return style.chart(traces, x, y, height=HEIGHT, annotations=[note])
+    e, parts = float(at.eccentricity_ratio), units.force.of(np.array([at.tangential, -at.radial]))
+    marker = {"size": 9, "color": [_TANGENTIAL, _RADIAL], "line": {"color": style.HERE, "width": 2}}
+    traces += [
+        style.line([0.0, 1.0], [load, load], "load Fₒ", _SOFT, width=1.6, dash="dot"),
+        style.mark(
+            [e, e], parts, "its parts", marker=marker, showlegend=False, hovertemplate=hover
+        ),
+        *style.here(e, load, x, y),
+    ]
+    return style.chart(traces, x, y, height=HEIGHT)
+
+
+def force_balance(at: FilmForces, point: Sweep, units: Units) -> Chart:
+    """Return load and film forces as a closed triangle, in units of the load (Eq. 5.4)."""
+    x = style.axis("Force along Y, in Fₒ →", -0.55, 0.95, dtick=0.5)
+    y = style.axis("← Force along X, in Fₒ", 1.15, -0.25, dtick=0.5)
+    load = float(at.total)
+    if load == 0.0:
+        note = text.remark("no load: there is no force to balance", 0.5, 0.5, xanchor="center")
+        return plane.chart([], x, y, height=HEIGHT, annotations=[note])
+    phi = float(point.attitude_angle)
+    start, end, corner = (0.0, 0.0), (1.0, 0.0), plane.at(phi, -float(at.radial) / load)
+    sides = (
+        (start, end, "load Fₒ", style.GREY, load),
+        (end, corner, "tangential Fₜ", _TANGENTIAL, float(at.tangential)),
+        (corner, start, "radial Fᵣ", _RADIAL, float(at.radial)),
+    )
+    half_circle = plane.arc(0.0, math.pi, 0.5) + np.array([0.5, 0.0])
+    hidden: Part = {"showlegend": False, "hoverinfo": "skip"}
+    traces = [
+        plane.line(half_circle, "any speed", _SOFT, width=1.4, dash="dot", **hidden),
+        *(
+            plane.line(
+                [tail, tip], f"{name} = {text.amount(units.force, size)}", colour,
+                width=3, hoverinfo="name",
+            )
+            for tail, tip, name, colour, size in sides
+        ),
+        style.mark(corner[1], corner[0], "running speed", **hidden),
+    ]  # fmt: skip
+    arrows = [plane.arrow(tail, tip, colour) for tail, tip, _, colour, _ in sides]
+    return plane.chart(traces, x, y, height=HEIGHT, annotations=arrows, showlegend=True)
+
+
+def _over_theta(field: PressureField, point: Sweep, units: Units, *, level: float) -> Part:
+    """Return what charts over θ share: the load's direction, and the broken film."""
+    load = point.machine.static_load
+    if load == 0.0:
+        words = "no load: the film is even and without pressure"
+        return {"annotations": [text.remark(words, 0.5, level, xanchor="center")]}
+    theta = units.angle.of(field.theta)
+    at = float(units.angle.of(field.load_theta))
+    above: Part = {"xref": "x", "yanchor": "bottom", "font": {"size": 13}}
+    notes = [style.note(f"load, {text.amount(units.force, load)}", at, 1.0, **above)]
+    shapes: list[Part] = [
+        _upright(at, at, type="line", line={"color": _SOFT, "width": 1.6, "dash": "dot"})
+    ]
+    for first, last in _runs(field.cavitated):
+        a, b = float(theta[max(first - 1, 0)]), float(theta[min(last + 1, len(theta) - 1)])
+        shapes.append(
+            _upright(a, b, type="rect", fillcolor=_CAVITATED, line={"width": 0}, layer="below")
+        )
+        notes.append(style.note("cavitated:<br>ambient pressure", (a + b) / 2, level, xref="x"))
+    return {"annotations": notes, "shapes": shapes}
+
+
+def _around(**extra: Any) -> Axis:
+    title = "θ from the thickest film, in the sense of rotation [°]"
+    return style.axis(title, 0.0, 360.0, dtick=60, **extra)
+
+
+def _upright(left: float, right: float, **extra: Any) -> Part:
+    """Return a shape over the whole height of the plot."""
+    return {
+        "xref": "x", "yref": "paper", "x0": left, "x1": right, "y0": 0, "y1": 1,
+        **extra,
+    }  # fmt: skip
+
+
+def _runs(flags: BoolArray) -> list[tuple[int, int]]:
+    """Return first and last index of each run of flags that are set."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], flags, [False]))))
+    return [(int(first), int(after) - 1) for first, after in edges.reshape(-1, 2)]

@@ -1,0 +1,66 @@
+"""A speed scrubber that runs in the browser: frames that move a few traces, and their slider."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from rotorcalc.figures.style import Chart, Trace
+
+_STILL: dict[str, Any] = {
+    "mode": "immediate",
+    "frame": {"duration": 0, "redraw": False},
+    "transition": {"duration": 0},
+}
+_GREY, _CLEAR = "rgba(127,127,127,0.35)", "rgba(0,0,0,0)"
+
+
+def scrubbed(
+    chart: Chart, steps: Sequence[Sequence[Trace]], *, labels: Sequence[str], active: int, unit: str
+) -> Chart:
+    """Return a chart whose last traces a slider below it moves.
+
+    Parameters
+    ----------
+    chart : Chart
+        A chart that ends with the traces that move, as they stand at the active step.
+    steps : sequence of sequences of traces
+        What they become at each step: only what changes of each.
+    labels : sequence of str
+        The steps' speeds.
+    active : int
+        The step at which the slider begins.
+    unit : str
+        The unit of the labels.
+
+    Returns
+    -------
+    Chart
+        The chart with its frames and its slider.
+    """
+    first = len(chart["data"]) - len(steps[0])
+    places = list(range(first, len(chart["data"])))
+    frames = [
+        {"name": str(i), "data": list(step), "traces": places} for i, step in enumerate(steps)
+    ]
+    return {
+        **chart,
+        "frames": frames,
+        "layout": {**chart["layout"], "sliders": [_slider(labels, active, unit)]},
+    }
+
+
+def _slider(labels: Sequence[str], active: int, unit: str) -> dict[str, Any]:
+    return {
+        "active": active,
+        "steps": [
+            {"method": "animate", "label": label, "args": [[str(i)], _STILL]}
+            for i, label in enumerate(labels)
+        ],
+        "currentvalue": {"prefix": "Slide the speed: ", "suffix": f" {unit}", "xanchor": "left"},
+        "pad": {"t": 56, "b": 4, "l": 0, "r": 0},
+        "len": 1.0,
+        "bgcolor": _GREY,
+        "bordercolor": _CLEAR,
+        "activebgcolor": "#f0b400",
+        "tickcolor": _CLEAR,
+        "ticklen": 3,
+    }

@@ -1,0 +1,414 @@
+"""Charts of stability: the threshold over speed, the notes' Figs. 5.7 to 5.10, the energy of whirl."""
+
+import math
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rotorcalc.analysis import FilmCurves
+from rotorcalc.figures import style
+from rotorcalc.figures.style import Axis, Chart, Trace, titled
+from rotorcalc.figures.units import Unit, Units
+from rotorcalc.stability import Onset
+from rotorcalc.typing import Array
+from rotorcalc.whirl import Thresholds, WhirlEnergy
+
+Item = dict[str, Any]
+Against = Literal["σ", "ε"]
+
+_STABLE = "rgba(0,145,106,0.13)"
+# Half the space between the two bars at one speed, and their width.
+_BESIDE, _WIDE = 0.19, 0.34
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """Where a machine goes unstable, and whether the threshold's closed form tells it."""
+
+    onset: Onset
+    closed_form: bool
+
+
+@dataclass(frozen=True, eq=False)
+class FilmFigure:
+    """What the notes' figures share: the film's curves, their end, this machine, the abscissa.
+
+    `here` is the film at the running speed, None without load, where σ is infinite.
+    """
+
+    curves: FilmCurves
+    limit: FilmCurves
+    here: FilmCurves | None
+    against: Against
+
+    def values(self, film: FilmCurves) -> Array:
+        """Return a film's abscissae."""
+        return film.film.sommerfeld if self.against == "σ" else film.film.eccentricity_ratio
+
+    def axis(self) -> Axis:
+        """Return the abscissa."""
+        if self.against == "σ":
+            return style.axis(titled("Modified Sommerfeld number", "σ", "-"), 1e-2, 1e2, log=True)
+        return style.axis(titled("Eccentricity ratio", "ε", "-"), 0.0, 1.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Energies:
+    """The energy of the whirl orbit over speed, at the running speed and at the onset."""
+
+    over: WhirlEnergy
+    here: WhirlEnergy
+    at_onset: WhirlEnergy | None
+
+
+def threshold(over: Thresholds, here: Thresholds, crossing: Crossing, units: Units) -> Chart:
+    """Return the threshold speeds over running speed; one meets the line Ω at the onset."""
+    unit = units.speed
+    x = _speed_axis(over, unit)
+    top, now = _high(x), float(unit.of(here.flexible))
+    y = style.axis(
+        titled("Threshold speed", "Ω_s", unit.name), 0.0, style.ceiling([1.2 * top, min(now, 4 * top)])
+    )
+    line = style.line([0.0, top], [0.0, top], "Ω", style.GREY, dash="dot")
+    onset = float(unit.of(crossing.onset.speed))
+    return _over_speed(
+        [*_pair(over, over.rigid, over.flexible, unit, crossing), line],
+        (x, y),
+        crossing,
+        mark=(onset, onset),
+        here=(float(unit.of(here.speed)), now),
+        shapes=_unstable_side(onset, x),
+        annotations=[_verdict(onset, x, unit)],
+    )
+
+
+def whirl_frequency(over: Thresholds, here: Thresholds, crossing: Crossing, units: Units) -> Chart:
+    """Return the whirl frequency at the threshold over running speed, beside half the speed."""
+    unit = units.speed
+    x = _speed_axis(over, unit)
+    top, now = _high(x), float(unit.of(here.flexible_frequency))
+    y = style.axis(
+        titled("Whirl frequency", "ω_s", unit.name), 0.0, style.ceiling([0.6 * top, min(now, 4 * top)])
+    )
+    half = style.line([0.0, top], [0.0, 0.5 * top], "½ Ω", style.GREY, dash="dot")
+    onset = crossing.onset
+    return _over_speed(
+        [*_pair(over, over.rigid_frequency, over.flexible_frequency, unit, crossing), half],
+        (x, y),
+        crossing,
+        mark=(float(unit.of(onset.speed)), float(unit.of(onset.whirl_frequency))),
+        here=(float(unit.of(here.speed)), now),
+        shapes=_unstable_side(float(unit.of(onset.speed)), x),
+        annotations=[],
+    )
+
+
+def critical_mass(over: Thresholds, here: Thresholds, crossing: Crossing, units: Units) -> Chart:
+    """Return the critical mass over the rotor's, over running speed; unstable below 1."""
+    unit = units.speed
+    x, now = _speed_axis(over, unit), float(here.flexible_mass_ratio)
+    low = 10.0 ** min(-1, math.floor(math.log10(now)) if 0.0 < now < math.inf else -1)
+    high = 10.0 ** max(2, math.ceil(math.log10(now)) if 0.0 < now < math.inf else 2)
+    y = style.axis(titled("Critical mass over rotor mass", "", "-"), low, high, log=True)
+    one = style.line([0.0, _high(x)], [1.0, 1.0], "rotor mass", style.GREY, dash="dot")
+    ratios = over.rigid_mass_ratio, over.flexible_mass_ratio
+    return _over_speed(
+        [*_pair(over, *ratios, units.number, crossing, speed_unit=unit), one],
+        (x, y),
+        crossing,
+        mark=(float(unit.of(crossing.onset.speed)), 1.0),
+        here=(float(unit.of(here.speed)), now),
+        shapes=[_box(x0=0, x1=1, xref="paper", y0=low, y1=1.0)],
+        annotations=[
+            style.note("unstable below 1", 0.02, 0.03, xanchor="left", yanchor="bottom")
+        ],
+    )
+
+
+def whirl_ratio(figure: FilmFigure) -> Chart:
+    """Return the whirl frequency ratio over σ or ε (Fig. 5.7)."""
+    y = style.axis(titled("Whirl frequency ratio", "ω_s/Ω_s", "-"), 0.0, 0.6)
+    now = math.nan if figure.here is None else float(figure.here.onset.whirl_ratio)
+    return _film_chart(figure, figure.curves.onset.whirl_ratio, y, now, "whirl ratio")
+
+
+def threshold_speed(figure: FilmFigure) -> Chart:
+    """Return the dimensionless threshold speed of a rigid rotor over σ or ε (Fig. 5.8)."""
+    now = math.nan if figure.here is None else float(figure.here.onset.threshold_speed)
+    y = style.axis(titled("Threshold speed", "p_s", "-"), 0.0, style.ceiling([6.0, min(now, 30.0)]))
+    return _film_chart(figure, figure.curves.onset.threshold_speed, y, now, "p_s")
+
+
+def critical_mass_number(figure: FilmFigure) -> Chart:
+    """Return the dimensionless critical mass over σ or ε (Fig. 5.9)."""
+    now = math.nan if figure.here is None else float(figure.here.onset.critical_mass)
+    y = style.axis(titled("Critical mass", "p_s²", "-"), 0.0, style.ceiling([30.0, min(now, 900.0)]))
+    return _film_chart(figure, figure.curves.onset.critical_mass, y, now, "p_s²")
+
+
+def flexible_threshold(
+    figure: FilmFigure, sags: ArrayLike, thresholds: Array, now: float = math.nan
+) -> Chart:
+    """Return the threshold speed of flexible rotors over σ or ε (Fig. 5.10).
+
+    `thresholds` has a row for each sag; the last row is this machine's, `now` its point.
+    """
+    x_values, x = figure.values(figure.curves), figure.axis()
+    y = style.axis(titled("Threshold speed", "p_sf", "-"), 0.0, style.ceiling([5.0, min(now, 30.0)]))
+    sags = np.asarray(sags, dtype=float)
+    known = [
+        style.line(x_values, row, f"Γ/C = {sag:g}", style.GREY, width=1.6, showlegend=False)
+        for sag, row in zip(sags[:-1], thresholds[:-1], strict=True)
+    ]
+    own = style.line(
+        x_values, thresholds[-1], f"this machine, Γ/C = {sags[-1]:.3g}", style.FLEXIBLE, width=3.0
+    )
+    names = [
+        _at_the_free_end(figure, f"Γ/C = {sag:g}", float(row[-1]))
+        for sag, row in zip(sags[:-1], thresholds[:-1], strict=True)
+    ]
+    return _film_frame(figure, [*known, own], (x, y), now, names)
+
+
+def energy_bars(energies: Energies, units: Units) -> Chart:
+    """Return what the whirl orbit gains and loses in a turn, now and at the onset, as bars."""
+    stops = [energies.here] if energies.at_onset is None else [energies.here, energies.at_onset]
+    gains = np.array([float(units.stiffness.of(stop.fed_in)) for stop in stops])
+    films = np.array([float(units.stiffness.of(stop.film_loss)) for stop in stops])
+    disks = np.array([float(units.stiffness.of(stop.disk_loss)) for stop in stops])
+    rpm = [float(units.speed.of(stop.speed)) for stop in stops]
+    titles = [f"{word}<br>{value:.0f} rpm" for word, value in zip(_STOPS, rpm, strict=False)]
+    places = np.arange(len(stops), dtype=float)
+    top = style.ceiling([1.12 * gains.max(), 1.12 * (films + disks).max()])
+    bars = [
+        _bar(places - _BESIDE, gains, "fed in by Kₓᵧ − Kᵧₓ", style.UNSTABLE),
+        _bar(places + _BESIDE, films, "taken out by the film", style.JOURNAL),
+    ]
+    if disks.any():
+        bars.append(
+            _bar(places + _BESIDE, disks, "taken out at midspan", style.DISK, base=films)
+        )
+    return style.chart(
+        bars,
+        style.axis("", -0.6, len(stops) - 0.4, tickvals=places, ticktext=titles),
+        _energy_axis(top, units),
+        barmode="overlay",
+        shapes=_level(places, gains) if energies.at_onset is not None else [],
+        legend=style.legend_below(),
+        margin=_MARGIN,
+    )
+
+
+def energy(energies: Energies, crossing: Crossing, units: Units) -> Chart:
+    """Return what the whirl orbit would gain and lose in a turn over speed; equal at the onset."""
+    over, here, unit = energies.over, energies.here, units.stiffness
+    speed, x = units.speed.of(over.speed), _speed_axis(over, units.speed)
+    loss, now = unit.of(over.film_loss + over.disk_loss), float(unit.of(here.fed_in))
+    lost = float(unit.of(here.film_loss + here.disk_loss))
+    met = math.nan if energies.at_onset is None else float(unit.of(energies.at_onset.fed_in))
+    y = _energy_axis(style.ceiling([1.05 * now, 1.05 * lost, 1.3 * met, *unit.of(over.fed_in)]), units)
+    lines = [
+        style.line(speed, unit.of(over.fed_in), "fed in", style.UNSTABLE),
+        style.line(speed, loss, "taken out", style.JOURNAL),
+    ]
+    if np.any(over.disk_loss):
+        part = unit.of(over.disk_loss)
+        lines.append(style.line(speed, part, "of it at midspan", style.DISK, dash="dash"))
+    rpm, onset = float(units.speed.of(here.speed)), float(units.speed.of(crossing.onset.speed))
+    second = style.mark(rpm, lost, "taken out at the running speed", showlegend=False)
+    return _over_speed(
+        [*lines, second],
+        (x, y),
+        crossing,
+        mark=(onset, met),
+        here=(rpm, now),
+        shapes=_unstable_side(onset, x),
+        annotations=[_verdict(onset, x, units.speed)],
+    )
+
+
+_MARGIN = {"l": 64, "r": 16, "t": 16, "b": 108}
+_STOPS = ("running speed", "onset")
+
+
+def _over_speed(
+    traces: list[Trace],
+    axes: tuple[Axis, Axis],
+    crossing: Crossing,
+    *,
+    mark: tuple[float, float],
+    here: tuple[float, float],
+    **layout: Any,
+) -> Chart:
+    """Return a chart over speed with the onset and the running speed marked on it."""
+    x, y = axes
+    name = _onset_name(mark[0])
+    if not crossing.closed_form and math.isfinite(mark[0]):
+        ends = [_low(y), _high(y)]
+        traces.append(style.line([mark[0]] * 2, ends, name, style.UNSTABLE, dash="dash"))
+    elif _inside(mark, axes):
+        traces.append(style.mark(*mark, name, style.UNSTABLE))
+    notes = list(layout.pop("annotations"))
+    if _inside(here, axes):
+        traces += style.here(*here, x, y)
+    else:
+        notes.append(_beyond("running speed: no whirl at all, ε is too high", here[1], y))
+    return style.chart(
+        traces, x, y, annotations=notes, legend=style.legend_below(), margin=_MARGIN, **layout
+    )
+
+
+def _pair(
+    over: Thresholds,
+    rigid: Array,
+    flexible: Array,
+    unit: Unit,
+    crossing: Crossing,
+    speed_unit: Unit | None = None,
+) -> list[Trace]:
+    """Return the lines of the rigid and the flexible shaft; dashed where they miss the onset."""
+    speed = (speed_unit or unit).of(over.speed)
+    rigid, flexible = unit.of(rigid), unit.of(flexible)
+    if np.array_equal(rigid, flexible, equal_nan=True):
+        return [_finite(speed, rigid, "rigid shaft", style.RIGID, crossing)]
+    return [
+        _finite(speed, rigid, "rigid shaft", style.RIGID, crossing),
+        _finite(speed, flexible, "flexible shaft", style.FLEXIBLE, crossing),
+    ]
+
+
+def _finite(x: Array, y: Array, name: str, colour: str, crossing: Crossing) -> Trace:
+    if not crossing.closed_form:
+        name += ", bare"
+    y = np.where(np.isfinite(y), y, np.nan)
+    return style.line(x, y, name, colour, dash="solid" if crossing.closed_form else "dash")
+
+
+def _speed_axis(over: Thresholds | WhirlEnergy, unit: Unit) -> Axis:
+    return style.axis(titled("Running speed", "Ω", unit.name), 0.0, float(unit.of(over.speed[-1])))
+
+
+def _onset_name(rpm: float) -> str:
+    return f"onset {rpm:.0f} rpm"
+
+
+def _unstable_side(onset: float, x: Axis) -> list[Item]:
+    if onset >= _high(x):
+        return []
+    return [_box(x0=onset, x1=_high(x), y0=0, y1=1, yref="paper")]
+
+
+def _verdict(onset: float, x: Axis, unit: Unit) -> Item:
+    """Return in words which side of the chart is unstable."""
+    if onset == 0.0:
+        words = "no load: unstable at any speed"
+    elif math.isinf(onset):
+        words = "stable at every speed"
+    elif onset >= _high(x):
+        words = f"stable: the onset lies beyond, at {onset:.0f} {unit.name}"
+    else:
+        share = onset / _high(x)
+        anchor = {"xanchor": "left"} if share < 0.7 else {"xanchor": "right"}
+        return style.note(" unstable ", min(share, 1.0) if share < 0.7 else 1.0, 0.98, **anchor)
+    return style.note(words, 0.98, 0.98, xanchor="right")
+
+
+def _film_chart(figure: FilmFigure, values: Array, y: Axis, now: float, name: str) -> Chart:
+    finite = np.where(np.isfinite(values), values, np.nan)
+    line = style.line(figure.values(figure.curves), finite, name, style.FLEXIBLE)
+    line["showlegend"] = False
+    return _film_frame(figure, [line], (figure.axis(), y), now, [])
+
+
+def _film_frame(
+    figure: FilmFigure, lines: list[Trace], axes: tuple[Axis, Axis], now: float, names: list[Item]
+) -> Chart:
+    """Return a chart over the film's numbers with the stable region and this machine on it."""
+    x, y = axes
+    edge = float(figure.values(figure.limit))
+    ends = {"x0": _low(x), "x1": edge} if figure.against == "σ" else {"x0": edge, "x1": _high(x)}
+    shade = _box(**ends, y0=0, y1=1, yref="paper", fillcolor=_STABLE)
+    eps = float(figure.limit.film.eccentricity_ratio)
+    side = {"x": 0.01, "xanchor": "left"} if figure.against == "σ" else {"x": 0.99, "xanchor": "right"}
+    notes = [*names, style.note(f"stable<br>ε > {eps:.4f}", y=0.98, yanchor="top", **side)]
+    place = math.nan if figure.here is None else float(figure.values(figure.here))
+    marks: list[Trace] = []
+    if _inside((place, now), axes):
+        marks = style.here(place, now, x, y)
+    else:
+        notes.append(_beyond(_where(figure), now, y))
+    return style.chart([*lines, *marks], x, y, shapes=[shade], annotations=notes)
+
+
+def _where(figure: FilmFigure) -> str:
+    if figure.here is None:
+        return "no load: σ is infinite, ε = 0"
+    film = figure.here.film
+    return (
+        f"running speed: σ = {float(film.sommerfeld):.3g}, ε = {float(film.eccentricity_ratio):.3f}"
+    )
+
+
+def _at_the_free_end(figure: FilmFigure, words: str, height: float) -> Item:
+    """Return a line's name above it at the end where the film is centred."""
+    side = {"x": 2.0, "xanchor": "right"} if figure.against == "σ" else {"x": 0.0, "xanchor": "left"}
+    return {
+        "text": words, "y": height, "xref": "x", "yref": "y", "yanchor": "bottom",
+        "showarrow": False, "font": {"size": 12}, **side,
+    }  # fmt: skip
+
+
+def _energy_axis(top: float, units: Units) -> Axis:
+    return style.axis(titled("Energy per turn and area", "", units.stiffness.name), 0.0, top)
+
+
+def _bar(x: Array, y: Array, name: str, colour: str, base: Array | None = None) -> Trace:
+    return {
+        "type": "bar", "x": x, "y": y, "base": base, "name": name, "width": _WIDE,
+        "marker": {"color": colour}, "text": [f"{value:.3g}" for value in y],
+        "textposition": "inside", "insidetextanchor": "end", "textangle": 0,
+        "textfont": {"color": "#ffffff"},
+    }  # fmt: skip
+
+
+def _level(places: Array, gains: Array) -> list[Item]:
+    """Return a line across the bars at the onset, on which they meet."""
+    left, right = places[-1] - _BESIDE - _WIDE / 2, places[-1] + _BESIDE + _WIDE / 2
+    return [
+        {
+            "type": "line", "x0": left - 0.04, "x1": right + 0.04, "y0": gains[-1], "y1": gains[-1],
+            "line": {"color": style.GREY, "width": 2, "dash": "dot"},
+        }
+    ]  # fmt: skip
+
+
+def _box(**place: Any) -> Item:
+    return {
+        "type": "rect", "layer": "below", "line": {"width": 0}, "fillcolor": style.SHADE, **place,
+    }  # fmt: skip
+
+
+def _beyond(words: str, value: float, y: Axis) -> Item:
+    """Return a note on the running speed's point where the chart cannot show it."""
+    if value > _high(y) and math.isfinite(value):
+        words = f"running speed: {value:.3g}, above the axis"
+    return style.note(words, 0.98, 0.06, xanchor="right")
+
+
+def _inside(point: tuple[float, float], axes: tuple[Axis, Axis]) -> bool:
+    return all(_low(axis) <= at <= _high(axis) for at, axis in zip(point, axes, strict=True))
+
+
+def _low(axis: Axis) -> float:
+    return _ends(axis)[0]
+
+
+def _high(axis: Axis) -> float:
+    return _ends(axis)[1]
+
+
+def _ends(axis: Axis) -> tuple[float, float]:
+    low, high = axis["range"]
+    return (10.0**low, 10.0**high) if axis["type"] == "log" else (low, high)

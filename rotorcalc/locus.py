@@ -1,0 +1,80 @@
+"""The root locus: a machine's modes followed over speed, and where they stand at one speed.
+
+Eigenvalues of a real matrix come as mirror images, λ and its conjugate, which are one motion; the
+locus keeps the half with Im λ ≥ 0. Source: the notes' calculation sheet, eigenvalues over speed.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from rotorcalc.modes import ModeShapes
+from rotorcalc.typing import Array, ComplexArray
+
+
+@dataclass(frozen=True, eq=False)
+class Locus:
+    """Eigenvalues over speed, a column a mode, and the same modes at the running speed.
+
+    The modes keep one order in all fields: at the lowest speed the oscillating ones by rising
+    frequency, then the others.
+
+    Attributes
+    ----------
+    speed : array, (n,)
+        Ω [rad/s].
+    branches : complex array, (n, m)
+        λ [1/s]; not a number at speeds at which the mirror image is another column.
+    running_speed : float
+        Ω [rad/s].
+    here : ModeShapes
+        The m modes at the running speed.
+    """
+
+    speed: Array
+    branches: ComplexArray
+    running_speed: float
+    here: ModeShapes
+
+    @property
+    def leading(self) -> int:
+        """Index of the oscillating mode that decays slowest, or grows fastest, at that speed."""
+        values = self.here.eigenvalues
+        waves = values.imag > 0.0
+        return int(np.argmax(np.where(waves | ~np.any(waves), values.real, -np.inf)))
+
+
+def root_locus(
+    speed: Array, branches: ComplexArray, *, running_speed: float, shapes: ModeShapes
+) -> Locus:
+    """Return followed eigenvalues and the modes at the running speed, in one order.
+
+    Parameters
+    ----------
+    speed : array, (n,)
+        Rising speeds, Ω [rad/s].
+    branches : complex array, (n, m)
+        λ followed over them [1/s], as `modes.follow_branches` returns them.
+    running_speed : float
+        Ω [rad/s].
+    shapes : ModeShapes
+        All m modes at the running speed.
+
+    Returns
+    -------
+    Locus
+        The half with Im λ ≥ 0.
+    """
+    nearest = branches[np.argmin(np.abs(speed - running_speed))]
+    _, here = linear_sum_assignment(np.abs(nearest[:, None] - shapes.eigenvalues[None, :]))
+    first = branches[0]
+    order = np.lexsort((-first.real, np.where(first.imag > 0.0, first.imag, np.inf)))
+    order = order[np.any(branches.imag >= 0.0, axis=0)[order]]
+    kept = branches[:, order]
+    return Locus(
+        speed=speed,
+        branches=np.where(kept.imag < 0.0, np.nan, kept),
+        running_speed=running_speed,
+        here=shapes.ordered(here[order]),
+    )

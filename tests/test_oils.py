@@ -1,0 +1,60 @@
+"""Oils: the grades' viscosities where the standards give them, and the laws that touch them."""
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rotorcalc.oils import DENSITY, ISO_VG, fitted_oil, iso_oil
+
+
+@pytest.mark.parametrize("grade", ISO_VG)
+@pytest.mark.parametrize(("temperature", "column"), [(40.0, 0), (100.0, 1)])
+def test_a_grade_has_its_standard_viscosities(grade, temperature, column):
+    oil = iso_oil(grade, temperature=temperature)
+    nu = oil.reference_viscosity / DENSITY * 1e6
+    assert nu == pytest.approx(ISO_VG[grade][column], rel=1e-12)
+
+
+@pytest.mark.parametrize("grade", ISO_VG)
+def test_the_law_of_a_grade_has_its_slope_too(grade):
+    below, at, above = (iso_oil(grade, temperature=T) for T in (59.99, 60.0, 60.01))
+    slope = math.log(below.reference_viscosity / above.reference_viscosity) / 0.02
+    assert at.temperature_coefficient == pytest.approx(slope, rel=1e-7)
+
+
+def test_thicker_grades_are_thicker_at_every_temperature():
+    for T in (10.0, 60.0, 120.0):
+        viscosities = [iso_oil(grade, temperature=T).reference_viscosity for grade in ISO_VG]
+        assert viscosities == sorted(viscosities)
+
+
+@given(
+    T_1=st.floats(0, 70),
+    T_2=st.floats(71, 150),
+    mu_1=st.floats(0.02, 1.0),
+    thinning=st.floats(1, 50),
+)
+def test_the_fit_passes_through_both_viscosities(T_1, T_2, mu_1, thinning):
+    oil = fitted_oil(temperatures=(T_1, T_2), viscosities=(mu_1, mu_1 / thinning))
+    assert float(oil.viscosity(T_1)) == pytest.approx(mu_1, rel=1e-12)
+    assert float(oil.viscosity(T_2)) == pytest.approx(mu_1 / thinning, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("temperatures", "viscosities", "words"),
+    [
+        ((50.0, 50.0), (0.02, 0.01), "must differ"),
+        ((50.0, 60.0), (0.0, 0.01), "must be positive"),
+        ((50.0, 60.0), (0.01, 0.02), "temperature_coefficient"),
+    ],
+)
+def test_an_impossible_fit_is_refused_in_words(temperatures, viscosities, words):
+    with pytest.raises(ValueError, match=words):
+        fitted_oil(temperatures=temperatures, viscosities=viscosities)
+
+
+def test_an_unknown_grade_is_refused_by_name():
+    with pytest.raises(ValueError, match="ISO VG 33"):
+        iso_oil("ISO VG 33", temperature=40.0)

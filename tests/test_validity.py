@@ -1,0 +1,64 @@
+"""Validity: each assumption is judged by its own number, and the sheet's machine keeps to most."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from rotorcalc import PRESETS, analyse
+from rotorcalc.validity import ROUGHNESS, validity
+
+SHEET = PRESETS["sheet-1e8"]
+
+
+def judged(machine, speed=SHEET.speed):
+    return {check.name.split(",")[0]: check for check in validity(analyse(machine, speed))}
+
+
+def with_bearing(**changes):
+    return replace(SHEET.machine, bearing=replace(SHEET.machine.bearing, **changes))
+
+
+def test_the_sheets_machine_has_the_numbers_of_its_geometry():
+    checks = judged(SHEET.machine)
+    assert checks["Length over diameter"].value == pytest.approx(1 / 3)
+    # ρΩRC/μ = 860 · 628.3185 · 0.075 · 60e-6 / 0.01276940
+    assert checks["Reynolds number of the film"].value == pytest.approx(190.42, abs=0.005)
+    assert checks["Static sag over clearance"].value == pytest.approx(0.2224)
+    assert checks["Reynolds number of the film"].caution == pytest.approx(41.1 * math.sqrt(1250))
+
+
+@pytest.mark.parametrize(
+    ("length", "level"), [(0.050, "good"), (0.100, "caution"), (0.160, "outside")]
+)
+def test_length_over_diameter_is_judged(length, level):
+    assert judged(with_bearing(length=length))["Length over diameter"].level == level
+
+
+def test_a_thin_film_is_outside_when_it_reaches_the_roughness():
+    heavy = replace(SHEET.machine, load=5e7)
+    film = judged(heavy)["Smallest film over roughness of 1 µm"]
+    assert film.value == pytest.approx(
+        float(analyse(heavy, SHEET.speed).minimum_film_thickness) / ROUGHNESS
+    )
+    assert film.level == "outside"
+    assert judged(heavy)["Eccentricity ratio"].level == "outside"
+
+
+def test_an_orbit_that_reaches_the_wall_is_outside():
+    rotor = replace(SHEET.machine.rotor, imbalance=100e-6)
+    wild = replace(SHEET.machine, rotor=rotor)
+    assert (
+        judged(wild, speed=7900 * math.pi / 30)["Imbalance orbit over clearance"].level == "outside"
+    )
+    still = replace(SHEET.machine, rotor=replace(rotor, imbalance=0.0))
+    assert judged(still)["Imbalance orbit over clearance"].value == 0.0
+
+
+def test_a_fast_thin_oil_leaves_the_laminar_range():
+    thin = replace(SHEET.machine, temperature=150.0)
+    assert judged(thin, speed=3000.0)["Reynolds number of the film"].level == "outside"
+
+
+def test_a_flexible_rotor_sags_past_the_clearance():
+    assert judged(PRESETS["sheet-1e7"].machine)["Static sag over clearance"].level == "caution"
