@@ -46,7 +46,8 @@ if film_tab.open:
         page.chart(
             lambda v: film.film_around(v.film, v.point, units), "film",
             alt="Thickness and pressure of the film once around the journal, and the load.",
-            caption="Thickness, and pressure above ambient at mid-length. Eqs. 5.19, 5.25.",
+            caption="Film and pressure above ambient at mid-length; θ in the sense of rotation. "
+            "Eqs. 5.19, 5.25.",
         )  # fmt: skip
     with right:
         page.chart(

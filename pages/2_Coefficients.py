@@ -1,5 +1,8 @@
+from typing import Literal
+
 import streamlit as st
 
+from rotorcalc.analysis import Axes
 from rotorcalc.coefficients import BULK_FLOW, LAMINAR
 from rotorcalc.figures import coefficients as draw
 from ui import coefficients as words
@@ -12,7 +15,7 @@ page = frame.begin(
 )
 view, units = page.view, page.units
 page.results("sommerfeld", "eccentricity_ratio", "attitude_angle", "equivalent_stiffness")
-axes = st.segmented_control(
+axes: Axes = st.segmented_control(
     "Frame", list(words.FRAMES), format_func=words.FRAMES.__getitem__, key="coefficient_axes",
     default="XY", required=True, persist_state="session",
 )  # fmt: skip
@@ -42,21 +45,33 @@ if speed.open:
             caption="Per bearing; large at low speed, where the film is thin. Eqs. 5.31, 5.35.",
         )
 
-for tab, against, figure in ((eccentricity, "ε", "5.5"), (sommerfeld, "σ", "5.6")):
-    if tab.open:
-        for column, symbol in zip(tab.columns(2), ("k", "c"), strict=True):
-            with column:
-                page.chart(
-                    lambda v: draw.dimensionless(
-                        v.film_coefficients(axes), v.film_coefficients_here(axes), symbol, against
-                    ),
-                    f"{symbol}_{against}",
-                    alt=f"Dimensionless coefficients {symbol} against {against}, logarithmic.",
-                    caption=words.dimensionless_caption(symbol, figure),
-                )
-        with tab:
-            words.say_unloaded(view)
 
+
+def film_chart(symbol: Literal["k", "c"], against: Literal["ε", "σ"]) -> None:
+    page.chart(
+        lambda v: draw.dimensionless(
+            v.film_coefficients(axes), v.film_coefficients_here(axes), symbol, against
+        ),
+        f"{symbol}_{against}",
+        alt=f"Dimensionless coefficients {symbol} against {against}, logarithmic.",
+        caption=words.dimensionless_caption(symbol, against),
+    )
+
+
+if eccentricity.open:
+    left, right = eccentricity.columns(2)
+    with left:
+        film_chart("k", "ε")
+    with right:
+        film_chart("c", "ε")
+    words.say_unloaded(view)
+if sommerfeld.open:
+    left, right = sommerfeld.columns(2)
+    with left:
+        film_chart("k", "σ")
+    with right:
+        film_chart("c", "σ")
+    words.say_unloaded(view)
 if mass.open:
     left, right = mass.columns(2)
     with left:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from rotorcalc.films import FilmState, film_added_mass, film_pressure, film_state
 from rotorcalc.machine import Machine
-from rotorcalc.typing import Array, BoolArray
+from rotorcalc.typing import Array, BoolArray, real_array
 
 # Factors α_m of the film's inertia: a parabolic velocity profile, and a flat one.
 LAMINAR, BULK_FLOW = 6.0 / 5.0, 1.0
@@ -386,7 +386,7 @@ def modified_sommerfeld(machine: Machine, speed: ArrayLike) -> Array:
 
 def checked_speed(speed: ArrayLike) -> Array:
     """Return speeds [rad/s] as an array, or raise ValueError where one is not positive and finite."""
-    speeds = np.asarray(speed, dtype=float)
+    speeds = real_array("speed", speed)
     good = np.isfinite(speeds) & (speeds > 0.0)
     if not np.all(good):
         raise ValueError(f"speed = {speeds[~good].flat[0]} rad/s: must be positive and finite")

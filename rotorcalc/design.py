@@ -16,6 +16,7 @@ Source: San Andrés, Notes 5.
 import functools
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -48,7 +49,7 @@ _ONE_CURVE = frozenset({"short"})
 # Modified Sommerfeld numbers between which a root is bracketed. Below no film can whirl, above it
 # is all but centred, where the left side of the equation grows as σ².
 _SIGMA = np.geomspace(1e-3, 1e3, 241)
-_ROOT = {"xatol": 0.0, "xrtol": 1e-15, "fatol": 0.0, "frtol": 0.0}
+_ROOT: Any = {"xatol": 0.0, "xrtol": 1e-15, "fatol": 0.0, "frtol": 0.0}
 # Values at which `solve_onset` looks before it closes in: where the onset is cheap, where not.
 _SCAN, _SLOW_SCAN = 200, 24
 # An onset this near to the target, relative, is the target.
@@ -198,9 +199,7 @@ def varied(machine: Machine, values: Mapping[str, float]) -> Machine:
         record, name = _address(field)
         changes.setdefault(record, {})[name] = value
     own = changes.pop("", {})
-    records = {
-        record: replace(getattr(machine, record), **new) for record, new in changes.items()
-    }
+    records = {record: replace(getattr(machine, record), **new) for record, new in changes.items()}
     return replace(machine, **own, **records)
 
 
@@ -230,24 +229,25 @@ def onset_speeds(machines: Sequence[Machine]) -> Array:
         Where the search does not end.
     """
     speeds = np.empty(len(machines))
-    closed = np.array([has_closed_form(machine) for machine in machines], dtype=bool)
-    for film in {machine.bearing.film for machine in machines}:
-        at = closed & np.array([machine.bearing.film == film for machine in machines], dtype=bool)
-        if np.any(at):
-            speeds[at] = _closed_onsets([machines[i] for i in np.flatnonzero(at)])
-    for i in np.flatnonzero(~closed):
-        speeds[i] = onset_speed(machines[i]).speed
+    films: dict[str, list[int]] = {}
+    for i, machine in enumerate(machines):
+        if has_closed_form(machine):
+            films.setdefault(machine.bearing.film, []).append(i)
+        else:
+            speeds[i] = onset_speed(machine).speed
+    for indices in films.values():
+        speeds[indices] = _closed_onsets([machines[i] for i in indices])
     return speeds
 
 
-def onset_map(
+def onset_map(  # noqa: PLR0913 - two axes, each a name and its values
     machine: Machine,
     *,
     x: str,
     xs: ArrayLike,
     y: str,
     ys: ArrayLike,
-    progress: Callable[[float], None] | None = None,
+    progress: Callable[[float], object] | None = None,
 ) -> OnsetMap:
     """Return the onset speed over two inputs, the others as they are.
 
@@ -377,7 +377,9 @@ def solve_onset(
     values, onsets = _with_extremes(values, onsets, onset)
     above = onsets >= target
     roots = [
-        float(brentq(beside_target, values[i], values[i + 1], xtol=1e-13 * (high - low), rtol=1e-13))
+        float(
+            brentq(beside_target, values[i], values[i + 1], xtol=1e-13 * (high - low), rtol=1e-13)
+        )
         for i in np.flatnonzero(above[1:] != above[:-1])
     ]
     # Where the onset jumps past the target, no value gives it.
@@ -392,7 +394,12 @@ def _address(field: str) -> tuple[str, str]:
     """Return the record and the name of an input; the machine's own record is ""."""
     known = {
         (record, item.name)
-        for record, cls in (("", Machine), ("oil", Oil), ("bearing", JournalBearing), ("rotor", Rotor))
+        for record, cls in (
+            ("", Machine),
+            ("oil", Oil),
+            ("bearing", JournalBearing),
+            ("rotor", Rotor),
+        )
         for item in fields(cls)
         if item.name not in ("oil", "bearing", "rotor", "film")
     }
@@ -422,12 +429,11 @@ def _onsets_where_made(rows: Sequence[Sequence[Machine | None]]) -> Array:
 
 def _closed_onsets(machines: Sequence[Machine]) -> Array:
     """Return the onsets of machines with one film model and a closed form."""
-    M, K_rot, F, s, C = np.array([_numbers(machine) for machine in machines]).T
+    numbers = np.array([_numbers(machine) for machine in machines])
     speeds = np.zeros(len(machines))  # without load the onset is at speed 0
-    loaded = F > 0.0
-    M, K_rot, F, s, C = (values[loaded] for values in (M, K_rot, F, s, C))
-    sag, wanted = F / (K_rot * C), s**2 / (M * C * F)
-    sigma = _root(machines[0].bearing.film, sag, wanted)
+    loaded = numbers[:, 2] > 0.0
+    M, K_rot, F, s, C = numbers[loaded].T
+    sigma = _root(machines[0].bearing.film, sag=F / (K_rot * C), wanted=s**2 / (M * C * F))
     speeds[loaded] = sigma * F / s
     return speeds
 
@@ -440,7 +446,7 @@ def _numbers(machine: Machine) -> tuple[float, ...]:
     return rotor.half_mass, rotor.shaft_stiffness, machine.static_load, s, C
 
 
-def _root(film: str, sag: Array, wanted: Array) -> Array:
+def _root(film: str, *, sag: Array, wanted: Array) -> Array:
     """Return the lowest σ at which the left side of the module's equation is the right one."""
     rigid, flexible = _curve(film)
     table = rigid + sag[:, None] * flexible
@@ -454,10 +460,11 @@ def _root(film: str, sag: Array, wanted: Array) -> Array:
         rigid, flexible = _left_side(film, sigma)
         return (rigid + sag * flexible) / wanted - 1.0
 
-    found = elementwise.find_root(residual, (low, high), args=(sag, wanted), tolerances=_ROOT)
+    # The stubs lack what find_root returns for arrays of arguments.
+    found: Any = elementwise.find_root(residual, (low, high), args=(sag, wanted), tolerances=_ROOT)
     if not np.all(found.success):
         raise RuntimeError("no onset found within the search's iterations")
-    return found.x
+    return np.asarray(found.x, dtype=float)
 
 
 @functools.cache
@@ -498,22 +505,27 @@ def _with_extremes(
 ) -> tuple[Array, Array]:
     """Return a scan with its local extremes added, each where it truly lies."""
     before, here, after = onsets[:-2], onsets[1:-1], onsets[2:]
-    is_top = (here > before) & (here >= after)
-    is_bottom = (here < before) & (here <= after)
+    tops = np.flatnonzero((here > before) & (here >= after) & np.isfinite(here))
+    bottoms = np.flatnonzero((here < before) & (here <= after))
     extremes = [
-        minimize_scalar(
-            lambda value, sign=sign: sign * onset(value),
-            bounds=(values[i], values[i + 2]),
-            method="bounded",
-            options={"xatol": 1e-9 * abs(values[i + 2])},
-        ).x
-        for sign, found in ((-1.0, is_top), (1.0, is_bottom))
-        for i in np.flatnonzero(found & np.isfinite(here))
+        _extreme(onset, sign, float(values[i]), float(values[i + 2]))
+        for sign, found in ((-1.0, tops), (1.0, bottoms))
+        for i in found
     ]
     all_values = np.concatenate([values, extremes])
     all_onsets = np.concatenate([onsets, [onset(value) for value in extremes]])
     order = np.argsort(all_values)
     return all_values[order], all_onsets[order]
+
+
+def _extreme(onset: Callable[[float], float], sign: float, low: float, high: float) -> float:
+    def signed(value: float) -> float:
+        return sign * onset(value)
+
+    found = minimize_scalar(
+        signed, bounds=(low, high), method="bounded", options={"xatol": 1e-9 * (high - low)}
+    )
+    return float(found.x)
 
 
 def _beside(onset: float, target: float) -> float:

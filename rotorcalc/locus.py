@@ -4,9 +4,11 @@ Eigenvalues of a real matrix come as mirror images, λ and its conjugate, which 
 locus keeps the half with Im λ ≥ 0. Source: the notes' calculation sheet, eigenvalues over speed.
 """
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from rotorcalc.modes import ModeShapes
@@ -70,11 +72,25 @@ def root_locus(
     _, here = linear_sum_assignment(np.abs(nearest[:, None] - shapes.eigenvalues[None, :]))
     first = branches[0]
     order = np.lexsort((-first.real, np.where(first.imag > 0.0, first.imag, np.inf)))
-    order = order[np.any(branches.imag >= 0.0, axis=0)[order]]
-    kept = branches[:, order]
+    followed = np.take_along_axis(branches[:, order], _images_last(branches[:, order]), axis=1)
+    here = here[order][_images_last(shapes.eigenvalues[here[order]][None, :])[0]]
+    kept = np.any(followed.imag >= 0.0, axis=0)
     return Locus(
         speed=speed,
-        branches=np.where(kept.imag < 0.0, np.nan, kept),
+        branches=np.where(followed.imag < 0.0, np.nan, followed)[:, kept],
         running_speed=running_speed,
-        here=shapes.ordered(here[order]),
+        here=shapes.ordered(here[kept]),
     )
+
+
+def _images_last(values: ComplexArray) -> NDArray[np.intp]:
+    """Return columns in an order, row by row, in which no mirror image comes before its mode.
+
+    Two real eigenvalues that meet part as a mode and its mirror image; which is which is chance.
+    """
+    n, m = values.shape
+    places: NDArray[np.intp] = np.zeros((n, 1), dtype=np.intp) + np.arange(m, dtype=np.intp)
+    for j, k in itertools.combinations(range(m), 2):
+        swap = (values[:, j].imag < 0.0) & (values[:, j] == values[:, k].conj())
+        places[swap, j], places[swap, k] = k, j
+    return places

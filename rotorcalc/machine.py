@@ -9,7 +9,6 @@ import functools
 import json
 import math
 import numbers
-import reprlib
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Annotated, Any, NoReturn, Self, TypeVar, cast, get_args, get_origin, get_type_hints
@@ -18,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.constants import g, zero_Celsius
 
-from rotorcalc.typing import Array
+from rotorcalc.typing import Array, shown
 
 FORMAT_VERSION = 1
 
@@ -34,20 +33,20 @@ class Bound:
 
     def check(self, name: str, value: object) -> float:
         """Return `value` as a float, or raise ValueError naming field, value and bound."""
-        shown = f"{name} = {reprlib.repr(value)}"
+        given = f"{name} = {shown(value)}"
         if isinstance(value, bool) or not isinstance(value, numbers.Real):
-            raise ValueError(f"{shown}: must be a number in {self.unit}")
+            raise ValueError(f"{given}: must be a number in {self.unit}")
         try:
             number = float(value)
-        except OverflowError:
-            number = math.inf
+        except OverflowError as error:  # it is finite, so not even a rigid shaft is meant
+            raise ValueError(f"{given} {self.unit}: too large for a number") from error
         if math.isnan(number) or (math.isinf(number) and not self.infinite):
-            raise ValueError(f"{shown} {self.unit}: must be finite")
+            raise ValueError(f"{given} {self.unit}: must be finite")
         if number <= self.above:
             rule = "positive" if self.above == 0 else f"greater than {self.above:g} {self.unit}"
-            raise ValueError(f"{shown} {self.unit}: must be {rule}")
+            raise ValueError(f"{given} {self.unit}: must be {rule}")
         if number < self.at_least:
-            raise ValueError(f"{shown} {self.unit}: must be at least {self.at_least:g} {self.unit}")
+            raise ValueError(f"{given} {self.unit}: must be at least {self.at_least:g} {self.unit}")
         return number
 
 
@@ -60,7 +59,7 @@ class Choice:
     def check(self, name: str, value: object) -> str:
         """Return `value`, or raise ValueError naming field, value and the words."""
         if not isinstance(value, str) or value not in self.words:
-            raise ValueError(f"{name} = {reprlib.repr(value)}: must be one of {self.words}")
+            raise ValueError(f"{name} = {shown(value)}: must be one of {self.words}")
         return value
 
 
@@ -85,7 +84,7 @@ class _Record:
             value = getattr(self, name)
             if isinstance(check, type):
                 if not isinstance(value, check):
-                    raise ValueError(f"{name} = {reprlib.repr(value)}: must be {check.__name__}")
+                    raise ValueError(f"{name} = {shown(value)}: must be {check.__name__}")
             elif name != "load" or value is not None:
                 object.__setattr__(self, name, check.check(name, value))
 
@@ -310,9 +309,10 @@ class Machine(_Record):
         """
         document = _parse(text)
         version = document.pop("version", None)
-        if version != FORMAT_VERSION:
-            shown = reprlib.repr(version)
-            raise ValueError(f"version = {shown}: this program reads version {FORMAT_VERSION}")
+        if isinstance(version, bool) or version != FORMAT_VERSION:
+            raise ValueError(
+                f"version = {shown(version)}: this program reads version {FORMAT_VERSION}"
+            )
         return _from_dict(cls, document, where="")
 
 
@@ -334,11 +334,11 @@ def _to_dict(record: _Record) -> dict[str, object]:
 def _from_dict(cls: type[R], tree: object, *, where: str) -> R:
     """Return the record that a tree of JSON values describes; `where` is the path to it."""
     if not isinstance(tree, Mapping):
-        raise ValueError(f"{where or 'machine'} = {reprlib.repr(tree)}: must be a JSON object")
+        raise ValueError(f"{where or 'machine'} = {shown(tree)}: must be a JSON object")
     values = dict(cast("Mapping[str, Any]", tree))
     checks = _checks(cls)
     for unknown in values.keys() - checks.keys():
-        raise ValueError(f"{where}{unknown[:80]}: unknown key; known are {', '.join(checks)}")
+        raise ValueError(f"{where}{_key(unknown)}: unknown key; known are {', '.join(checks)}")
     for missing in checks.keys() - values.keys():
         raise ValueError(f"{where}{missing}: missing")
     for name, check in checks.items():
@@ -346,6 +346,8 @@ def _from_dict(cls: type[R], tree: object, *, where: str) -> R:
             values[name] = _from_dict(check, values[name], where=f"{where}{name}.")
         elif isinstance(check, Bound) and check.infinite and values[name] == "inf":
             values[name] = math.inf
+        elif isinstance(values[name], float) and math.isinf(values[name]):
+            raise ValueError(f"{where}{name}: too large for a number; infinite is written 'inf'")
     return cls(**values)
 
 
@@ -359,10 +361,10 @@ def _parse(text: str) -> dict[str, Any]:
             parse_constant=_refuse_constant,
             object_pairs_hook=_unique_keys,
         )
-    except (json.JSONDecodeError, RecursionError, TypeError) as error:
+    except (json.JSONDecodeError, UnicodeDecodeError, RecursionError, TypeError) as error:
         raise ValueError(f"no JSON text of a machine: {error}") from error
     if not isinstance(document, dict):
-        raise ValueError(f"machine = {reprlib.repr(document)}: must be a JSON object")
+        raise ValueError(f"machine = {shown(document)}: must be a JSON object")
     return cast("dict[str, Any]", document)
 
 
@@ -371,8 +373,14 @@ def _refuse_constant(word: str) -> NoReturn:
 
 
 def _unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    keys = [key for key, _ in pairs]
-    for key in keys:
-        if keys.count(key) > 1:
-            raise ValueError(f"{key[:80]}: given twice")
-    return dict(pairs)
+    unique: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in unique:
+            raise ValueError(f"{_key(key)}: given twice")
+        unique[key] = value
+    return unique
+
+
+def _key(key: str) -> str:
+    """Return a key as an error shows it: short, and free of surrogates, which no page can show."""
+    return key[:80].encode("utf-8", "backslashreplace").decode()

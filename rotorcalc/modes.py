@@ -136,9 +136,7 @@ def mode_shapes(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> M
     )
 
 
-def refined_eigenvalues(
-    rotor: Rotor, K: Array, C: Array, *, flexible: bool = True
-) -> ComplexArray:
+def refined_eigenvalues(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> ComplexArray:
     """Return the eigenvalues λ of the free motion, each to a rounding error of its own.
 
     A matrix eigenvalue is good to a rounding error of the matrix's largest entries, which for a
@@ -162,11 +160,11 @@ def refined_eigenvalues(
 
     Notes
     -----
-    With Z = K + λC + λ²M_j I for film and journal, z = λ²m_d + λC_s for the disk and s = 1/K_rot for
-    the shaft, the free motion's journal j obeys W j = (Z + z I + s z Z) j = 0, as the synchronous
-    response does with jΩ for λ. Newton's step for det W = 0 is −1/tr(W⁻¹ dW/dλ). It starts from
-    the matrix eigenvalues, and from the two of K + λ(C + C_s I), to which the slow ones tend as
-    the masses lose their part in them: those are the ones that the matrix tells least.
+    With Z = K + λC + λ²M_j I for film and journal, z = λ²m_d + λC_s for the disk and s = 1/K_rot
+    for the shaft, the free motion's journal j obeys W j = (Z + z I + s z Z) j = 0, as the
+    synchronous response does with jΩ for λ. Newton's step for det W = 0 is −1/tr(W⁻¹ dW/dλ). It
+    starts from the matrix eigenvalues, and from the two of K + λ(C + C_s I), to which the slow ones
+    tend as the masses lose their part in them: those are the ones that the matrix tells least.
     """
     s = 1.0 / rotor.shaft_stiffness if flexible else 0.0
     slow = np.linalg.eigvals(np.linalg.solve(C + rotor.disk_damping * _I, -K))

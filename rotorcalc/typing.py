@@ -1,10 +1,33 @@
-"""The array types of the package's signatures."""
+"""The array types of the package's signatures, how input becomes one, how an error shows it."""
 
+import reprlib
 from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 Array: TypeAlias = NDArray[np.float64]
 ComplexArray: TypeAlias = NDArray[np.complex128]
 BoolArray: TypeAlias = NDArray[np.bool_]
+
+
+def real_array(name: str, values: ArrayLike) -> Array:
+    """Return `values` as an array of floats, or raise ValueError naming what they are.
+
+    NumPy alone would read "6000", True and None as numbers.
+    """
+    try:
+        array = np.asarray(values)
+    except ValueError as error:  # rows of different lengths
+        raise ValueError(f"{name} = {shown(values)}: must be an array of numbers") from error
+    if array.dtype.kind not in "fiu" and array.size > 0:
+        raise ValueError(f"{name} = {shown(values)}: must be a number or an array of numbers")
+    return array.astype(float, copy=False)
+
+
+def shown(value: object) -> str:
+    """Return a value as an error shows it: short, and whatever it is."""
+    try:
+        return reprlib.repr(value)
+    except ValueError:  # Python refuses to write out integers of thousands of digits
+        return f"an {type(value).__name__} of thousands of digits"

@@ -23,7 +23,7 @@ from rotorcalc.typing import Array, ComplexArray
 _I = np.eye(2)
 # The modified Sommerfeld number below which no film can whirl.
 _CLOSEST_FILM = 1e-3
-_CIRCLE = np.array([1.0, -1.0j])  # turns forward
+_CIRCLE: ComplexArray = np.array([1.0, -1.0j])  # turns forward
 
 
 @dataclass(frozen=True, eq=False)
@@ -214,8 +214,8 @@ def stiffness_work(K: ArrayLike, orbit: ArrayLike) -> Array:
     array, (...)
         Work [J]; positive where it drives the orbit.
     """
-    K = np.asarray(K, dtype=float)
-    return (K[..., 0, 1] - K[..., 1, 0]) * orbit_area(orbit)
+    stiffness = np.asarray(K, dtype=float)
+    return (stiffness[..., 0, 1] - stiffness[..., 1, 0]) * orbit_area(orbit)
 
 
 def damping_work(C: ArrayLike, orbit: ArrayLike, frequency: ArrayLike) -> Array:
@@ -264,7 +264,7 @@ def whirl_orbit(machine: Machine, onset: Onset) -> WhirlOrbit:
     if not math.isfinite(onset.speed):
         raise ValueError(f"onset = {onset.speed} rad/s: without an onset there is no whirl orbit")
     if onset.speed == 0.0:
-        circle = _CIRCLE / math.sqrt(np.pi)
+        circle = _CIRCLE / np.complex128(math.sqrt(np.pi))
         return WhirlOrbit(speed=0.0, frequency=0.0, journal=circle, disk=circle)
     state = equilibrium(machine, onset.speed)
     lam = np.array(1j * onset.whirl_frequency)

@@ -48,9 +48,10 @@ def _without_dimensions(
         st.latex(matrix(symbol, values, Unit("-"), film.axes))
 
 
-def dimensionless_caption(symbol: str, figure: str) -> str:
+def dimensionless_caption(symbol: str, against: str) -> str:
     """Return what the charts of k and c say."""
     unit = "k = KC/F_o" if symbol == "k" else "c = CΩC/F_o"
+    figure = "5.5" if against == "ε" else "5.6"
     return (
         f"{unit}; dashed: minus the value, where that is negative. The load is the unit, so this "
         f"does not show how the coefficients themselves go. Fig. {figure}, Eqs. 5.32 to 5.35"
@@ -74,18 +75,15 @@ def show_centred(view: View, units: Units) -> None:
     st.markdown(
         "Push a centred journal aside by a little. The film is now thinner where the journal went, "
         "and the turning surface drags oil towards that place: pressure rises a quarter turn "
-        "**before** it, and pushes the journal sideways, on in the sense of rotation. Nothing pushes "
-        "it back: no direct stiffness, only $K_{XY} = -K_{YX}$. If the journal whirls at half the "
-        "shaft's speed, the narrow place travels as fast as the oil does on average, and no pressure "
-        "rises at all: stiffness and damping cancel, so $K_{XY} = \\tfrac{\\Omega}{2}C_{XX}$ "
-        "(Eq. 5.37). At this machine's speed, its load taken off:"
+        "**before** it, and pushes the journal sideways, on in the sense of rotation. Nothing "
+        "pushes it back: no direct stiffness, only $K_{XY} = -K_{YX}$. If the journal whirls at "
+        "half the shaft's speed, the narrow place travels as fast as the oil does on average, and "
+        "no pressure rises at all: stiffness and damping cancel, so $K_{XY} = "
+        "\\tfrac{\\Omega}{2}C_{XX}$ (Eq. 5.37). At this machine's speed, its load taken off:"
     )
-    st.latex(
-        matrix("K", centred.stiffness, unit)
-        + r",\qquad \tfrac{\Omega}{2}C_{XX} = "
-        + tex(float(unit.of(centred.whirl_damping[0, 0])))
-        + rf"\ \text{{{unit.name}}}"
-    )
+    damping = tex(float(unit.of(centred.whirl_damping[0, 0])))
+    st.latex(matrix("K", centred.stiffness, unit))
+    st.latex(rf"\tfrac{{\Omega}}{{2}}C_{{XX}} = {damping}\ \text{{{unit.name}}}")
     st.markdown(_distance_from_centre(view, here.stiffness, units))
 
 
@@ -104,21 +102,19 @@ def show_added_mass(view: View, units: Units) -> None:
     """Tell how much the film's added mass is, on what assumption, and whether it matters."""
     laminar, bulk = view.added_mass_here(LAMINAR), view.added_mass_here(BULK_FLOW)
     share = float(laminar.to_rotor)
-    st.latex(
-        matrix("M", laminar.mass, units.mass)
-        + r",\qquad M_{ij} = \alpha_m\frac{\rho R L^3}{12\,C}I_{ij}"
-    )
+    st.latex(matrix("M", laminar.mass, units.mass))
+    st.latex(r"M_{ij} = \alpha_m\frac{\rho R L^3}{12\,C}\,I_{ij}(\varepsilon)")
+    density = digits(float(units.density.of(view.machine.oil.density)))
     st.markdown(
         f"**{_percent(share)} of half the rotor's mass**: {_verdict(share)} With a flat profile of "
-        f"velocity (bulk flow, α_m = 1) it is {_percent(float(bulk.to_rotor))}. At running speed the "
-        f"force of the film's inertia is {_percent(float(laminar.to_damping))} of the force of its "
-        "damping."
+        f"velocity (bulk flow, α_m = 1) it is {_percent(float(bulk.to_rotor))}. At running speed "
+        f"the force of the film's inertia is {_percent(float(laminar.to_damping))} of the force of "
+        "its damping."
     )
     st.caption(
         "Assumes laminar flow, α_m = 6/5, temporal inertia only, the film over half the "
-        f"circumference, and the oil's density of {digits(float(units.density.of(view.machine.oil.density)))} "
-        f"{units.density.name} (sidebar, Oil). Definition: Eq. 5.14. The rest of the program "
-        "leaves added mass out, as the notes do."
+        f"circumference, and the oil's density of {density} {units.density.name} (sidebar, Oil). "
+        "Definition: Eq. 5.14. The rest of the program leaves added mass out, as the notes do."
     )
 
 
@@ -126,7 +122,7 @@ def _verdict(share: float) -> str:
     if share < _SMALL:
         return "it does not matter."
     if share < _LARGE:
-        return "small; a shift of the frequencies by at most half as much."
+        return "small; it would lower frequencies by about half as much at most."
     return "worth counting; it would lower natural frequencies and the onset, which leave it out."
 
 

@@ -23,12 +23,12 @@ Column: TypeAlias = tuple[str, Unit, Array]
 ROSS_NAME, ROSS_MIME = "ross_bearing.xlsx", xlsx.MIME
 
 ROSS_NOTE = (
-    "ROSS table: `rs.BearingElement.from_table(n=0, file='ross_bearing.xlsx')` reads it; K in N/m, "
-    "C in N·s/m, speed in rad/s, one bearing. ROSS's x is horizontal and its y points up, the shaft "
-    "turning from x to y; X here points down along the load and Y at +90° in the sense of rotation. "
+    "ROSS table: `rs.BearingElement.from_table(n=0, file='ross_bearing.xlsx')` reads it. One "
+    "bearing, K in N/m, C in N·s/m, speed in rad/s. ROSS's x is horizontal, its y up, the shaft "
+    "turning from x to y; X here points down along the load, Y at +90° in the sense of rotation. "
     "So x = Y and y = −X, a rotation by −90°: kxx = K_YY, kxy = −K_YX, kyx = −K_XY, kyy = K_XX, "
     "and c likewise. Signs are the same in both, K_ij = −∂F_i/∂X_j. Between the speeds ROSS lays "
-    "splines."
+    "splines; a phase counts there from x, here from X."
 )
 
 # ROSS looks for inches, pounds and revolutions a minute in every text of the sheet and converts

@@ -32,9 +32,9 @@ CAPTIONS = {
     "damping": "ζ = −Re λ/|λ|: zero at the onset; 1, dotted, where a mode does not oscillate.",
     "natural": "|λ|, beside √(K_eq/M) of a rigid rotor on the film (Eq. 5.47) and √(K_rot/M) of "
     "the shaft in rigid bearings. The rigid rotor's onset is where its mode meets √(K_eq/M).",
-    "decrement": "δ = −2π Re λ/|Im λ|: each turn is smaller than the last by the factor e^(−δ).",
-    "shape": "Right eigenvector of λ, its largest displacement 1; orbits about equilibrium. X points "
-    "down along the load, the shaft turns counterclockwise, from X to Y.",
+    "decrement": "δ = −2π Re λ/|Im λ|: each turn's amplitude is e^(−δ) of the one before.",
+    "shape": "Right eigenvector of λ, its largest displacement 1; orbits about equilibrium. X "
+    "points down along the load, the shaft turns counterclockwise, from X to Y.",
 }
 HOW_TO_READ = """
 **How to read these charts**

@@ -69,10 +69,12 @@ def begin(title: str, sentence: str) -> Page:
     )
     st.html(_STYLE)
     kept = state()
+    kept.arriving = kept.page != title
     with st.sidebar:
         sidebar.draw_presets()
         compare.draw_buttons()
         sidebar.draw_inputs()
+    kept.page = title
     write_address_bar()
     _navigation()
     st.header(title, anchor=False)

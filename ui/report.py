@@ -7,12 +7,11 @@ import functools
 import importlib.resources
 import math
 import string
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator
 from html import escape
 from pathlib import Path
 from typing import TypeAlias
 
-import numpy as np
 import plotly.io
 
 from rotorcalc import modes
@@ -21,7 +20,7 @@ from rotorcalc.typing import Array
 from rotorcalc.validity import validity
 from ui import report_charts
 from ui.inputs import GROUPS, INPUTS, Values, values_of
-from ui.report_charts import SECTIONS, Figure
+from ui.report_charts import Figure
 from ui.results import RESULTS, digits
 from ui.verdict import verdict
 from ui.view import View
@@ -29,23 +28,6 @@ from ui.view import View
 # Text, and the class of its cell.
 Cell: TypeAlias = tuple[str, str]
 
-_SOURCE = (
-    "Equations are those of L. San Andrés, Modern Lubrication Theory, Notes 5; “Sheet” is the "
-    "calculation sheet that goes with them."
-)
-_CONVENTIONS = (
-    "A symmetric rotor on two identical journal bearings. Mass is the whole rotor's, 2M; load, shaft "
-    "stiffness, damping, power and flow are those of one bearing or one side.",
-    "X points along the static load, drawn downward; Y stands at +90° in the sense of rotation.",
-    "K_ij = −∂F_i/∂X_j and C_ij = −∂F_i/∂Ẋ_j, F the film's force on the journal.",
-    "The attitude angle φ goes from the load line to the line of centres, positive in the sense of "
-    "rotation. C is the radial clearance, and ε the journal's eccentricity over it.",
-    "σ is the modified Sommerfeld number, μΩLR/(4Fₒ)·(L/C)²; the classical one is S = σ(D/L)²/π.",
-    "The imbalance turns forward; amplitudes are from zero to peak, phase lags behind the imbalance.",
-    "Film: short bearing (no pressure flow around the journal), laminar, of one viscosity, aligned, "
-    "cavitated at ambient pressure. Motion about equilibrium: linear.",
-    _SOURCE,
-)  # fmt: skip
 _WORDS = {"good": "holds", "caution": "strained", "outside": "outside"}
 
 
@@ -60,7 +42,11 @@ def report(view: View, baseline: View | None, units: Units, link: str, version: 
         _matrices(view, units),
         _modes(view, units),
         _validity(view),
-        *(_section(title, figures, charts) for title, figures in SECTIONS.items()),
+        _reading(view, baseline),
+        *(
+            _section(title, figures, charts)
+            for title, figures in report_charts.sections(view).items()
+        ),
     )
     return page.substitute(
         title="Rotor on two journal bearings",
@@ -68,7 +54,6 @@ def report(view: View, baseline: View | None, units: Units, link: str, version: 
         level=judged.level,
         verdict=escape(judged.sentence),
         body="\n".join(body),
-        conventions="".join(f"<li>{escape(line)}</li>" for line in _CONVENTIONS),
         version=escape(version),
         link=_anchor(link),
         plotly=_plotly(),
@@ -115,16 +100,16 @@ def _inputs(view: View, baseline: View | None, units: Units) -> str:
         rows.append(f'<tr class="group"><th colspan="5">{escape(group)}</th></tr>')
         keys = (key for key, item in INPUTS.items() if item.group == group)
         rows += (_input(key, live, pinned, units) for key in keys)
-    head = _head("Input", "Symbol", ("Value", "n"), "Unit", *([] if pinned is None else [("A", "n")]))
+    beside = [] if pinned is None else [("A", "n")]
+    head = _head("Input", "Symbol", ("Value", "n"), "Unit", *beside)
     return f"<h2>Inputs</h2>{_table(head, rows)}"
 
 
 def _input(key: str, live: Values, pinned: Values | None, units: Units) -> str:
     item = INPUTS[key]
-    unit = item.unit(units).name
-    cells = [(item.label, ""), (item.symbol, ""), (_value(key, live, units), "n"),
-             ("" if unit == "-" else unit, "")]  # fmt: skip
-    differs = pinned is not None and pinned[key] != live[key]
+    value, differs = live[key], pinned is not None and pinned[key] != live[key]
+    unit = item.unit(units).name if value is not None and math.isfinite(value) else ""
+    cells = [(item.label, ""), (item.symbol, ""), (_value(key, live, units), "n"), (unit, "")]
     if pinned is not None:
         cells.append((_value(key, pinned, units) if differs else "", "n"))
     return _row(cells, "differs" if differs else "")
@@ -149,9 +134,9 @@ def _result(key: str, view: View, baseline: View | None, units: Units) -> str:
     result = RESULTS[key]
     cells = [(result.label, ""), (_minus(result.shown(view, units)), "n")]
     if baseline is not None:
-        change = result.change(view, baseline) or ""
+        change = (result.change(view, baseline) or "").removesuffix(" vs A")
         cells.append((_minus(result.shown(baseline, units)), "n"))
-        cells.append((_minus(change.removesuffix(" vs A")), "n"))
+        cells.append(("" if change == "+0 %" else _minus(change), "n"))
     return _row([*cells, (result.number, "")])
 
 
@@ -211,13 +196,41 @@ def _validity(view: View) -> str:
         ])
         for check in validity(view.point)
     )  # fmt: skip
-    head = _head("Assumption", ("Here", "n"), ("Strained at", "n"), ("Fails at", "n"), "Model", "Why")
+    limits = ("Strained at", "n"), ("Fails at", "n")
+    head = _head("Assumption", ("Here", "n"), *limits, "Model", "Reason")
     return f"<h2>Where the model holds</h2>{_table(head, rows)}"
 
 
+def _reading(view: View, baseline: View | None) -> str:
+    """Return how to read the charts."""
+    lines = ["On every chart the yellow point is the running speed"]
+    if baseline is not None:
+        lines.append(", grey lines and rings are the pinned machine A")
+    lines.append(".")
+    if view.machine.rotor.imbalance == 0.0:
+        lines.append(" The rotor is balanced, so there is no response to show.")
+    elif not view.is_stable:
+        lines.append(" Unstable at that speed, the machine has no steady response there.")
+    return f'<p class="reading">{"".join(lines)}</p>'
+
+
 def _section(title: str, figures: Iterable[Figure], charts: report_charts.Charts) -> str:
-    drawn = "".join(_figure(figure, charts[figure.key]) for figure in figures)
-    return f'<h2>{escape(title)}</h2><div class="charts">{drawn}</div>'
+    rows = (
+        "".join(_figure(figure, charts[figure.key]) for figure in row) for row in _paired(figures)
+    )
+    drawn = "".join(f'<div class="charts">{row}</div>' for row in rows)
+    return f"<h2>{escape(title)}</h2>{drawn}"
+
+
+def _paired(figures: Iterable[Figure]) -> Iterator[list[Figure]]:
+    """Yield the charts of each row: one, or two that share the page's width."""
+    row: list[Figure] = []
+    for figure in figures:
+        if row and sum(other.width for other in row) + figure.width > report_charts.FULL:
+            yield row
+            row = []
+        row.append(figure)
+    yield row
 
 
 def _figure(figure: Figure, chart: report_charts.Chart) -> str:

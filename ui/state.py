@@ -26,6 +26,9 @@ class State:
     baseline: Values | None = None
     typed: bool = False
     image_format: str = "png"
+    # The page whose sidebar was drawn last, and whether the visitor has just come to another.
+    page: str = ""
+    arriving: bool = True
 
     @property
     def units(self) -> Units:
@@ -78,6 +81,9 @@ def write_address_bar() -> None:
 
 
 def mirror(key: str, value: object) -> None:
-    """Give a widget its value before it is drawn, where it has another: no needless message."""
-    if st.session_state.get(key) != value:
+    """Give a widget its value before it is drawn, where it has another: no needless message.
+
+    A page's widgets are its own: on arriving, `session_state` still answers for the last page's.
+    """
+    if state().arriving or st.session_state.get(key) != value:
         st.session_state[key] = value

@@ -89,7 +89,7 @@ def _log_slider(item: Input, shown: float, units: Units, common: dict[str, Any])
 
 def _typed(item: Input, shown: float, units: Units, common: dict[str, Any]) -> None:
     low, high = item.shown(item.low, units), item.shown(item.high, units)
-    step = _round_step(item.shown(item.low + item.step, units) - low) if not item.log else low
+    step = float(low) if item.log else _round_step(item.shown(item.low + item.step, units) - low)
     mirror(common["key"], float(min(shown, high)))
     st.number_input(min_value=float(low), max_value=float(high), step=step, format="%.6g", **common)
 

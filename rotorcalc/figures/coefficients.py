@@ -23,6 +23,10 @@ _COLOURS = {
     (1, 1): style.YY,
 }
 _NAMES = {"XY": ("X", "Y"), "rt": ("r", "t")}
+# Narrow entries: the names are two or three letters.
+_LEGEND = {
+    "orientation": "h", "x": 0, "y": 1.01, "yanchor": "bottom", "entrywidth": 28,
+           "itemwidth": 30}  # fmt: skip
 # Speeds below this share of the top speed do not set a linear axis: coefficients run away there.
 _SLOW = 0.1
 
@@ -49,7 +53,7 @@ def dimensionless(
     if is_stiffness:
         k_eq = curve.equivalent_stiffness
         traces.append(style.line(places, k_eq, "k<sub>eq</sub>", style.GREY, dash="dot"))
-    return style.chart([*traces, *_points(float(place), values_here, (x, y))], x, y)
+    return style.chart([*traces, *_points(float(place), values_here, (x, y))], x, y, legend=_LEGEND)
 
 
 def stiffness_against_speed(
@@ -127,6 +131,7 @@ def _dimensional(
             values[:, *place],
             f"{symbol}<sub>{_indices(curve.axes, place)}</sub>",
             colour,
+            width=_width(symbol, place),
         )
         for place, colour in _COLOURS.items()
     ]
@@ -134,7 +139,9 @@ def _dimensional(
         K_eq = unit.of(curve.equivalent_stiffness)
         traces.append(style.line(speed, K_eq, "K<sub>eq</sub>", style.GREY, dash="dot"))
     now = float(units.speed.of(point.speed))
-    return style.chart([*traces, *_points(now, values_here, (x, y), signed=True)], x, y)
+    return style.chart(
+        [*traces, *_points(now, values_here, (x, y), signed=True)], x, y, legend=_LEGEND
+    )
 
 
 def _elements(symbol: str, axes: str, places: Array, values: Array) -> list[Trace]:
@@ -146,17 +153,23 @@ def _elements(symbol: str, axes: str, places: Array, values: Array) -> list[Trac
                 values[:, *place],
                 f"{symbol}<sub>{_indices(axes, place)}</sub>",
                 colour,
+                width=_width(symbol, place),
             )
             for place, colour in _COLOURS.items()
         ]
     )
 
 
-def _signed(x: Array, y: Array, name: str, colour: str) -> list[Trace]:
+def _width(symbol: str, place: tuple[int, int]) -> float:
+    """Return a line's width: c_XY, often equal to c_YX, shows on both its sides."""
+    return 5.5 if symbol in "cC" and place == (0, 1) else 2.2
+
+
+def _signed(x: Array, y: Array, name: str, colour: str, width: float = 2.2) -> list[Trace]:
     """Return |y| as a line where y is positive and as a dashed line where it is negative."""
     parts = [(y, name, "solid"), (-y, f"−{name}", "dash")]
     return [
-        style.line(x, np.where(part > 0.0, part, np.nan), label, colour, dash=dash)
+        style.line(x, np.where(part > 0.0, part, np.nan), label, colour, dash=dash, width=width)
         for part, label, dash in parts
         if np.any(part > 0.0)
     ]
@@ -172,7 +185,8 @@ def _points(
         return []
     largest = float(finite.max())
     others = style.mark(np.full(len(levels), x), levels, "running speed", showlegend=False)
-    return [*style.here(x, largest, *axes), others]
+    lines, point = style.here(x, largest, *axes)
+    return [lines, point | {"showlegend": False}, others]
 
 
 def _indices(axes: str, place: tuple[int, int]) -> str:

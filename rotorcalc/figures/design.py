@@ -8,6 +8,7 @@ import numpy as np
 
 from rotorcalc.design import OnsetMap, OnsetSolution, Sensitivities
 from rotorcalc.figures import style
+from rotorcalc.figures.stability import LEGEND, MARGIN, near
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
 from rotorcalc.figures.units import Unit, Units
 from rotorcalc.typing import Array
@@ -38,7 +39,8 @@ class Quantity:
         """Return the axis."""
         low, high = (float(self.unit.of(end)) for end in (self.low, self.high))
         title = titled(self.words, self.symbol, self.unit.name)
-        return style.axis(title, low, high, log=self.log)
+        ticks = {"dtick": "D2"} if self.log else {}
+        return near(style.axis(title, low, high, log=self.log, **ticks))
 
     def place(self, value: float) -> float:
         """Return where a value stands on the axis, at its nearer end where it lies outside."""
@@ -62,9 +64,7 @@ def onset_map(
     line runs: beyond it the machine would be unstable there.
     """
     x, y = (quantity.axis() for quantity in quantities)
-    left, bottom = (
-        quantity.place(value) for quantity, value in zip(quantities, here, strict=True)
-    )
+    left, bottom = (quantity.place(value) for quantity, value in zip(quantities, here, strict=True))
     return style.chart(
         [
             *_contours(shown, quantities, float(units.speed.of(speed)), units),
@@ -73,7 +73,7 @@ def onset_map(
         x,
         y,
         height=500,
-        legend=style.legend_below(),
+        legend=LEGEND,
         margin={"l": 64, "r": 16, "t": 16, "b": 84},
     )
 
@@ -91,17 +91,24 @@ def tornado(found: Sensitivities, names: Mapping[str, str], units: Units) -> Cha
     reach = style.ceiling(1.45 * np.abs([*shown_less, *shown_more, 1.0 / 1.45]))
     return style.chart(
         [
-            _bars(shown_less, places, "less", less / onset if onset else less, _LESS),
-            _bars(shown_more, places, "more", more / onset if onset else more, _MORE),
+            _bars(shown_less, places, "10 % less", less / onset if onset else less, _LESS),
+            _bars(shown_more, places, "10 % more", more / onset if onset else more, _MORE),
         ],
-        style.axis(titled("Movement of the onset", "ΔΩ_s", unit.name), -reach, reach),
+        near(
+            style.axis(titled("Movement of the onset", "ΔΩ<sub>s</sub>", unit.name), -reach, reach)
+        ),
         style.axis(
-            "", -0.6, len(inputs) - 0.4, tickvals=places, ticktext=[names[i.field] for i in inputs]
+            "",
+            -0.6,
+            len(inputs) - 0.4,
+            tickvals=places,
+            showgrid=False,
+            ticktext=[names[one.field] for one in inputs],
         ),
         barmode="overlay",
         height=110 + 34 * max(len(inputs), 4),
-        legend=style.legend_below() | {"y": -0.2},
-        margin={"l": 64, "r": 16, "t": 16, "b": 96},
+        legend=LEGEND,
+        margin=MARGIN,
         shapes=[_zero()],
     )
 
@@ -117,7 +124,7 @@ def solution(
     x, now = quantity.axis(), float(unit.of(here[1]))
     target = float(unit.of(found.target))
     top = style.ceiling([1.6 * target, min(1.2 * now, 6.0 * target)])
-    y = style.axis(titled("Onset speed", "Ω_s", unit.name), 0.0, top)
+    y = style.axis(titled("Onset speed", "Ω<sub>s</sub>", unit.name), 0.0, top)
     onset = unit.of(np.where(np.isinf(found.onset), np.nan, found.onset))
     values = quantity.unit.of(found.values)
     ends = [values[0], values[-1]]
@@ -135,8 +142,8 @@ def solution(
         traces,
         x,
         y,
-        legend=style.legend_below(),
-        margin={"l": 64, "r": 16, "t": 16, "b": 96},
+        legend=LEGEND,
+        margin=MARGIN,
     )
 
 
@@ -181,7 +188,10 @@ def _change(onset: float, base: float) -> float:
 
 
 def _bars(x: Array, y: Array, name: str, shares: Array, colour: str) -> Trace:
-    texts = [f"{move:+.0f} ({share:+.1%})" for move, share in zip(x, shares, strict=True)]
+    texts = [
+        f"{move:+.0f} ({100 * share:+.2g} %)".replace("-", "−")
+        for move, share in zip(x, shares, strict=True)
+    ]
     return {
         "type": "bar", "orientation": "h", "x": x, "y": y, "name": name, "width": 0.62,
         "marker": {"color": colour}, "text": texts, "textposition": "outside",

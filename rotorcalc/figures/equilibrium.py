@@ -42,11 +42,10 @@ def locus(
         _guides(at),
         style.mark(at[1], at[0], "running speed", hovertemplate=_position_hover(point, units)),
     ]
-    beside: Part = {"size": 12, "xshift": 7, "yshift": -8, "xanchor": "left"}
     labels = [
         *(
-            plane.label(f"{rpm:.0f}", place, **beside)
-            for rpm, place in zip(speeds, ticks, strict=True)
+            plane.label(f"{rpm:.0f}", place, size=12, **_beside(faster))
+            for rpm, place, faster in zip(speeds, ticks, marks.speed[shown] > point.speed, strict=True)
         ),
         *_locus_labels(point, at, units),
         *_load_arrow(point, units),
@@ -58,7 +57,7 @@ def locus(
         plane.stroke((0.0, -1.0), (0.0, 1.0)),
         *plane.turning(*_TURN),
     ]
-    x = style.axis("Y/C, across the load, in the sense of rotation →", -_EDGE, _EDGE, dtick=0.5)
+    x = style.axis("Y/C, in the sense of rotation →", -_EDGE, _EDGE, dtick=0.5)
     y = style.axis("← X/C, along the load", _EDGE, -_EDGE, dtick=0.5)
     return plane.chart(
         traces, x, y, height=HEIGHT, margin=_MARGIN, annotations=labels, shapes=shapes
@@ -119,7 +118,9 @@ def minimum_film_thickness(sweep: Sweep, point: Sweep, units: Units) -> Chart:
     """Return the smallest film thickness over running speed, below the radial clearance."""
     C = float(units.film.of(point.machine.bearing.radial_clearance))
     title = style.titled("Smallest film", "h", units.film.name)
-    chart = _over_speed(sweep, point, units, ("minimum_film_thickness", units.film, title), least=C)
+    chart = _over_speed(
+        sweep, point, units, ("minimum_film_thickness", units.film, title), least=1.05 * C
+    )
     across = chart["layout"]["xaxis"]["range"]
     clearance = style.line(across, [C, C], "radial clearance C", _SOFT, width=1.4, dash="dot")
     return {**chart, "data": [clearance, *chart["data"]]}
@@ -191,6 +192,13 @@ def _spaced(places: Array, at: Array) -> list[int]:
         if all(math.dist(place, other) >= _SPACING for other in others):
             kept.append(i)
     return kept
+
+
+def _beside(faster: bool) -> Part:
+    """Return where a mark's label stands: clear of the path and of the running speed's label."""
+    if faster:
+        return {"xanchor": "right", "xshift": -1, "yshift": 12}
+    return {"xanchor": "left", "xshift": 7, "yshift": -8}
 
 
 def _dots(places: Array) -> Trace:

@@ -22,7 +22,10 @@ _CAVITATED = "rgba(127,127,127,0.12)"
 
 
 def film_around(field: PressureField, point: Sweep, units: Units) -> Chart:
-    """Return the film's thickness and its pressure in the middle plane around the journal."""
+    """Return the film's thickness and its pressure in the middle plane around the journal.
+
+    Thinnest film and highest pressure are marked; without load neither has a place.
+    """
     theta, h = units.angle.of(field.theta), units.film.of(field.thickness)
     middle = int(np.argmin(np.abs(field.axial_position)))
     p = units.pressure.of(field.pressure[:, middle])
@@ -47,9 +50,12 @@ def film_around(field: PressureField, point: Sweep, units: Units) -> Chart:
             theta, p, "pressure", _PRESSURE, yaxis="y2", fill="tozeroy", fillcolor=_PRESSURE_FILL,
             hovertemplate=text.hover("θ = %{x:.0f}°", units.pressure),
         ),
-        *style.here(theta[thinnest], h[thinnest], x, y, "thinnest film"),
-        *style.lower(style.here(peak, top, x, y2, "highest pressure")),
     ]  # fmt: skip
+    if point.machine.static_load > 0.0:
+        traces += [
+            *style.here(theta[thinnest], h[thinnest], x, y, "thinnest film"),
+            *style.lower(style.here(peak, top, x, y2, "highest pressure")),
+        ]
     notes = _over_theta(field, point, units, level=0.3)
     return style.chart(traces, x, y, yaxis2=y2, height=HEIGHT, showlegend=False, **notes)
 
@@ -59,12 +65,13 @@ def pressure_map(field: PressureField, point: Sweep, units: Units) -> Chart:
     z = units.length.of(field.axial_position)
     edge, high = style.ceiling(z), style.ceiling(units.pressure.of(point.peak_pressure))
     p = np.where(field.cavitated[:, None], np.nan, units.pressure.of(field.pressure))
+    once = slice(None, -1)  # 360° repeats 0°
     x = _around()
     y = style.axis(style.titled("Axial position", "z", units.length.name), -edge, edge)
     title = style.titled("Pressure", "p", units.pressure.name)
     contour: Trace = {
-        "type": "contour", "name": "pressure", "x": units.angle.of(field.theta), "y": z,
-        "z": p.T.astype(np.float32),  # half the digits, half the message
+        "type": "contour", "name": "pressure", "x": units.angle.of(field.theta[once]), "y": z,
+        "z": p[once].T.astype(np.float32),  # half the digits, half the message
         "zmin": 0.0, "zmax": high, "colorscale": "Cividis", "line": {"width": 0.4},
         "contours": {"start": 0.0, "end": high, "size": high / 10},
         "colorbar": {"title": {"text": title, "side": "right"}, "thickness": 14, "outlinewidth": 0},
@@ -72,8 +79,9 @@ def pressure_map(field: PressureField, point: Sweep, units: Units) -> Chart:
         f"%{{z:.3g}} {units.pressure.name}<extra></extra>",
     }  # fmt: skip
     peak = style.here(float(units.angle.of(field.peak_theta)), 0.0, x, y, "highest pressure")
+    traces = [contour, *peak] if point.machine.static_load > 0.0 else []
     notes = _over_theta(field, point, units, level=0.5)
-    return style.chart([contour, *peak], x, y, height=HEIGHT, showlegend=False, **notes)
+    return style.chart(traces, x, y, height=HEIGHT, showlegend=False, **notes)
 
 
 def forces(curves: FilmForces, at: FilmForces, units: Units) -> Chart:
@@ -157,13 +165,13 @@ def _over_theta(field: PressureField, point: Sweep, units: Units, *, level: floa
         shapes.append(
             _upright(a, b, type="rect", fillcolor=_CAVITATED, line={"width": 0}, layer="below")
         )
-        notes.append(style.note("cavitated:<br>ambient pressure", (a + b) / 2, level, xref="x"))
+        words = "cavitated:<br>ambient pressure"
+        notes.append(style.note(words, (a + b) / 2, level, xref="x", font={"size": 12}))
     return {"annotations": notes, "shapes": shapes}
 
 
 def _around(**extra: Any) -> Axis:
-    title = "θ from the thickest film, in the sense of rotation [°]"
-    return style.axis(title, 0.0, 360.0, dtick=60, **extra)
+    return style.axis("θ from the thickest film [°]", 0.0, 360.0, dtick=60, **extra)
 
 
 def _upright(left: float, right: float, **extra: Any) -> Part:

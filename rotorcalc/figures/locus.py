@@ -78,7 +78,7 @@ def window(locus: Locus, units: Units) -> tuple[float, float, float]:
     """Return how far a view of the modes that whirl goes left, right and up."""
     real, frequency = _whirling(locus, units)
     left = style.ceiling(-real)
-    return left, max(style.ceiling(real), left / 4.0), style.ceiling(frequency)
+    return left, max(style.ceiling(real), left / 3.0), style.ceiling(frequency)
 
 
 def whirl_frequency(eigenvalue: ComplexArray | complex, units: Units) -> Array:
@@ -188,9 +188,9 @@ def _moving(step: list[Trace]) -> list[Trace]:
     """Return the scrubber's traces at a step."""
     half, rings = step
     line = style.line(half["x"], half["y"], "½× slider's speed", style.GREY, dash="dash", width=1.2)
-    ring = style.mark(rings["x"], rings["y"], "slider's speed")
+    ring = style.mark(rings["x"], rings["y"], "slider's speed and ½×")
     hollow = {"size": 15, "color": "rgba(0,0,0,0)", "line": {"color": style.GREY, "width": 2.5}}
-    return [line | {"hoverinfo": "skip"}, {**ring, "marker": hollow}]
+    return [line | {"hoverinfo": "skip", "showlegend": False}, {**ring, "marker": hollow}]
 
 
 def _half_plane(right: float) -> Item:
@@ -223,7 +223,7 @@ def _rays(left: float, top: float, units: Units) -> list[tuple[Item, Item]]:
         slope = ratio / np.sqrt(1.0 - ratio**2)
         end = min(1.0, left / (slope * reach))  # where the ray leaves the view
         x, y = -slope * reach * end, top * end
-        if end > 0.3 and -x > 0.15 * left:
+        if end > 0.3 and -x > 0.3 * left:
             line = {"color": style.FAINT, "width": 1.4, "dash": "dot"}
             rays.append((
                 {

@@ -147,11 +147,12 @@ def _swinging(values: ComplexArray, quantity: Array) -> Array:
 
 
 def _damping_range(locus: Locus) -> tuple[float, float]:
-    """Return damping ratios between which the modes that whirl lie at the higher speeds."""
-    ratio = modes.damping_ratio(locus.branches[len(locus.speed) // 2 :])
-    whirling = ratio[ratio < HARDLY_SWINGS]
-    high = style.ceiling(whirling, least=0.05) if len(whirling) else 1.05
-    low = style.ceiling(-whirling) if np.any(whirling < 0.0) else 0.0
+    """Return damping ratios between which the modes that whirl lie at the higher speeds and here."""
+    higher = modes.damping_ratio(locus.branches[len(locus.speed) // 2 :])
+    here = modes.damping_ratio(locus.here.eigenvalues)
+    ratio = np.append(higher[higher < HARDLY_SWINGS], here[locus.leading])
+    high = min(style.ceiling(ratio, least=0.05), 1.05)
+    low = style.ceiling(-ratio) if np.any(ratio < 0.0) else 0.0
     return -max(low, high / 4.0), high
 
 

@@ -56,7 +56,7 @@ def _slider(labels: Sequence[str], active: int, unit: str) -> dict[str, Any]:
             for i, label in enumerate(labels)
         ],
         "currentvalue": {"prefix": "Slide the speed: ", "suffix": f" {unit}", "xanchor": "left"},
-        "pad": {"t": 56, "b": 4, "l": 0, "r": 0},
+        "pad": {"t": 66, "b": 4, "l": 0, "r": 0},
         "len": 1.0,
         "bgcolor": _GREY,
         "bordercolor": _CLEAR,

@@ -1,8 +1,8 @@
-"""Charts of stability: the threshold over speed, the notes' Figs. 5.7 to 5.10, the energy of whirl."""
+"""Charts of stability: threshold over speed, the notes' Figs. 5.7 to 5.10, energy of the whirl."""
 
 import math
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,8 +16,11 @@ from rotorcalc.typing import Array
 from rotorcalc.whirl import Thresholds, WhirlEnergy
 
 Item = dict[str, Any]
-Against = Literal["σ", "ε"]
 
+# Under the axis, at the figure's lower edge: it takes nothing from the plot and meets nothing.
+LEGEND = {"orientation": "h", "x": 0, "yref": "container", "y": 0, "yanchor": "bottom"}
+MARGIN = {"l": 64, "r": 16, "t": 16, "b": 112}
+_BEYOND = 1e7
 _STABLE = "rgba(0,145,106,0.13)"
 # Half the space between the two bars at one speed, and their width.
 _BESIDE, _WIDE = 0.19, 0.34
@@ -41,17 +44,17 @@ class FilmFigure:
     curves: FilmCurves
     limit: FilmCurves
     here: FilmCurves | None
-    against: Against
+    over_eccentricity: bool = False
 
     def values(self, film: FilmCurves) -> Array:
         """Return a film's abscissae."""
-        return film.film.sommerfeld if self.against == "σ" else film.film.eccentricity_ratio
+        return film.film.eccentricity_ratio if self.over_eccentricity else film.film.sommerfeld
 
     def axis(self) -> Axis:
         """Return the abscissa."""
-        if self.against == "σ":
-            return style.axis(titled("Modified Sommerfeld number", "σ", "-"), 1e-2, 1e2, log=True)
-        return style.axis(titled("Eccentricity ratio", "ε", "-"), 0.0, 1.0)
+        if self.over_eccentricity:
+            return style.axis(titled("Eccentricity ratio", "ε", "-"), 0.0, 1.0)
+        return style.axis(titled("Modified Sommerfeld number", "σ", "-"), 1e-2, 1e2, log=True)
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,15 +69,17 @@ class Energies:
 def threshold(over: Thresholds, here: Thresholds, crossing: Crossing, units: Units) -> Chart:
     """Return the threshold speeds over running speed; one meets the line Ω at the onset."""
     unit = units.speed
-    x = _speed_axis(over, unit)
+    speed, x = unit.of(over.speed), _speed_axis(over, unit)
     top, now = _high(x), float(unit.of(here.flexible))
     y = style.axis(
-        titled("Threshold speed", "Ω_s", unit.name), 0.0, style.ceiling([1.2 * top, min(now, 4 * top)])
+        titled("Threshold speed", "Ω<sub>s</sub>", unit.name),
+        0.0,
+        style.ceiling([1.2 * top, min(now, 4 * top)]),
     )
     line = style.line([0.0, top], [0.0, top], "Ω", style.GREY, dash="dot")
     onset = float(unit.of(crossing.onset.speed))
     return _over_speed(
-        [*_pair(over, over.rigid, over.flexible, unit, crossing), line],
+        [*_pair(speed, unit.of(over.rigid), unit.of(over.flexible), crossing), line],
         (x, y),
         crossing,
         mark=(onset, onset),
@@ -87,15 +92,18 @@ def threshold(over: Thresholds, here: Thresholds, crossing: Crossing, units: Uni
 def whirl_frequency(over: Thresholds, here: Thresholds, crossing: Crossing, units: Units) -> Chart:
     """Return the whirl frequency at the threshold over running speed, beside half the speed."""
     unit = units.speed
-    x = _speed_axis(over, unit)
+    speed, x = unit.of(over.speed), _speed_axis(over, unit)
     top, now = _high(x), float(unit.of(here.flexible_frequency))
     y = style.axis(
-        titled("Whirl frequency", "ω_s", unit.name), 0.0, style.ceiling([0.6 * top, min(now, 4 * top)])
+        titled("Whirl frequency", "ω<sub>s</sub>", unit.name),
+        0.0,
+        style.ceiling([0.6 * top, min(now, 4 * top)]),
     )
     half = style.line([0.0, top], [0.0, 0.5 * top], "½ Ω", style.GREY, dash="dot")
+    rigid, flexible = unit.of(over.rigid_frequency), unit.of(over.flexible_frequency)
     onset = crossing.onset
     return _over_speed(
-        [*_pair(over, over.rigid_frequency, over.flexible_frequency, unit, crossing), half],
+        [*_pair(speed, rigid, flexible, crossing), half],
         (x, y),
         crossing,
         mark=(float(unit.of(onset.speed)), float(unit.of(onset.whirl_frequency))),
@@ -108,28 +116,26 @@ def whirl_frequency(over: Thresholds, here: Thresholds, crossing: Crossing, unit
 def critical_mass(over: Thresholds, here: Thresholds, crossing: Crossing, units: Units) -> Chart:
     """Return the critical mass over the rotor's, over running speed; unstable below 1."""
     unit = units.speed
-    x, now = _speed_axis(over, unit), float(here.flexible_mass_ratio)
+    speed, x = unit.of(over.speed), _speed_axis(over, unit)
+    now = float(here.flexible_mass_ratio)
     low = 10.0 ** min(-1, math.floor(math.log10(now)) if 0.0 < now < math.inf else -1)
     high = 10.0 ** max(2, math.ceil(math.log10(now)) if 0.0 < now < math.inf else 2)
     y = style.axis(titled("Critical mass over rotor mass", "", "-"), low, high, log=True)
     one = style.line([0.0, _high(x)], [1.0, 1.0], "rotor mass", style.GREY, dash="dot")
-    ratios = over.rigid_mass_ratio, over.flexible_mass_ratio
     return _over_speed(
-        [*_pair(over, *ratios, units.number, crossing, speed_unit=unit), one],
+        [*_pair(speed, over.rigid_mass_ratio, over.flexible_mass_ratio, crossing), one],
         (x, y),
         crossing,
         mark=(float(unit.of(crossing.onset.speed)), 1.0),
         here=(float(unit.of(here.speed)), now),
         shapes=[_box(x0=0, x1=1, xref="paper", y0=low, y1=1.0)],
-        annotations=[
-            style.note("unstable below 1", 0.02, 0.03, xanchor="left", yanchor="bottom")
-        ],
+        annotations=[style.note("unstable below 1", 0.02, 0.03, xanchor="left", yanchor="bottom")],
     )
 
 
 def whirl_ratio(figure: FilmFigure) -> Chart:
     """Return the whirl frequency ratio over σ or ε (Fig. 5.7)."""
-    y = style.axis(titled("Whirl frequency ratio", "ω_s/Ω_s", "-"), 0.0, 0.6)
+    y = style.axis(titled("Whirl frequency ratio", "ω<sub>s</sub>/Ω<sub>s</sub>", "-"), 0.0, 0.6)
     now = math.nan if figure.here is None else float(figure.here.onset.whirl_ratio)
     return _film_chart(figure, figure.curves.onset.whirl_ratio, y, now, "whirl ratio")
 
@@ -137,14 +143,18 @@ def whirl_ratio(figure: FilmFigure) -> Chart:
 def threshold_speed(figure: FilmFigure) -> Chart:
     """Return the dimensionless threshold speed of a rigid rotor over σ or ε (Fig. 5.8)."""
     now = math.nan if figure.here is None else float(figure.here.onset.threshold_speed)
-    y = style.axis(titled("Threshold speed", "p_s", "-"), 0.0, style.ceiling([6.0, min(now, 30.0)]))
+    y = style.axis(
+        titled("Threshold speed", "p<sub>s</sub>", "-"), 0.0, style.ceiling([6.0, min(now, 30.0)])
+    )
     return _film_chart(figure, figure.curves.onset.threshold_speed, y, now, "p_s")
 
 
 def critical_mass_number(figure: FilmFigure) -> Chart:
     """Return the dimensionless critical mass over σ or ε (Fig. 5.9)."""
     now = math.nan if figure.here is None else float(figure.here.onset.critical_mass)
-    y = style.axis(titled("Critical mass", "p_s²", "-"), 0.0, style.ceiling([30.0, min(now, 900.0)]))
+    y = style.axis(
+        titled("Critical mass", "p<sub>s</sub>²", "-"), 0.0, style.ceiling([30.0, min(now, 900.0)])
+    )
     return _film_chart(figure, figure.curves.onset.critical_mass, y, now, "p_s²")
 
 
@@ -156,14 +166,22 @@ def flexible_threshold(
     `thresholds` has a row for each sag; the last row is this machine's, `now` its point.
     """
     x_values, x = figure.values(figure.curves), figure.axis()
-    y = style.axis(titled("Threshold speed", "p_sf", "-"), 0.0, style.ceiling([5.0, min(now, 30.0)]))
+    y = style.axis(
+        titled("Threshold speed", "p<sub>sf</sub>", "-"), 0.0, style.ceiling([5.0, min(now, 30.0)])
+    )
     sags = np.asarray(sags, dtype=float)
     known = [
-        style.line(x_values, row, f"Γ/C = {sag:g}", style.GREY, width=1.6, showlegend=False)
+        style.line(
+            x_values, _drawable(row), f"Γ/C = {sag:g}", style.GREY, width=1.6, showlegend=False
+        )
         for sag, row in zip(sags[:-1], thresholds[:-1], strict=True)
     ]
     own = style.line(
-        x_values, thresholds[-1], f"this machine, Γ/C = {sags[-1]:.3g}", style.FLEXIBLE, width=3.0
+        x_values,
+        _drawable(thresholds[-1]),
+        f"this machine, Γ/C = {sags[-1]:.3g}",
+        style.FLEXIBLE,
+        width=3.0,
     )
     names = [
         _at_the_free_end(figure, f"Γ/C = {sag:g}", float(row[-1]))
@@ -183,21 +201,19 @@ def energy_bars(energies: Energies, units: Units) -> Chart:
     places = np.arange(len(stops), dtype=float)
     top = style.ceiling([1.12 * gains.max(), 1.12 * (films + disks).max()])
     bars = [
-        _bar(places - _BESIDE, gains, "fed in by Kₓᵧ − Kᵧₓ", style.UNSTABLE),
+        _bar(places - _BESIDE, gains, "fed in, K<sub>XY</sub> − K<sub>YX</sub>", style.UNSTABLE),
         _bar(places + _BESIDE, films, "taken out by the film", style.JOURNAL),
     ]
     if disks.any():
-        bars.append(
-            _bar(places + _BESIDE, disks, "taken out at midspan", style.DISK, base=films)
-        )
+        bars.append(_bar(places + _BESIDE, disks, "taken out at midspan", style.DISK, base=films))
     return style.chart(
         bars,
         style.axis("", -0.6, len(stops) - 0.4, tickvals=places, ticktext=titles),
         _energy_axis(top, units),
         barmode="overlay",
         shapes=_level(places, gains) if energies.at_onset is not None else [],
-        legend=style.legend_below(),
-        margin=_MARGIN,
+        legend=LEGEND,
+        margin=MARGIN,
     )
 
 
@@ -208,7 +224,9 @@ def energy(energies: Energies, crossing: Crossing, units: Units) -> Chart:
     loss, now = unit.of(over.film_loss + over.disk_loss), float(unit.of(here.fed_in))
     lost = float(unit.of(here.film_loss + here.disk_loss))
     met = math.nan if energies.at_onset is None else float(unit.of(energies.at_onset.fed_in))
-    y = _energy_axis(style.ceiling([1.05 * now, 1.05 * lost, 1.3 * met, *unit.of(over.fed_in)]), units)
+    y = _energy_axis(
+        style.ceiling([1.05 * now, 1.05 * lost, 1.3 * met, *unit.of(over.fed_in)]), units
+    )
     lines = [
         style.line(speed, unit.of(over.fed_in), "fed in", style.UNSTABLE),
         style.line(speed, loss, "taken out", style.JOURNAL),
@@ -229,7 +247,6 @@ def energy(energies: Energies, crossing: Crossing, units: Units) -> Chart:
     )
 
 
-_MARGIN = {"l": 64, "r": 16, "t": 16, "b": 108}
 _STOPS = ("running speed", "onset")
 
 
@@ -255,39 +272,38 @@ def _over_speed(
         traces += style.here(*here, x, y)
     else:
         notes.append(_beyond("running speed: no whirl at all, ε is too high", here[1], y))
-    return style.chart(
-        traces, x, y, annotations=notes, legend=style.legend_below(), margin=_MARGIN, **layout
-    )
+    return style.chart(traces, x, y, annotations=notes, legend=LEGEND, margin=MARGIN, **layout)
 
 
-def _pair(
-    over: Thresholds,
-    rigid: Array,
-    flexible: Array,
-    unit: Unit,
-    crossing: Crossing,
-    speed_unit: Unit | None = None,
-) -> list[Trace]:
+def _pair(speed: Array, rigid: Array, flexible: Array, crossing: Crossing) -> list[Trace]:
     """Return the lines of the rigid and the flexible shaft; dashed where they miss the onset."""
-    speed = (speed_unit or unit).of(over.speed)
-    rigid, flexible = unit.of(rigid), unit.of(flexible)
-    if np.array_equal(rigid, flexible, equal_nan=True):
-        return [_finite(speed, rigid, "rigid shaft", style.RIGID, crossing)]
-    return [
-        _finite(speed, rigid, "rigid shaft", style.RIGID, crossing),
-        _finite(speed, flexible, "flexible shaft", style.FLEXIBLE, crossing),
-    ]
+    lines = [_finite(speed, rigid, "rigid shaft", style.RIGID, crossing)]
+    if not np.array_equal(rigid, flexible, equal_nan=True):
+        lines.append(_finite(speed, flexible, "flexible shaft", style.FLEXIBLE, crossing))
+    return lines
 
 
 def _finite(x: Array, y: Array, name: str, colour: str, crossing: Crossing) -> Trace:
     if not crossing.closed_form:
         name += ", bare"
-    y = np.where(np.isfinite(y), y, np.nan)
-    return style.line(x, y, name, colour, dash="solid" if crossing.closed_form else "dash")
+    dash = "solid" if crossing.closed_form else "dash"
+    return style.line(x, _drawable(y), name, colour, dash=dash)
+
+
+def near(axis: Axis) -> Axis:
+    """Return an axis with its title close to it, as a legend stands below."""
+    return {**axis, "title": {**axis["title"], "standoff": 8}}
+
+
+def _drawable(values: Array) -> Array:
+    """Return values with infinity as a number beyond every axis, to which a line can rise."""
+    return np.where(np.isposinf(values), _BEYOND, values)
 
 
 def _speed_axis(over: Thresholds | WhirlEnergy, unit: Unit) -> Axis:
-    return style.axis(titled("Running speed", "Ω", unit.name), 0.0, float(unit.of(over.speed[-1])))
+    return near(
+        style.axis(titled("Running speed", "Ω", unit.name), 0.0, float(unit.of(over.speed[-1])))
+    )
 
 
 def _onset_name(rpm: float) -> str:
@@ -316,8 +332,7 @@ def _verdict(onset: float, x: Axis, unit: Unit) -> Item:
 
 
 def _film_chart(figure: FilmFigure, values: Array, y: Axis, now: float, name: str) -> Chart:
-    finite = np.where(np.isfinite(values), values, np.nan)
-    line = style.line(figure.values(figure.curves), finite, name, style.FLEXIBLE)
+    line = style.line(figure.values(figure.curves), _drawable(values), name, style.FLEXIBLE)
     line["showlegend"] = False
     return _film_frame(figure, [line], (figure.axis(), y), now, [])
 
@@ -328,11 +343,12 @@ def _film_frame(
     """Return a chart over the film's numbers with the stable region and this machine on it."""
     x, y = axes
     edge = float(figure.values(figure.limit))
-    ends = {"x0": _low(x), "x1": edge} if figure.against == "σ" else {"x0": edge, "x1": _high(x)}
-    shade = _box(**ends, y0=0, y1=1, yref="paper", fillcolor=_STABLE)
+    left, right = (edge, _high(x)) if figure.over_eccentricity else (_low(x), edge)
+    shade = _box(x0=left, x1=right, y0=0, y1=1, yref="paper", fillcolor=_STABLE)
     eps = float(figure.limit.film.eccentricity_ratio)
-    side = {"x": 0.01, "xanchor": "left"} if figure.against == "σ" else {"x": 0.99, "xanchor": "right"}
-    notes = [*names, style.note(f"stable<br>ε > {eps:.4f}", y=0.98, yanchor="top", **side)]
+    at, anchor = (0.99, "right") if figure.over_eccentricity else (0.01, "left")
+    stable = style.note(f"stable<br>ε > {eps:.4f}", at, 0.03, xanchor=anchor, yanchor="bottom")
+    notes = [*names, stable]
     place = math.nan if figure.here is None else float(figure.values(figure.here))
     marks: list[Trace] = []
     if _inside((place, now), axes):
@@ -353,10 +369,10 @@ def _where(figure: FilmFigure) -> str:
 
 def _at_the_free_end(figure: FilmFigure, words: str, height: float) -> Item:
     """Return a line's name above it at the end where the film is centred."""
-    side = {"x": 2.0, "xanchor": "right"} if figure.against == "σ" else {"x": 0.0, "xanchor": "left"}
+    at, anchor = (0.0, "left") if figure.over_eccentricity else (2.0, "right")
     return {
         "text": words, "y": height, "xref": "x", "yref": "y", "yanchor": "bottom",
-        "showarrow": False, "font": {"size": 12}, **side,
+        "showarrow": False, "font": {"size": 12}, "x": at, "xanchor": anchor,
     }  # fmt: skip
 
 

@@ -31,6 +31,9 @@ HERE = "#f0b400"
 FAINT = "rgba(127,127,127,0.28)"
 SHADE = "rgba(209,84,31,0.12)"
 
+# Added to a trace that throws no shadow when two machines are compared: an arrowhead.
+LIVE_ONLY: dict[str, Any] = {"meta": "live only"}
+
 HEIGHT = 380
 # The share of two panes, one above the other, in a chart's height.
 UPPER, LOWER = [0.55, 1.0], [0.0, 0.45]
@@ -72,7 +75,10 @@ def axis(title: str, low: float, high: float, *, log: bool = False, **extra: Any
 
 def line(x: ArrayLike, y: ArrayLike, name: str, colour: str, **extra: Any) -> Trace:
     """Return a line; `dash` and `width` style it, anything else goes to the trace."""
-    style = {"color": colour, "width": extra.pop("width", 2.2), "dash": extra.pop("dash", "solid")}
+    style = {
+        "color": colour, "width": extra.pop("width", 2.2), "dash": extra.pop("dash", "solid"),
+        "simplify": False,  # left to itself Plotly drops points until curves show corners
+    }  # fmt: skip
     return {
         "type": "scatter", "mode": "lines", "x": np.asarray(x), "y": np.asarray(y),
         "name": name, "line": style, **extra,
@@ -102,6 +108,7 @@ def mark(x: ArrayLike, y: ArrayLike, name: str, colour: str = HERE, **extra: Any
         "type": "scatter", "mode": "markers", "name": name,
         "x": np.atleast_1d(x), "y": np.atleast_1d(y),
         "marker": {"size": 11, "color": colour, "line": {"color": "#333333", "width": 1.5}},
+        "cliponaxis": False,  # whole, also on the edge of the plot
         **extra,
     }  # fmt: skip
 
@@ -117,7 +124,9 @@ def with_baseline(chart: Chart, baseline: Chart) -> Chart:
     ghosts = [
         _ghost(trace)
         for trace in baseline["data"]
-        if trace["type"] == "scatter" and _outline(trace) not in drawn
+        if trace["type"] == "scatter"
+        and trace.get("meta") != LIVE_ONLY["meta"]
+        and _outline(trace) not in drawn
     ]
     behind = {**chart, "data": [*ghosts, *chart["data"]]}
     if "frames" in chart:  # a frame names the traces that it moves by their places

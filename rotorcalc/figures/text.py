@@ -9,8 +9,10 @@ from rotorcalc.figures.units import Unit
 
 
 def amount(unit: Unit, value: ArrayLike) -> str:
-    """Return an SI value in a unit, to four digits, with the unit's name."""
-    return f"{float(unit.of(value)):.4g} {unit.name}".replace("-", "−")
+    """Return an SI value in a unit, to four digits or more, with the unit's name."""
+    number = float(unit.of(value))
+    words = f"{number:.0f}" if 1e4 <= abs(number) < 1e7 else f"{number:.4g}"
+    return f"{words} {unit.name}".replace("-", "−")
 
 
 def hover(place: str, unit: Unit) -> str:

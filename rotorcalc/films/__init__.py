@@ -6,16 +6,17 @@ sommerfeld)` with a `FilmState`, `field(bearing, sommerfeld, angle=..., zeta=...
 model in its field `film`.
 """
 
-from typing import Protocol
+from collections.abc import Callable
+from typing import Protocol, TypeAlias
 
 from numpy.typing import ArrayLike
 
-from rotorcalc.films import short
+from rotorcalc.films import short, short_motion
 from rotorcalc.films.state import FilmField, FilmState
 from rotorcalc.machine import JournalBearing
 from rotorcalc.typing import Array
 
-__all__ = ["FilmField", "FilmState", "film_added_mass", "film_pressure", "film_state", "short"]
+__all__ = ["FilmField", "FilmState", "film_added_mass", "film_motion", "film_pressure", "film_state", "short"]
 
 
 class _FilmModel(Protocol):
@@ -28,6 +29,11 @@ class _FilmModel(Protocol):
     def inertia(self, bearing: JournalBearing, sommerfeld: ArrayLike) -> Array: ...
 
 
+# Force from position and velocity, velocity from position and force, point by point.
+_Kernel: TypeAlias = Callable[[float, float, float, float], tuple[float, float]]
+_MOTIONS: dict[str, tuple[_Kernel, _Kernel]] = {
+    "short": (short_motion.force, short_motion.velocity)
+}
 _MODELS: dict[str, _FilmModel] = {"short": short}
 
 
@@ -105,3 +111,20 @@ def film_added_mass(bearing: JournalBearing, sommerfeld: ArrayLike) -> Array:
         Where σ is not positive.
     """
     return _MODELS[bearing.film].inertia(bearing, sommerfeld)
+
+
+def film_motion(bearing: JournalBearing) -> tuple[_Kernel, _Kernel]:
+    """Return the nonlinear film of a moving journal, by the bearing's own film model.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing.
+
+    Returns
+    -------
+    force, velocity : callables
+        Of plain floats: force (f_x, f_y) from (x, y, x', y'), and velocity (x', y') from
+        (x, y, f_x, f_y); position in C, velocity in CΩ, force in μΩRL³/C².
+    """
+    return _MOTIONS[bearing.film]

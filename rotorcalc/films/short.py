@@ -22,7 +22,7 @@ from scipy.special import expit, log_expit
 from rotorcalc.films.state import FilmField, FilmState
 from rotorcalc.frames import matrix, rotate, vector
 from rotorcalc.machine import JournalBearing
-from rotorcalc.typing import Array
+from rotorcalc.typing import Array, real_array
 
 # The change of ln(s²/ε²) that ends the search for ε: a rounding error or two.
 _TOLERANCE = 1e-14
@@ -49,7 +49,7 @@ def state(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmState:
     ValueError
         Where σ is not positive, or so small that the film is thinner than the arithmetic can tell.
     """
-    sigma = np.asarray(sommerfeld, dtype=float)
+    sigma = real_array("sommerfeld", sommerfeld)
     eps = eccentricity_ratio(sigma)
     if np.any(eps == 1.0):
         raise ValueError(
@@ -176,7 +176,7 @@ def eccentricity_ratio(sigma: ArrayLike) -> Array:
     >>> round(float(eccentricity_ratio(0.333164)), 6)
     0.5
     """
-    sigma = np.asarray(sigma, dtype=float)
+    sigma = real_array("sigma", sigma)
     if not np.all(sigma >= 0.0):
         worst = sigma[~(sigma >= 0.0)].flat[0]
         raise ValueError(f"sigma = {worst}: must be zero or positive")
@@ -193,7 +193,7 @@ def eccentricity_ratio(sigma: ArrayLike) -> Array:
         step = residual / slope
         y = y - step
         if np.all(np.abs(step) <= _TOLERANCE * (1.0 + np.abs(y))):
-            return np.where(between, np.sqrt(expit(-y)), np.where(sigma == 0.0, 1.0, 0.0))
+            return np.where(between, _eccentricity(y), np.where(sigma == 0.0, 1.0, 0.0))
     raise RuntimeError(f"no eccentricity ratio found within {_MOST_ITERATIONS} iterations")
 
 
@@ -262,8 +262,8 @@ def stiffness(eps: ArrayLike) -> Array:
     Examples
     --------
     >>> stiffness(0.5).round(4)
-    array([[ 1.7842,  2.9337],
-           [-0.3889,  2.0163]])
+    array([[ 2.9233,  3.9766],
+           [-0.8577,  2.2099]])
     """
     return _xy_stiffness(eps, *_load_units(eps))
 
@@ -612,20 +612,22 @@ def film_force(position: ArrayLike, velocity: ArrayLike) -> Array:
     Raises
     ------
     ValueError
-        Where the position lies outside the clearance circle.
+        Where the position lies outside the clearance circle or the velocity is not finite.
 
     Notes
     -----
     Source: Eq. 5.25 integrated over its positive half, 0 < z' < π, for any velocity; its value at
     rest is Eq. 5.5 and its derivatives are Eqs. 5.30 and 5.31.
     """
-    x, y = np.moveaxis(np.asarray(position, dtype=float), -1, 0)
-    dx, dy = np.moveaxis(np.asarray(velocity, dtype=float), -1, 0)
+    x, y = np.moveaxis(real_array("position", position), -1, 0)
+    dx, dy = np.moveaxis(real_array("velocity", velocity), -1, 0)
     kappa2 = 1.0 - x**2 - y**2
     if not np.all(kappa2 > 0.0):
         raise ValueError("position: must lie inside the clearance circle, x² + y² < 1")
     A, B = dx + y / 2.0, dy - x / 2.0
     V = np.hypot(A, B)
+    if not np.all(np.isfinite(V)):
+        raise ValueError("velocity: must be finite")
     still = V == 0.0
     sin, cos = A / np.where(still, 1.0, V), -B / np.where(still, 1.0, V)
     a, b = x * cos + y * sin, -x * sin + y * cos
@@ -636,10 +638,17 @@ def film_force(position: ArrayLike, velocity: ArrayLike) -> Array:
     return vector(F_a * cos - F_b * sin, F_a * sin + F_b * cos)
 
 
+def _eccentricity(y: Array) -> Array:
+    """Return ε at y = ln(s²/ε²), also where ε² would be too small a number."""
+    return np.where(y < 0.0, np.sqrt(expit(-y)), np.exp(-y / 2.0) * np.sqrt(expit(y)))
+
+
 def _checked_eccentricity(eps: ArrayLike) -> Array:
-    eps = np.asarray(eps, dtype=float)
-    if not np.all((eps >= 0.0) & (eps <= 1.0)):
-        raise ValueError("eps: the eccentricity ratio must lie between 0 and 1")
+    eps = real_array("eps", eps)
+    good = (eps >= 0.0) & (eps <= 1.0)
+    if not np.all(good):
+        worst = eps[~good].flat[0]
+        raise ValueError(f"eps = {worst}: the eccentricity ratio must lie between 0 and 1")
     return eps
 
 

@@ -1,4 +1,4 @@
-"""A real Chromium, and the app served to it."""
+"""A real Chromium, the app served to it, and tabs to open it in."""
 
 import os
 import shutil
@@ -13,10 +13,14 @@ from urllib.error import URLError
 from urllib.request import urlopen
 
 import pytest
-from playwright.sync_api import Playwright
+from playwright.sync_api import Browser, BrowserContext, Playwright
+
+from tests.browser.app_page import AppPage
 
 ROOT = Path(__file__).resolve().parents[2]
 START_TIMEOUT = 60  # seconds; a cold start on a busy machine takes about ten
+
+DESK = {"width": 1440, "height": 900}
 
 # Quiet, and at home in a container: as root, without a graphics card, without a network.
 CHROMIUM_ARGS = [
@@ -83,6 +87,31 @@ def app_url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         yield url
     finally:
         _stop(server)
+
+
+@pytest.fixture(scope="session")
+def desk(browser: Browser) -> Iterator[BrowserContext]:
+    """A browser window on a desk: its cache serves all tests, its tabs are a visitor each."""
+    with browser.new_context(viewport=DESK) as context:
+        yield context
+
+
+@pytest.fixture
+def app(desk: BrowserContext, app_url: str) -> Iterator[AppPage]:
+    """A tab for the app; the test fails where the console or the network shows a fault."""
+    tab = AppPage(desk.new_page(), app_url)
+    yield tab
+    tab.page.close()
+    assert tab.faults == []
+
+
+@pytest.fixture
+def stranger(browser: Browser, app_url: str) -> Iterator[AppPage]:
+    """A tab in a browser that was never here."""
+    with browser.new_context(viewport=DESK) as context:
+        tab = AppPage(context.new_page(), app_url)
+        yield tab
+    assert tab.faults == []
 
 
 def _free_port() -> int:

@@ -1,0 +1,379 @@
+"""Charts of the steady response to imbalance: amplitude and phase over speed, and orbits.
+
+Orbits are drawn as one looks at the bearing: X, along the load, points down and Y to the right, so
+the shaft turns anticlockwise. A dot marks the instant when the imbalance points down, along X; an
+arrowhead the sense in which the orbit runs.
+"""
+
+import math
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rotorcalc.figures import style
+from rotorcalc.figures.style import Axis, Chart, Trace
+from rotorcalc.figures.units import Unit, Units
+from rotorcalc.imbalance import BodyResponse, ClearanceOrbit, Orbits, ResponseCurves, ResponseFamily
+from rotorcalc.machine import Rotor
+from rotorcalc.response import ResponsePeaks
+from rotorcalc.typing import Array, BoolArray
+
+_HEIGHT = 470
+# Steps of the scrubber over speed.
+_STEPS = 40
+# Room above the highest peak, for its label.
+_HEADROOM = 1.12
+# Two entries a row, so that charts side by side keep one height of plot.
+_TWO_COLUMNS = {
+    "orientation": "h", "x": 0, "y": 1.01, "yanchor": "bottom",
+    "entrywidth": 0.42, "entrywidthmode": "fraction",
+}  # fmt: skip
+# A family's lines beside this machine's: one hue, from light to full.
+_SHADES = (
+    "rgba(176,86,159,0.4)", "rgba(176,86,159,0.6)", "rgba(176,86,159,0.8)", "#b0569f", "#7d3b70",
+)  # fmt: skip
+
+
+def amplitude(curves: ResponseCurves, shown: Literal["axes", "XY"], units: Units) -> Chart:
+    """Return the amplitudes of disk and journal against speed, as the orbit's axes or as X and Y."""
+    x, unit = _speed_axis(curves, units), units.film
+    bodies = _bodies(curves)
+    sizes = [part for _, body, _, _ in bodies for part in _parts(body, shown)]
+    peaks = [found.amplitude for _, _, found, _ in bodies]
+    top = style.ceiling(_HEADROOM * unit.of(np.concatenate([*sizes, *peaks])))
+    y = style.axis(f"Amplitude, 0 to peak [{unit.name}]", 0.0, top)
+    traces: list[Trace] = []
+    notes: list[dict[str, Any]] = _unstable_note(curves)
+    shapes = _shades(curves, units)
+    for name, body, found, colour in bodies:
+        traces += _pair(curves.speed, [unit.of(part) for part in _parts(body, shown)],
+                        _names(name, shown), colour, units)  # fmt: skip
+        if shown == "axes":
+            traces += _peak_marks(found, name, colour, units)
+            notes += _peak_labels(found, units, x)
+        else:
+            shapes += [_guide(float(units.speed.of(speed)), colour) for speed in found.speed]
+    here = [unit.of(part) for _, body in _bodies_here(curves) for part in _parts(body, shown)]
+    traces += _points(curves, np.array(here), (x, y), units)
+    return style.chart(
+        traces, x, y, shapes=shapes, annotations=notes, height=420, legend=_TWO_COLUMNS
+    )
+
+
+def phase(curves: ResponseCurves, units: Units) -> Chart:
+    """Return by how much X and Y of disk and journal lag the imbalance, against speed."""
+    x, unit = _speed_axis(curves, units), units.angle
+    bodies = _bodies(curves)
+    lags = unit.of(np.concatenate([body.lag for _, body, _, _ in bodies]))
+    low = min(0.0, 90.0 * math.floor(float(lags.min()) / 90.0))
+    high = max(180.0, 90.0 * math.ceil(float(lags.max()) / 90.0))
+    y = style.axis("Lag behind the imbalance [°]", low, high, dtick=90)
+    traces: list[Trace] = []
+    for name, body, _, colour in bodies:
+        traces += _pair(curves.speed, list(unit.of(body.lag).T), _names(name, "XY"), colour, units)
+    here = np.concatenate([unit.of(body.lag) for _, body in _bodies_here(curves)])
+    traces += _points(curves, here, (x, y), units)
+    shapes, notes = _shades(curves, units), _unstable_note(curves)
+    return style.chart(
+        traces, x, y, shapes=shapes, annotations=notes, height=420, legend=_TWO_COLUMNS
+    )
+
+
+def in_clearance(orbit: ClearanceOrbit, locus: Array, units: Units) -> Chart:
+    """Return the journal's orbit about its static equilibrium inside the clearance circle."""
+    unit = units.film
+    reach = float(unit.of(1.06 * max(orbit.clearance, float(np.abs(orbit.path).max()))))
+    x, y = _plane(reach, unit)
+    centre = unit.of(orbit.centre)
+    bottom = {**y, "range": [reach, reach]}  # the axis runs down, its larger end is below
+    guide, point = style.here(float(centre[1]), float(centre[0]), x, bottom)
+    small = {**point, "marker": {**point["marker"], "size": 7}, "showlegend": False}
+    traces = [
+        _path(orbit.circle, unit, "clearance circle", style.GREY, width=1.8, showlegend=False),
+        _path(locus, unit, "equilibrium at other speeds", style.GREY, dash="dot", width=1.4),
+        guide,
+        *_orbit(orbit.path, unit, "journal's orbit", style.JOURNAL),
+        small,
+    ]
+    return style.chart(traces, x, y, height=_HEIGHT)
+
+
+def at_running_speed(orbits: Orbits, units: Units) -> Chart:
+    """Return the orbits of disk and journal at the running speed, both about the same point."""
+    unit = units.film
+    points = unit.of(np.concatenate([orbits.disk, orbits.journal]))
+    x, y = _plane(style.ceiling(1.05 * np.abs(points)), unit)
+    traces = style.joined([_orbit(p, unit, n, c) for n, p, c in _paths(orbits)])
+    return style.chart(traces, x, y, height=_HEIGHT)
+
+
+def scrubber(steps: Orbits, here: Orbits, units: Units) -> Chart:
+    """Return the orbits with a slider over speed that runs in the browser."""
+    unit = units.film
+    every = max(1, len(steps.speed) // _STEPS)
+    chosen = range(every - 1, len(steps.speed), every)
+    moments = [(float(steps.speed[i]), steps.disk[i], steps.journal[i]) for i in chosen]
+    moments = [m for m in moments if m[0] != here.speed]
+    moments.append((float(here.speed), here.disk, here.journal))
+    moments.sort(key=lambda moment: moment[0])
+    points = unit.of(np.stack([paths for _, *paths in moments]))
+    x, y = _plane(style.ceiling(1.05 * np.abs(points)), unit)
+    traces = style.joined([_orbit(p, unit, n, c) for n, p, c in _paths(here)])
+    frames = [_frame(*moment, here.is_rigid, units) for moment in moments]
+    active = [speed for speed, *_ in moments].index(float(here.speed))
+    slider = _slider([frame["name"] for frame in frames], active, units)
+    layout = {"height": _HEIGHT + 110, "sliders": [slider], "updatemenus": [_play()]}
+    return style.chart(traces, x, y, **layout) | {"frames": frames}
+
+
+def family(
+    responses: ResponseFamily,
+    at: Literal["disk", "journal"],
+    varied: Literal["damping", "mass"],
+    units: Units,
+) -> Chart:
+    """Return the orbit's size against speed for several rotors, dotted where they are unstable."""
+    unit = units.film
+    sizes = unit.of(responses.disk if at == "disk" else responses.journal)
+    speed = units.speed.of(responses.speed)
+    x = style.axis(style.titled("Running speed", "Ω", units.speed.name), 0.0, float(speed[-1]))
+    y = style.axis(f"{at.capitalize()}, semi-major axis [{unit.name}]", 0.0, style.ceiling(sizes))
+    names = [_variant_name(rotor, varied, units) for rotor in responses.rotors]
+    names[0] += " (this machine)"
+    own = style.DISK if at == "disk" else style.JOURNAL
+    traces: list[Trace] = []
+    for i in reversed(range(len(sizes))):
+        colour, width = (own, 3.2) if i == 0 else (_SHADES[i - 1], 1.8)
+        extra = {} if i == 0 else style.LIVE_ONLY
+        lines = _by_stability(speed, sizes[i], responses.unstable[i], (names[i], colour, width))
+        traces += [line | extra for line in lines]
+    return style.chart(
+        traces, x, y, height=440, legend={"traceorder": "reversed", **style.legend_below()}
+    )
+
+
+def _bodies(curves: ResponseCurves) -> list[tuple[str, BodyResponse, ResponsePeaks, str]]:
+    """Return name, response, peaks and colour of each body: of a rigid rotor there is one."""
+    journal = ("journal", curves.journal, curves.journal_peaks, style.JOURNAL)
+    if curves.is_rigid:
+        return [("rotor", *journal[1:])]
+    return [("disk", curves.disk, curves.disk_peaks, style.DISK), journal]
+
+
+def _bodies_here(curves: ResponseCurves) -> list[tuple[str, BodyResponse]]:
+    journal = ("journal", curves.journal_here)
+    return [journal] if curves.is_rigid else [("disk", curves.disk_here), journal]
+
+
+def _parts(body: BodyResponse, shown: str) -> list[Array]:
+    if shown == "XY":
+        return [body.amplitude[..., 0], body.amplitude[..., 1]]
+    return [body.ellipse.semi_major, np.abs(body.ellipse.semi_minor)]
+
+
+def _names(body: str, shown: str) -> tuple[str, str]:
+    return (f"{body} X", f"{body} Y") if shown == "XY" else (f"{body}, major", f"{body}, |minor|")
+
+
+def _pair(
+    speed: Array, values: list[Array], names: tuple[str, str], colour: str, units: Units
+) -> list[Trace]:
+    """Return the lines of a body: the first solid, the second dashed."""
+    at = units.speed.of(speed)
+    return [
+        style.line(at, value, name, colour, dash=dash)
+        for value, name, dash in zip(values, names, ("solid", "dash"), strict=True)
+    ]
+
+
+def _peak_marks(peaks: ResponsePeaks, body: str, colour: str, units: Units) -> list[Trace]:
+    if not len(peaks.speed):
+        return []
+    at, size = units.speed.of(peaks.speed), units.film.of(peaks.amplitude)
+    shape = {"size": 11, "symbol": "diamond", "color": colour,
+             "line": {"color": "#333333", "width": 1.2}}  # fmt: skip
+    return [style.mark(at, size, f"peak of the {body}", marker=shape, showlegend=False)]
+
+
+def _peak_labels(peaks: ResponsePeaks, units: Units, x: Axis) -> list[dict[str, Any]]:
+    right = max(x["range"])
+    labels: list[dict[str, Any]] = []
+    for speed, size in zip(
+        units.speed.of(peaks.speed), units.film.of(peaks.amplitude), strict=True
+    ):
+        anchor = "right" if speed > 0.5 * right else "left"
+        text = f"{size:.3g} {units.film.name} at {speed:.0f} {units.speed.name}"
+        labels.append(
+            {"x": float(speed), "y": float(size), "text": text, "showarrow": False,
+             "xanchor": anchor, "yanchor": "bottom", "yshift": 7, "font": {"size": 13}}
+        )  # fmt: skip
+    return labels
+
+
+def _guide(speed: float, colour: str) -> dict[str, Any]:
+    """Return a thin line at the speed of a peak, where the curves shown do not touch it."""
+    return {"type": "line", "x0": speed, "x1": speed, "y0": 0, "y1": 1, "yref": "paper",
+            "line": {"color": colour, "width": 1.2, "dash": "dot"}}  # fmt: skip
+
+
+def _shades(curves: ResponseCurves, units: Units) -> list[dict[str, Any]]:
+    """Return the ranges of speed where no response is steady, shaded."""
+    return [
+        {"type": "rect", "x0": float(first), "x1": float(last), "y0": 0, "y1": 1, "yref": "paper",
+         "fillcolor": style.SHADE, "line": {"width": 0}, "layer": "below"}
+        for first, last in units.speed.of(curves.unstable)
+    ]  # fmt: skip
+
+
+def _unstable_note(curves: ResponseCurves) -> list[dict[str, Any]]:
+    if not len(curves.unstable):
+        return []
+    words = {"font": {"color": style.UNSTABLE, "size": 13}, "xanchor": "right", "yanchor": "top"}
+    return [style.note("shaded: unstable", 0.995, 0.995, **words)]
+
+
+def _points(
+    curves: ResponseCurves, values: Array, axes: tuple[Axis, Axis], units: Units
+) -> list[Trace]:
+    """Return the running speed's marks, one on each line, guides from the highest."""
+    now = float(units.speed.of(curves.running_speed))
+    lines, point = style.here(now, float(values.max()), *axes)
+    point = {**point, "showlegend": False}
+    others = style.mark(np.full(len(values), now), values, "running speed", showlegend=False)
+    return [lines, point, others]
+
+
+def _speed_axis(curves: ResponseCurves, units: Units) -> Axis:
+    top = float(units.speed.of(curves.speed[-1]))
+    return style.axis(style.titled("Running speed", "Ω", units.speed.name), 0.0, top)
+
+
+def _plane(reach: float, unit: Unit) -> tuple[Axis, Axis]:
+    """Return the axes of an orbit: Y to the right, X down, one scale for both."""
+    x = style.axis(style.titled("Y", "", unit.name), -reach, reach) | {"constrain": "domain"}
+    equal: Axis = {"scaleanchor": "x", "scaleratio": 1, "constrain": "domain"}
+    y = style.axis(f"X, along the load [{unit.name}]", reach, -reach) | equal
+    return x, y
+
+
+def _paths(orbits: Orbits) -> list[tuple[str, Array, str]]:
+    """Return name with sense of whirl, points and colour of each orbit."""
+    journal = f"{'rotor' if orbits.is_rigid else 'journal'}, {_sense(orbits.journal_forward)}"
+    if orbits.is_rigid:
+        return [(journal, orbits.journal, style.JOURNAL)]
+    disk = f"disk, {_sense(orbits.disk_forward)}"
+    return [(disk, orbits.disk, style.DISK), (journal, orbits.journal, style.JOURNAL)]
+
+
+def _sense(forward: ArrayLike) -> str:
+    return "forward" if forward else "backward"
+
+
+def _path(points: Array, unit: Unit, name: str, colour: str, **extra: Any) -> Trace:
+    shown = unit.of(points)
+    return style.line(shown[:, 1], shown[:, 0], name, colour, **extra)
+
+
+def _orbit(points: Array, unit: Unit, name: str, colour: str) -> list[Trace]:
+    """Return an orbit: its path, the instant when the imbalance points along X, and its sense."""
+    start = _path(points[:1], unit, name, colour)
+    return [
+        _path(points, unit, name, colour),
+        {**start, "mode": "markers", "marker": {"size": 8, "color": colour}, "showlegend": False,
+         **style.LIVE_ONLY},
+        _arrow(points, unit, name, colour),
+    ]  # fmt: skip
+
+
+def _arrow(points: Array, unit: Unit, name: str, colour: str) -> Trace:
+    """Return arrowheads after an eighth and five eighths of a turn, each along the path."""
+    last = len(points) - 1
+    at = np.array([last // 8, 5 * last // 8])
+    step = points[at + 1] - points[at]
+    # Plotly counts clockwise from up; X is down, Y to the right.
+    angle = np.degrees(np.arctan2(step[:, 1], -step[:, 0]))
+    shape = {"symbol": "arrow", "size": 12, "angle": angle, "color": colour, "line": {"width": 0}}
+    path = _path(points[at], unit, name, colour)
+    rest = {"mode": "markers", "marker": shape, "showlegend": False, "hoverinfo": "skip"}
+    return {**path, **rest, **style.LIVE_ONLY}
+
+
+def _frame(speed: float, disk: Array, journal: Array, rigid: bool, units: Units) -> dict[str, Any]:
+    """Return the moved traces of one step of the scrubber."""
+    paths = [journal] if rigid else [disk, journal]
+    moved = [_moved(trace) for path in paths for trace in _orbit(path, units.film, "", style.GREY)]
+    return {
+        "name": _frame_name(speed, units),
+        "data": moved,
+        "traces": list(range(len(moved))),
+    }
+
+
+def _moved(trace: Trace) -> Trace:
+    """Return what of an orbit's trace changes with speed."""
+    place = {"x": trace["x"], "y": trace["y"]}
+    angle = trace.get("marker", {}).get("angle")
+    return place if angle is None else place | {"marker": {"angle": angle}}
+
+
+def _frame_name(speed: float, units: Units) -> str:
+    return f"{float(units.speed.of(speed)):.0f}"
+
+
+def _slider(names: list[str], active: int, units: Units) -> dict[str, Any]:
+    still = {"mode": "immediate", "frame": {"duration": 0, "redraw": False},
+             "transition": {"duration": 0}}  # fmt: skip
+    return {
+        "active": active,
+        "steps": [
+            {"label": name, "method": "animate", "args": [[name], still]} for name in names
+        ],
+        "currentvalue": {"prefix": "Ω = ", "suffix": f" {units.speed.name}", "xanchor": "left"},
+        "x": 0.3, "len": 0.7, "y": -0.16, "yanchor": "top", "pad": {"t": 6},
+        "bgcolor": "rgba(127,127,127,0.3)", "bordercolor": "rgba(127,127,127,0.6)",
+        "activebgcolor": style.HERE, "ticklen": 0, "minorticklen": 0, "font": {"size": 13},
+    }  # fmt: skip
+
+
+def _play() -> dict[str, Any]:
+    run = {"frame": {"duration": 120, "redraw": False}, "transition": {"duration": 0},
+           "fromcurrent": True, "mode": "immediate"}  # fmt: skip
+    stop = {"frame": {"duration": 0, "redraw": False}, "mode": "immediate"}
+    return {
+        "type": "buttons", "direction": "left", "showactive": False,
+        "x": 0.0, "xanchor": "left", "y": -0.2, "yanchor": "top", "pad": {"r": 6, "t": 6},
+        "bgcolor": "rgba(127,127,127,0.2)", "bordercolor": "rgba(127,127,127,0.6)",
+        "buttons": [
+            {"label": "▶", "method": "animate", "args": [None, run]},
+            {"label": "❚❚", "method": "animate", "args": [[None], stop]},
+        ],
+    }  # fmt: skip
+
+
+def _by_stability(
+    speed: Array, size: Array, unstable: BoolArray, look: tuple[str, str, float]
+) -> list[Trace]:
+    """Return a line that is dotted where the machine is unstable, its two parts joined."""
+    name, colour, width = look
+    joint = unstable.copy()
+    joint[:-1] |= unstable[1:]
+    joint[1:] |= unstable[:-1]
+    steady = style.line(speed, np.where(unstable, np.nan, size), name, colour, width=width)
+    if not np.any(unstable):
+        return [steady]
+    dotted = style.line(
+        speed, np.where(joint, size, np.nan), f"{name}, unstable", colour, dash="dot",
+        width=width, showlegend=bool(np.all(unstable)),
+    )  # fmt: skip
+    return [steady, dotted] if not np.all(unstable) else [dotted]
+
+
+def _variant_name(rotor: Rotor, varied: Literal["damping", "mass"], units: Units) -> str:
+    """Return what a rotor of a family is called."""
+    if varied == "damping":
+        unit, value = units.shaft_damping, rotor.disk_damping
+        symbol = "C<sub>s</sub>"
+    else:
+        unit, value, symbol = units.mass, rotor.journal_mass, "M<sub>j</sub>"
+    return f"{symbol} = {float(unit.of(value)):.3g} {unit.name}"

@@ -1,0 +1,133 @@
+"""A visitor without a browser: opens pages, tabs and popovers, moves inputs, reads the page."""
+
+import json
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from streamlit.testing.v1 import AppTest
+
+from ui.inputs import INPUTS
+from ui.page import PAGES
+from ui.state import State
+
+ROOT = Path(__file__).resolve().parents[2]
+TIMEOUT = 60  # seconds; a run takes 0.05, but the machine may be busy
+HOME, *OTHERS = PAGES
+
+# A number that is none, as Python writes it, where a reader should find a word.
+_NO_NUMBER = re.compile(r"(?<![\w\\])(nan|NaN|None|-?inf|Infinity)(?![\w:])")
+
+
+def visit(page: str, **query: str) -> AppTest:
+    """Return a new session on a page, cold, with a link's parameters."""
+    at = AppTest.from_file(ROOT / HOME, default_timeout=TIMEOUT)
+    at.query_params.update(query)
+    if page != HOME:
+        at.switch_page(page)
+    return at.run()
+
+
+def kept(at: AppTest) -> State:
+    """Return what the session keeps."""
+    return at.session_state["rotorcalc"]
+
+
+def tabs(at: AppTest) -> list[tuple[str, str]]:
+    """Return every tab of the page as the key of its row and its label."""
+    return [
+        (row.key, tab.label) for row in at.get("tab_container") for tab in row.children.values()
+    ]
+
+
+def tours(at: AppTest) -> Iterator[str]:
+    """Open the page's tabs one after the other, and yield the label of each; "" without tabs."""
+    found = tabs(at)
+    if not found:
+        yield ""
+    for key, label in found:
+        open_part(at, key, label)
+        yield label
+
+
+def open_part(at: AppTest, key: str, value: str | bool = True) -> None:
+    """Open a tab by its label, or a popover."""
+    at.session_state[key] = value
+    at.run()
+
+
+def slider_keys(at: AppTest) -> list[str]:
+    """Return the keys of all sliders of the machine's inputs."""
+    return [
+        slider.key
+        for slider in (*at.slider, *at.select_slider)
+        if re.fullmatch(r"input_\w+_slider", slider.key or "")
+    ]
+
+
+def slider(at: AppTest, key: str) -> tuple[Any, Any, Any]:
+    """Return a slider and the values at its ends."""
+    found = [one for one in at.slider if one.key == key]
+    if found:
+        return found[0], found[0].min, found[0].max
+    item = INPUTS[key.split("_", 1)[1].rsplit("_", 2)[0]]
+    chosen = at.select_slider(key=key)
+    units = kept(at).units
+    low = float(f"{item.shown(item.low, units):.3g}")
+    high = float("inf") if item.infinite else float(f"{item.shown(item.high, units):.3g}")
+    return chosen, low, high
+
+
+def move(at: AppTest, key: str, value: Any) -> None:
+    """Move an input, given in the unit of the link, by its slider in SI."""
+    slider(at, f"input_{key}_SI_slider")[0].set_value(value).run()
+
+
+def charts(at: AppTest) -> dict[str, dict[str, Any]]:
+    """Return the figures shown, by key."""
+    return {chart.key: json.loads(chart.proto.spec) for chart in at.get("plotly_chart")}
+
+
+def texts(at: AppTest) -> Iterator[str]:
+    """Yield every text that the page shows, but for links and the sidebar's fields."""
+    for metric in at.metric:
+        yield f"{metric.label}: {metric.value} {metric.delta}"
+    for found in (at.caption, at.markdown, at.header, at.subheader, at.latex):
+        yield from (element.value for element in found)
+    for box in (at.success, at.info, at.warning, at.error):
+        yield from (element.value for element in box)
+    for table in at.table:
+        yield table.value.to_string()
+    for figure in charts(at).values():
+        yield from _words(figure)
+
+
+def _words(node: Any) -> Iterator[str]:
+    """Yield the texts of a figure: titles, names, annotations, tick labels."""
+    if isinstance(node, dict):
+        for key, value in node.items():
+            if key in ("text", "name", "ticktext", "title", "hovertemplate"):
+                yield from _strings(value)
+            yield from _words(value)
+    elif isinstance(node, list) and node and isinstance(node[0], dict):
+        for value in node:
+            yield from _words(value)
+
+
+def _strings(value: Any) -> Iterator[str]:
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, list):
+        yield from (text for text in value if isinstance(text, str))
+
+
+def faults(at: AppTest) -> list[str]:
+    """Return all that a page should never show: tracebacks, error boxes, numbers that are none.
+
+    That a machine is unstable may stand in an error box: it is the answer, no fault.
+    """
+    found = [f"{error.value}\n{''.join(error.stack_trace)}" for error in at.exception]
+    found += [error.value for error in at.error if "unstable" not in error.value.lower()]
+    found += [text for text in texts(at) if _NO_NUMBER.search(text)]
+    return found

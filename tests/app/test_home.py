@@ -1,0 +1,70 @@
+"""The home page says in words whether the machine is stable, where it ends, and how it whirls."""
+
+import math
+import re
+
+import pytest
+
+from rotorcalc import PRESETS, onset_speed
+from tests.app.session import HOME, faults, move, texts, visit
+from ui.inputs import PRESET_VALUES
+
+
+def _said(at) -> str:
+    return "\n".join(texts(at))
+
+
+@pytest.mark.parametrize(("preset", "onset"), [("sheet-1e8", "8919"), ("sheet-1e7", "4627")])
+def test_onset_speeds_of_the_sheets_two_rotors(preset: str, onset: str) -> None:
+    at = visit(HOME, preset=preset)
+    (verdict,) = at.success
+    assert f"{onset} rpm" in verdict.value
+    whirl = onset_speed(PRESETS[preset].machine).whirl_frequency / (2 * math.pi)
+    assert f"{whirl:.4g} Hz" in verdict.value
+    values = [metric.value for metric in at.metric]
+    assert f"{onset} rpm" in values
+    assert f"{whirl:.4g} Hz" in values
+
+
+def test_an_unstable_machine_is_called_so() -> None:
+    at = visit(HOME, rpm="9000")
+    (verdict,) = at.error
+    assert re.match("Unstable at 9000 rpm.*went unstable at 8919 rpm", verdict.value)
+    assert not at.success
+
+
+def test_the_onset_parts_stable_from_unstable() -> None:
+    at = visit(HOME)
+    move(at, "rpm", 8910.0)
+    assert len(at.success) == 1
+    move(at, "rpm", 8920.0)
+    assert not at.success
+    assert at.error[0].value.startswith("Unstable")
+
+
+def test_zero_load_is_explained() -> None:
+    at = visit(HOME, load="0")
+    (verdict,) = at.error
+    assert re.search("without load.*Eq. 5.37.*any speed", verdict.value)
+    assert faults(at) == []
+
+
+def test_a_rigid_shaft_has_the_rigid_rotors_onset() -> None:
+    at = visit(HOME, k="inf", rpm_max="14000")
+    assert "10652 rpm" in at.success[0].value
+    assert faults(at) == []
+
+
+def test_a_machine_without_onset_says_so() -> None:
+    # A heavily loaded bearing runs above the eccentricity ratio of 0.756, where it cannot whirl.
+    at = visit(HOME, load="20000", mu="1", rpm="1000", k="inf", mass="10")
+    assert faults(at) == []
+    assert re.match("Stable at 1000 rpm", at.success[0].value)
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_the_margin_agrees_with_the_verdict(preset: str) -> None:
+    at = visit(HOME, preset=preset)
+    onset = onset_speed(PRESETS[preset].machine).speed / (math.pi / 30)
+    margin = 100 * (onset / PRESET_VALUES[preset]["rpm"] - 1)
+    assert f"{margin:.4g} %" in _said(at)

@@ -1,0 +1,139 @@
+"""The address bar: what is written is read back, and what cannot be read is named."""
+
+import math
+import string
+
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from rotorcalc import PRESETS
+from rotorcalc.figures.units import SYSTEMS
+from ui import link
+from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, Input, Values, machine_of
+
+
+def _number(item: Input) -> st.SearchStrategy[float | None]:
+    """Draw what a slider, a typed field or a file can give."""
+    numbers: st.SearchStrategy[float | None] = st.floats(item.low, item.high)
+    if item.infinite:
+        numbers |= st.just(math.inf)
+    return numbers | st.none() if item.key == "load" else numbers
+
+
+@st.composite
+def _values(draw: st.DrawFn, preset: str) -> Values:
+    drawn = {key: draw(_number(item)) for key, item in INPUTS.items()}
+    values = {
+        key: value if draw(st.booleans()) else PRESET_VALUES[preset][key]
+        for key, value in drawn.items()
+    }
+    values["mj"] = min(values["mj"], 0.49 * values["mass"])
+    return values
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+@given(data=st.data(), units=st.sampled_from(sorted(SYSTEMS)))
+def test_what_is_written_is_read(preset: str, data: st.DataObject, units: str) -> None:
+    values = data.draw(_values(preset))
+    params = link.write(preset, values, units)
+    again = link.read(params)
+    assert again.problems == []
+    assert (again.preset, again.units) == (preset, units)
+    assert again.values == values
+    assert link.write(again.preset, again.values, again.units) == params
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_a_presets_link_names_only_the_preset(preset: str) -> None:
+    expected = {} if preset == DEFAULT_PRESET else {"preset": preset}
+    assert link.write(preset, PRESET_VALUES[preset], "SI") == expected
+
+
+@pytest.mark.parametrize("key", INPUTS)
+@pytest.mark.parametrize(
+    "word",
+    ["", "abc", "nan", "-inf", "1e999", "-1e300", "9" * 400, "0x10", "<b>1</b>", "1;2", "1 2", "`"],
+)
+def test_a_value_that_cannot_be_used_is_named_and_the_rest_is_kept(key: str, word: str) -> None:
+    other = "T" if key != "T" else "D"
+    read = link.read({key: word, other: "77"})
+    if key == "k" and word in ("1e999", "9" * 400):
+        assert read.values["k"] == math.inf  # beyond every float: the word for a rigid shaft
+        return
+    (problem,) = read.problems
+    assert INPUTS[key].label in problem
+    assert f"({key} = " in problem
+    assert len(problem) < 250
+    assert read.values == PRESET_VALUES[DEFAULT_PRESET] | {other: 77.0}
+
+
+@pytest.mark.parametrize("key", INPUTS)
+def test_both_ends_are_in_and_beyond_them_is_out(key: str) -> None:
+    item = INPUTS[key]
+    for end, beyond in ((item.low, -math.inf), (item.high, math.inf)):
+        given_values = (
+            {key: repr(float(end)), "mass": "2000"} if key == "mj" else {key: repr(float(end))}
+        )
+        assert link.read(given_values).problems == []
+        outside = math.nextafter(end, beyond)
+        assert len(link.read({key: repr(outside)}).problems) == 1
+
+
+def test_a_journal_mass_that_leaves_no_disk_is_named() -> None:
+    read = link.read({"mj": "140", "C": "80"})
+    (problem,) = read.problems
+    assert "journal_mass" in problem
+    assert "140" in problem
+    assert read.values == PRESET_VALUES[DEFAULT_PRESET] | {"C": 80.0}
+
+
+def test_a_mass_that_leaves_no_disk_makes_a_machine_all_the_same() -> None:
+    read = link.read({"mass": "10", "mj": "4"})
+    assert read.problems == []
+    read = link.read({"mass": "10", "mj": "5"})
+    assert len(read.problems) == 1
+    machine_of(read.values)
+
+
+@pytest.mark.parametrize("word", ["none", "", "<script>", "sheet-1e9", "x" * 5000])
+def test_an_unknown_preset_or_system_of_units_is_named(word: str) -> None:
+    for key in ("preset", "units"):
+        read = link.read({key: word, "C": "80"})
+        (problem,) = read.problems
+        assert problem.startswith(f"{key} = ")
+        assert len(problem) < 250
+        assert read.preset == DEFAULT_PRESET
+        assert read.units == "SI"
+        assert read.values["C"] == 80.0
+
+
+def test_the_weight_can_be_named() -> None:
+    assert link.read({"preset": "friswell-5-5-1", "load": "weight"}).values["load"] is None
+
+
+@given(
+    st.dictionaries(
+        st.sampled_from([*INPUTS, "preset", "units"]) | st.text(max_size=20),
+        st.text(max_size=40) | st.text(string.digits + ".e-+", max_size=12),
+    )
+)
+@example({"C": "1_0"})
+@example({"C": "١٢٠"})
+def test_no_link_whatever_breaks_the_program(params: dict[str, str]) -> None:
+    read = link.read(params)
+    machine_of(read.values)
+    assert all(not item.problem(read.values[key]) for key, item in INPUTS.items())
+    named = " ".join(read.problems)
+    for key in params.keys() - {"preset", "units"}:
+        assert key not in INPUTS or read.values[key] is not None or key == "load" or key in named
+
+
+@given(st.text(max_size=300))
+def test_what_a_visitor_typed_cannot_be_markup(word: str) -> None:
+    shown = link.quoted(word)
+    assert shown.startswith("`")
+    assert shown.endswith("`")
+    assert "`" not in shown[1:-1]
+    assert "\n" not in shown
+    assert len(shown) < 60

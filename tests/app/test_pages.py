@@ -1,0 +1,163 @@
+"""Every page, at every preset and at both ends of every slider, shows no fault."""
+
+import json
+import math
+import re
+from collections.abc import Iterator
+
+import pytest
+from streamlit.testing.v1 import AppTest
+
+from rotorcalc import PRESETS
+from rotorcalc.figures.style import HERE
+from tests.app.session import (
+    HOME,
+    PAGES,
+    charts,
+    faults,
+    kept,
+    open_part,
+    slider,
+    slider_keys,
+    tours,
+    visit,
+)
+from ui.inputs import INPUTS
+
+pytestmark = pytest.mark.parametrize("path", PAGES)
+
+# Charts of something other than the machine at its running speed.
+UNMARKED: set[str] = set()
+
+# A quantity with its unit, or one over another of its kind.
+NAMED = re.compile(r"\w.*\[.+\]|\w/\w")
+
+# Every input has its slider only where the load is given.
+LOADED = {"load": "3000"}
+
+
+def _choose(at: AppTest, units: str, typed: bool) -> None:
+    """Choose units and kind of input in the settings."""
+    open_part(at, "settings")
+    at.segmented_control(key="units").set_value(units)
+    at.toggle(key="typed").set_value(typed)
+    at.run()
+    open_part(at, "settings", False)
+
+
+@pytest.mark.parametrize("units", ["SI", "US"])
+def test_every_tab_at_every_preset(path: str, units: str) -> None:
+    at = visit(path, units=units)
+    for preset in PRESETS:
+        at.selectbox(key="preset").set_value(preset).run()
+        assert kept(at).preset == preset
+        for label in tours(at):
+            assert faults(at) == [], (preset, label)
+
+
+@pytest.mark.parametrize("units", ["SI", "US"])
+def test_typed_inputs_at_every_preset(path: str, units: str) -> None:
+    at = visit(path)
+    _choose(at, units, typed=True)
+    for preset in PRESETS:
+        at.selectbox(key="preset").set_value(preset).run()
+        assert faults(at) == [], preset
+    assert slider_keys(at) == []
+    assert any(field.key == f"input_C_{units}_typed" for field in at.number_input)
+
+
+@pytest.mark.parametrize("units", ["SI", "US"])
+def test_both_ends_of_every_slider(path: str, units: str) -> None:
+    at = visit(path, units=units, **LOADED)
+    keys = slider_keys(at)
+    assert len(keys) == len(INPUTS)
+    if units == "US" and path != HOME:
+        return  # the same sliders move the same machine
+    for label in tours(at):
+        for key, end, shown in _ends(at, keys):
+            assert shown == [] or _no_disk(at), (label, key, end, shown)
+
+
+def _ends(at: AppTest, keys: list[str]) -> Iterator[tuple[str, float, list[str]]]:
+    """Move each slider to both of its ends, put it back, and yield what then was wrong."""
+    for key in keys:
+        was = slider(at, key)[0].value
+        for end in slider(at, key)[1:]:
+            slider(at, key)[0].set_value(end).run()
+            yield key, end, faults(at)
+        slider(at, key)[0].set_value(was)
+
+
+def _no_disk(at: AppTest) -> bool:
+    """Tell whether the journals' mass leaves no disk, and the page says just that."""
+    values = kept(at).values
+    said = [error.value for error in at.error]
+    return (
+        values["mj"] >= values["mass"] / 2
+        and len(said) == 1
+        and re.search("journal_mass.*no disk is left", said[0]) is not None
+        and not at.exception
+    )
+
+
+def test_every_choice_on_the_page(path: str) -> None:
+    at = visit(path)
+    for label in tours(at):
+        for kind in ("segmented_control", "pills", "radio", "selectbox", "toggle", "checkbox"):
+            for key in [one.key for one in getattr(at.main, kind)]:
+                _try_out(at, kind, key, label)
+
+
+def _try_out(at: AppTest, kind: str, key: str, label: str) -> None:
+    control = getattr(at, kind)(key=key)
+    was = control.value
+    options = [not was] if kind in ("toggle", "checkbox") else control.options
+    for option in options:
+        if not (found := [one for one in getattr(at, kind) if one.key == key]):
+            return  # this choice goes with another one
+        found[0].set_value(option).run()
+        assert faults(at) == [], (label, key, option)
+    if found := [one for one in getattr(at, kind) if one.key == key]:
+        found[0].set_value(was).run()
+
+
+@pytest.mark.parametrize("units", ["SI", "US"])
+def test_every_chart_names_its_axes_and_fixes_their_ranges(path: str, units: str) -> None:
+    at = visit(path, units=units)
+    for label in tours(at):
+        for key, figure in charts(at).items():
+            for name, axis in _axes(figure):
+                place = (label, key, name)
+                assert len(axis.get("range", ())) == 2, place
+                assert all(math.isfinite(end) for end in axis["range"]), place
+                if axis.get("visible", True) and not axis.get("ticktext"):
+                    assert NAMED.search(axis["title"]["text"]), place
+
+
+def _axes(figure: dict) -> Iterator[tuple[str, dict]]:
+    for name, axis in figure["layout"].items():
+        if re.fullmatch(r"[xy]axis\d*", name):
+            yield name, axis
+
+
+def test_every_chart_has_a_text_for_those_who_do_not_see_it(path: str) -> None:
+    at = visit(path)
+    for label in tours(at):
+        for chart in at.get("plotly_chart"):
+            assert len(chart.proto.alt) > 20, (label, chart.key)
+
+
+def test_every_chart_marks_the_running_speed(path: str) -> None:
+    at = visit(path)
+    for label in tours(at):
+        for key, figure in charts(at).items():
+            if key.removeprefix("chart_") not in UNMARKED:
+                assert HERE in json.dumps(figure["data"]), (label, key)
+
+
+def test_a_tab_computes_only_when_open(path: str) -> None:
+    at = visit(path)
+    rows = at.get("tab_container")
+    for row in rows:
+        filled = [tab.label for tab in row.children.values() if tab.children]
+        assert filled == [at.session_state[row.key]]

@@ -1,0 +1,278 @@
+"""What a session keeps: values from page to page, units, presets, the pinned machine, the link."""
+
+import json
+import math
+import re
+
+import pytest
+
+from rotorcalc import Machine
+from tests.app.session import (
+    HOME,
+    OTHERS,
+    PAGES,
+    charts,
+    faults,
+    kept,
+    move,
+    open_part,
+    tours,
+    visit,
+)
+from ui import link
+from ui.inputs import PRESET_VALUES, machine_of, values_of
+
+GREY = "#7d7d7d"
+
+
+def _units(at, name: str) -> None:
+    open_part(at, "settings")
+    at.segmented_control(key="units").set_value(name).run()
+
+
+def test_a_value_survives_a_change_of_page() -> None:
+    at = visit(HOME)
+    move(at, "C", 85.0)
+    for path in (*OTHERS, HOME):
+        at.switch_page(path).run()
+        assert at.slider(key="input_C_SI_slider").value == 85.0, path
+        assert kept(at).values["C"] == 85.0
+        assert at.query_params == {"C": "85"}
+
+
+def test_a_link_holds_on_every_page_with_no_slider_touched() -> None:
+    at = visit(OTHERS[0], preset="sheet-1e7", C="80", rpm="3000", k="inf")
+    before = dict(kept(at).values)
+    for path in (HOME, *OTHERS):
+        at.switch_page(path).run()
+        assert kept(at).values == before
+        assert _shown(at) == before | {"load": None}
+        assert at.selectbox(key="preset").value == "sheet-1e7"
+        assert at.toggle(key="load_follows").value
+        assert at.query_params == {"preset": "sheet-1e7", "C": "80", "rpm": "3000", "k": "inf"}
+
+
+def _shown(at) -> dict[str, float | None]:
+    """Return where the sliders stand."""
+    return {"load": None} | {
+        slider.key.removeprefix("input_").removesuffix("_SI_slider"): slider.value
+        for slider in (*at.slider, *at.select_slider)
+        if (slider.key or "").startswith("input_")
+    }
+
+
+def test_a_preset_resets_all_values() -> None:
+    at = visit(HOME, C="80", cs="500")
+    at.selectbox(key="preset").set_value("sheet-1e7").run()
+    assert kept(at).values == PRESET_VALUES["sheet-1e7"]
+    at.selectbox(key="preset").set_value("sheet-1e8").run()
+    assert kept(at).values == PRESET_VALUES["sheet-1e8"]
+    assert at.query_params == {}
+
+
+@pytest.mark.parametrize("preset", PRESET_VALUES)
+@pytest.mark.parametrize("typed", [False, True])
+def test_switching_units_leaves_the_machine(preset: str, typed: bool) -> None:
+    at = visit(HOME, preset=preset, C="81.3", load="1234.5", k="3.3e7")
+    if typed:
+        open_part(at, "settings")
+        at.toggle(key="typed").set_value(True).run()
+    before, machine = dict(kept(at).values), machine_of(kept(at).values).to_json()
+    for units in ("US", "SI", "US", "SI"):
+        _units(at, units)
+        assert kept(at).units_name == units
+        assert kept(at).values == before
+        assert machine_of(kept(at).values).to_json() == machine
+        assert faults(at) == []
+
+
+def test_us_units_are_shown() -> None:
+    at = visit(HOME, units="US")
+    labels = [slider.label for slider in (*at.slider, *at.select_slider)]
+    for unit in ("lb", "mil", "in", "µreyn", "°F", "lbf/in"):
+        assert any(f"[{unit}]" in label for label in labels), unit
+    assert any(metric.value.endswith(" hp") for metric in at.metric)
+
+
+def test_moving_a_slider_in_us_units_keeps_si() -> None:
+    at = visit(HOME, units="US")
+    at.slider(key="input_C_US_slider").set_value(4.0).run()
+    assert kept(at).values["C"] == pytest.approx(4 * 25.4, rel=1e-12)
+
+
+@pytest.mark.parametrize("path", PAGES)
+def test_pin_and_compare(path: str) -> None:
+    at = visit(path)
+    at.button(key="pin").click().run()
+    assert len(at.table) == 0
+    move(at, "C", 85.0)
+    for label in tours(at):
+        for key, figure in charts(at).items():
+            if key.removeprefix("chart_") not in UNPINNED:
+                assert _ghosts(figure), (label, key)
+        assert faults(at) == [], label
+    if at.metric:
+        assert any("vs A" in (metric.delta or "") for metric in at.metric)
+    differing = at.table[0].value
+    assert "Radial clearance" in differing.to_string()
+    assert re.search(r"60\b.*85\b", differing.to_string())
+    at.button(key="swap").click().run()
+    assert (kept(at).values["C"], kept(at).baseline["C"]) == (60.0, 85.0)
+    at.button(key="unpin").click().run()
+    assert kept(at).baseline is None
+    assert not any(_ghosts(figure) for figure in charts(at).values())
+    assert faults(at) == []
+
+
+# Charts that do not depend on the machine, or compare it in another way.
+UNPINNED: set[str] = set()
+
+
+def _ghosts(figure: dict) -> list[dict]:
+    found = [trace for trace in figure["data"] if str(trace.get("name", "")).startswith("A: ")]
+    for ghost in found:
+        assert ghost["line"]["color"] == GREY
+    return found
+
+
+def test_the_pinned_machine_survives_a_change_of_page_and_of_units() -> None:
+    at = visit(HOME)
+    at.button(key="pin").click().run()
+    move(at, "C", 85.0)
+    at.switch_page(OTHERS[0]).run()
+    _units(at, "US")
+    assert kept(at).baseline == PRESET_VALUES["sheet-1e8"]
+    assert any(_ghosts(figure) for figure in charts(at).values())
+
+
+def test_a_broken_link_is_answered_in_words_and_nothing_else_is_lost() -> None:
+    at = visit(HOME, C="-5", D="abc", mu="nan", T="70", colour="red")
+    said = [box.value for box in at.warning]
+    assert len(said) == 4
+    for name in ("Radial clearance", "Diameter", "Reference viscosity", "colour"):
+        assert any(name in words for words in said), name
+    assert kept(at).values == PRESET_VALUES["sheet-1e8"] | {"T": 70.0}
+    assert at.query_params == {"T": "70"}
+    move(at, "C", 85.0)
+    assert not at.warning
+
+
+def test_a_machine_file_comes_back_the_same() -> None:
+    at = visit(HOME, C="81.3", load="1234.5", k="inf", rpm="5000")
+    machine = machine_of(kept(at).values)
+    other = visit(HOME, preset="fig-5-2")
+    open_part(other, "share")
+    other.file_uploader(key="upload").upload("machine.json", machine.to_json().encode()).run()
+    assert machine_of(kept(other).values) == machine
+    assert faults(other) == []
+    assert not other.warning
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("{", "JSON"),
+        ('{"version": 7}', "version"),
+        ("\x00\x01", "JSON"),
+        ("<b>markup</b>", "JSON"),
+    ],
+)
+def test_a_broken_machine_file_is_answered_in_words(text: str, word: str) -> None:
+    at = visit(HOME, C="80")
+    open_part(at, "share")
+    at.file_uploader(key="upload").upload("bad.json", text.encode()).run()
+    (warning,) = at.warning
+    assert "bad.json" in warning.value
+    assert word in warning.value
+    assert kept(at).values == PRESET_VALUES["sheet-1e8"] | {"C": 80.0}
+
+
+def test_a_value_out_of_a_files_range_is_reported_by_name() -> None:
+    document = json.loads(machine_of(PRESET_VALUES["sheet-1e8"]).to_json())
+    document["bearing"]["radial_clearance"] = 0.1
+    document["temperature"] = 70.0
+    at = visit(HOME)
+    open_part(at, "share")
+    at.file_uploader(key="upload").upload("m.json", json.dumps(document).encode()).run()
+    (warning,) = at.warning
+    assert "Radial clearance" in warning.value
+    assert kept(at).values == PRESET_VALUES["sheet-1e8"] | {"T": 70.0}
+
+
+def test_the_shared_link_holds_the_whole_machine() -> None:
+    at = visit(HOME, preset="sheet-1e7", C="81.3", u="3.7")
+    open_part(at, "share")
+    query = dict(part.split("=") for part in at.code[0].value.split("?")[1].split("&"))
+    again = link.read(query)
+    assert again.problems == []
+    assert (again.preset, again.values) == (kept(at).preset, kept(at).values)
+
+
+def test_the_load_toggle_gives_the_weight_and_takes_it_back() -> None:
+    at = visit(HOME)
+    weight = machine_of(kept(at).values).static_load
+    at.toggle(key="load_follows").set_value(False).run()
+    assert kept(at).values["load"] == pytest.approx(weight, rel=1e-3)
+    move(at, "load", 0.0)
+    assert kept(at).values["load"] == 0.0
+    at.toggle(key="load_follows").set_value(True).run()
+    assert kept(at).values["load"] is None
+
+
+@pytest.mark.parametrize("temperature", [0.0, 40.0, 60.0, 150.0])
+def test_every_grade_of_the_oil_library_can_be_used(temperature: float) -> None:
+    at = visit(HOME, T=str(temperature))
+    open_part(at, "oil_library")
+    for grade in at.selectbox(key="grade").options:
+        at.selectbox(key="grade").set_value(grade).run()
+        at.button(key="use_grade").click().run()
+        assert at.exception == []  # out of a slider's range is told in words
+        if not at.warning:
+            assert kept(at).values["TR"] == temperature
+
+
+def test_a_fitted_oil_passes_through_its_two_viscosities() -> None:
+    at = visit(HOME)
+    open_part(at, "oil_library")
+    at.number_input(key="fit_T1").set_value(40.0)
+    at.number_input(key="fit_mu1").set_value(40.0)
+    at.number_input(key="fit_T2").set_value(100.0)
+    at.number_input(key="fit_mu2").set_value(5.0)
+    at.run()
+    at.button(key="use_fit").click().run()
+    oil = machine_of(kept(at).values).oil
+    assert float(oil.viscosity(40.0)) == pytest.approx(0.040, rel=1e-4)
+    assert float(oil.viscosity(100.0)) == pytest.approx(0.005, rel=1e-4)
+
+
+def test_oils_that_make_no_law_are_refused_in_words() -> None:
+    at = visit(HOME)
+    open_part(at, "oil_library")
+    at.number_input(key="fit_T2").set_value(40.0).run()
+    assert any("must differ" in box.value for box in at.error)
+    assert at.exception == []
+
+
+LIMITS: tuple[dict[str, float], ...] = (
+    {}, {"load": 0.0}, {"k": math.inf}, {"u": 0.0}, {"rpm": 100.0}, {"load": 20000.0, "rpm": 500.0},
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("path", PAGES)
+def test_every_result_explains_itself_at_the_limits_too(path: str) -> None:
+    at = visit(path)
+    explained = [key for one in at.get("popover") if (key := one.key or "").startswith("explain_")]
+    for key in explained:
+        at.session_state[key] = True
+    for values in LIMITS:
+        kept(at).values = PRESET_VALUES["sheet-1e8"] | values
+        at.run()
+        assert len(at.latex) >= len(explained), values
+        assert faults(at) == [], values
+
+
+def test_a_machine_read_from_values_is_the_machine() -> None:
+    values = PRESET_VALUES["sheet-1e8"]
+    machine = machine_of(values)
+    assert Machine.from_json(machine.to_json()) == machine
+    assert values_of(machine, 1.0, 2.0)["C"] == values["C"]

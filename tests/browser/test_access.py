@@ -1,0 +1,57 @@
+"""For everyone: light and dark, wide and narrow, with no fault that axe finds serious."""
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+
+from tests.browser.app_page import PATHS, AppPage
+
+SIZES = {"desk": {"width": 1440, "height": 900}, "phone": {"width": 390, "height": 844}}
+AXE = Axe()
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("size", SIZES)
+@pytest.mark.parametrize("name", PATHS)
+def test_page_has_no_serious_fault(app: AppPage, name: str, size: str, scheme: str) -> None:
+    app.page.set_viewport_size(SIZES[size])
+    app.page.emulate_media(color_scheme=scheme)
+    app.open(name)
+    assert _violations(app) == []
+    assert app.overflow() <= 0
+
+
+@pytest.mark.parametrize("name", PATHS)
+def test_tabs_have_no_serious_fault_and_fit_a_phone(app: AppPage, name: str) -> None:
+    app.page.set_viewport_size(SIZES["phone"])
+    app.open(name)
+    for label in app.tabs()[1:]:
+        app.open_tab(label)
+        assert _violations(app) == [], label
+        assert app.overflow() <= 0, label
+
+
+def test_inputs_on_a_phone(app: AppPage) -> None:
+    app.page.set_viewport_size(SIZES["phone"])
+    app.open("Machine")
+    app.page.get_by_test_id("stExpandSidebarButton").click()
+    app.slider("Radial clearance").scroll_into_view_if_needed()
+    app.press("Radial clearance", "ArrowRight")
+    assert app.query() == {"C": "61"}
+    assert _violations(app) == []
+
+
+@pytest.mark.parametrize("button", ["Units and settings", "Share and keep", "Oil library"])
+def test_popover_has_no_serious_fault(app: AppPage, button: str) -> None:
+    app.open("Machine")
+    app.open_popover(button)
+    assert _violations(app) == []
+
+
+def _violations(app: AppPage) -> list[str]:
+    """Return what axe finds serious or critical."""
+    found = AXE.run(app.page, options={"resultTypes": ["violations"]}).response["violations"]
+    return [
+        f"{one['id']}: {one['help']}: {[node['html'][:200] for node in one['nodes'][:3]]}"
+        for one in found
+        if one["impact"] in ("serious", "critical")
+    ]

@@ -1,0 +1,146 @@
+"""What a visitor does: move a slider, pin a machine, change units, save a chart."""
+
+import re
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.browser.app_page import PATHS, AppPage
+
+# Pages with results and charts of the machine.
+LIVE = [name for name in PATHS if name != "Notes"]
+
+
+@pytest.mark.parametrize("name", LIVE)
+def test_slider_moves_a_number_a_chart_and_the_address_bar(app: AppPage, name: str) -> None:
+    app.open(name)
+    numbers, drawn = app.metrics(), app.drawn()
+    app.press("Radial clearance", "PageUp")
+    assert app.query().keys() == {"C"}
+    assert float(app.query()["C"]) > 60
+    assert app.metrics() != numbers
+    assert app.drawn() != drawn
+
+
+@pytest.mark.parametrize("name", LIVE)
+def test_pin_draws_the_baseline(app: AppPage, name: str) -> None:
+    app.open(name)
+    with app.run():
+        app.page.get_by_role("button", name="Pin this machine").click()
+    app.press("Radial clearance", "PageUp")
+    assert any(trace.startswith("A: ") for chart in app.traces() for trace in chart)
+    expect(app.page.get_by_text("vs A").first).to_be_visible()
+    expect(app.page.get_by_test_id("stTable")).to_contain_text("Radial clearance")
+    with app.run():
+        app.page.get_by_role("button", name="Unpin A").click()
+    assert not any(trace.startswith("A: ") for chart in app.traces() for trace in chart)
+    expect(app.page.get_by_text("vs A")).to_have_count(0)
+
+
+def test_units_switch_leaves_the_machine(app: AppPage) -> None:
+    app.open("Machine", C="80")
+    numbers = app.metrics()
+    _choose_units(app, "US")
+    assert app.query() == {"C": "80", "units": "US"}
+    assert app.metrics().keys() == numbers.keys()
+    assert any(value.endswith("mil") for value in app.metrics().values())
+    expect(app.slider("Radial clearance")).to_have_attribute("aria-label", re.compile(r"\[mil\]"))
+    _choose_units(app, "SI")
+    assert app.query() == {"C": "80"}
+    assert app.metrics() == numbers
+
+
+def _choose_units(app: AppPage, units: str) -> None:
+    body = app.open_popover("Units and settings")
+    with app.run():
+        body.get_by_role("radio", name=units, exact=True).click()
+    app.close_popover()
+
+
+def test_values_can_be_typed(app: AppPage) -> None:
+    app.open("Machine")
+    body = app.open_popover("Units and settings")
+    with app.run():
+        body.get_by_text("Type values instead of sliding").click()
+    app.close_popover()
+    field = app.page.get_by_role("spinbutton", name=re.compile("^Radial clearance"))
+    field.fill("83.5")
+    with app.run():
+        field.press("Enter")
+    assert app.query() == {"C": "83.5"}
+
+
+def test_preset_brings_its_machine(app: AppPage) -> None:
+    app.open("Machine", C="80")
+    with app.run():
+        app.page.get_by_role("combobox", name=re.compile("Preset")).click()
+        app.page.get_by_role("option", name="600 lbf rotor, flexible shaft").click()
+    assert app.query() == {"preset": "sheet-1e7"}
+    expect(app.page.get_by_test_id("stMain").get_by_text("4627 rpm").first).to_be_visible()
+
+
+@pytest.mark.parametrize("name", PATHS)
+def test_every_tab_opens_and_draws(app: AppPage, name: str) -> None:
+    app.open(name)
+    for label in app.tabs():
+        app.open_tab(label)
+        expect(app.page.get_by_test_id("stException")).to_have_count(0)
+        panel = app.page.get_by_role("tabpanel").filter(visible=True)
+        assert panel.inner_text().strip()
+    if name != "Notes":
+        assert app.drawn()
+
+
+def test_keyboard_alone_reaches_sliders_and_opens_a_popover(app: AppPage) -> None:
+    app.open("Equilibrium")
+    keyboard = app.page.keyboard
+    reached: list[str] = []
+    for _ in range(150):
+        keyboard.press("Tab")
+        focus = app.page.evaluate(
+            """() => [document.activeElement.type || document.activeElement.tagName,
+                      document.activeElement.getAttribute('aria-label')
+                      || document.activeElement.innerText]"""
+        )
+        reached.append(" ".join(filter(None, focus)))
+        if "Eq. 5.8" in reached[-1]:
+            break
+    assert any(re.match("range Radial clearance", what) for what in reached)
+    assert any("Pin this machine" in what for what in reached)
+    assert "Eq. 5.8" in reached[-1]
+    with app.run():
+        keyboard.press("Enter")
+    expect(app.page.get_by_test_id("stPopoverBody").locator(".katex").first).to_be_visible()
+    keyboard.press("Escape")
+    expect(app.page.get_by_test_id("stPopoverBody")).to_have_count(0)
+
+
+@pytest.mark.parametrize("kind", ["png", "svg"])
+def test_chart_is_saved_as_a_picture(app: AppPage, kind: str, tmp_path) -> None:
+    app.open("Equilibrium")
+    if kind == "svg":
+        body = app.open_popover("Units and settings")
+        with app.run():
+            body.get_by_role("radio", name="svg").click()
+        app.close_popover()
+    chart = app.page.get_by_test_id("stPlotlyChart").first
+    chart.hover()
+    with app.page.expect_download() as started:
+        chart.locator(".modebar-btn[data-title*='ownload']").click()
+    saved = tmp_path / started.value.suggested_filename
+    started.value.save_as(saved)
+    assert saved.suffix == f".{kind}"
+    start = saved.read_bytes()[:200]
+    assert start.startswith(b"\x89PNG") if kind == "png" else b"<svg" in start
+
+
+def test_zero_load_and_rigid_shaft_are_explained_in_words(app: AppPage) -> None:
+    app.open("Machine", load="0", k="inf")
+    expect(app.page.get_by_test_id("stAlert").first).to_contain_text("without load")
+    for name in LIVE:
+        if name != "Machine":
+            app.go(name)
+        expect(app.page.get_by_test_id("stException")).to_have_count(0)
+        assert not re.search(
+            r"\b(nan|NaN|None|inf)\b", app.page.get_by_test_id("stMain").inner_text()
+        )

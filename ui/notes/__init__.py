@@ -1,0 +1,80 @@
+"""The texts of the notes page, and its tables of equations and of checks."""
+
+import functools
+import time
+from itertools import groupby
+from pathlib import Path
+
+from rotorcalc.validation import Case, validate
+from ui.notes.equations import EQUATIONS, Equation
+
+
+@functools.cache
+def text(name: str) -> str:
+    """Return a text of this folder, Markdown."""
+    return Path(__file__).with_name(f"{name}.md").read_text(encoding="utf-8")
+
+
+@functools.cache
+def equations() -> str:
+    """Return the list of equations, Markdown."""
+    return "\n\n".join(
+        f"#### {group}\n\n" + "\n\n".join(_equation(item) for item in items)
+        for group, items in EQUATIONS.items()
+    )
+
+
+def _equation(item: Equation) -> str:
+    number = f"**Eq. {item.number}**" if item.number[0].isdigit() else f"*{item.number}*"
+    functions = ", ".join(f"`{name}`" for name in item.functions)
+    return f"{number} · {item.title}\n\n$$\n{item.latex}\n$$\n\n{functions} · {item.pages}"
+
+
+@functools.lru_cache(maxsize=1)
+def checked() -> tuple[tuple[Case, ...], float]:
+    """Return all checks, computed once a process, and the seconds that they took."""
+    start = time.perf_counter()
+    return validate(), time.perf_counter() - start
+
+
+def verdict(cases: tuple[Case, ...], seconds: float) -> str:
+    """Return how many checks hold, in a sentence."""
+    failed = sum(not case.holds for case in cases)
+    if failed:
+        return f"{failed} of {len(cases)} checks fail. Do not trust this copy of the program."
+    return f"All {len(cases)} checks hold, computed by this server in {seconds:.1f} s."
+
+
+def checks(cases: tuple[Case, ...]) -> str:
+    """Return the checks as tables, Markdown."""
+    return "\n\n".join(
+        f"#### {group}\n\n"
+        "| Check | Value | Reference | Difference | Allowed | Unit | Source | Verdict |\n"
+        "|:--|--:|--:|--:|--:|:--|:--|:--|\n" + "\n".join(_row(case) for case in members)
+        for group, members in groupby(cases, key=lambda case: case.group)
+    )
+
+
+def _row(case: Case) -> str:
+    cells = (
+        case.name.replace("|", r"\|"),
+        _number(case.value),
+        _number(case.reference),
+        _small(case.difference),
+        _small(case.tolerance),
+        case.unit,
+        case.source.replace("|", r"\|"),
+        "✓ holds" if case.holds else "✗ **fails**",
+    )
+    return f"| {' | '.join(cells)} |"
+
+
+def _number(value: float) -> str:
+    if value == 0.0:
+        return "0"
+    shown = f"{value:.2e}" if abs(value) < 1e-4 else f"{value:.9g}"
+    return shown.replace("-", "−")
+
+
+def _small(value: float) -> str:
+    return "0" if value == 0.0 else f"{value:.1e}".replace("-", "−")
