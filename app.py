@@ -1,7 +1,9 @@
 import streamlit as st
 
-from rotorcalc.figures import machine
+from rotorcalc import whirl
+from rotorcalc.figures import equilibrium, machine, response, stability, style
 from ui import page as frame
+from ui.stability import crossing
 from ui.verdict import verdict
 
 page = frame.begin(
@@ -33,3 +35,35 @@ with results:
         "Imbalance response" if page.view.is_stable else "Imbalance response, if it were stable"
     )
     page.results("disk_amplitude", "journal_amplitude", "disk_peak", "journal_peak")
+
+locus, threshold, swing = st.columns(3)
+with locus:
+    page.chart(
+        lambda v: style.small(
+            equilibrium.locus(v.curves, v.sweep, v.at_round_speeds, v.point, units)
+        ),
+        "home_locus",
+        alt="Path of the journal's centre in the clearance circle, and its place now",
+        caption="Where the journal sits. Eqs. 5.7, 5.8.",
+    )
+    st.page_link("pages/1_Equilibrium.py", label="Static equilibrium")
+with threshold:
+    page.chart(
+        lambda v: style.small(
+            stability.threshold(
+                whirl.thresholds(v.sweep), whirl.thresholds(v.point), crossing(v), units
+            )
+        ),
+        "home_threshold",
+        alt="Threshold speed over running speed, and the line that it crosses at the onset",
+        caption="Where it goes unstable: the threshold meets the line Ω. Eqs. 5.45–5.50.",
+    )
+    st.page_link("pages/3_Stability.py", label="Stability")
+with swing:
+    page.chart(
+        lambda v: style.small(response.amplitude(v.response, "axes", units)),
+        "home_response",
+        alt="Size of the orbits of disk and journal over running speed",
+        caption="How far disk and journals swing. Eq. 5.38.",
+    )
+    st.page_link("pages/5_Response.py", label="Imbalance response")

@@ -98,7 +98,7 @@ if force.open and ask.has_orbit(view):
                 "energy_bars",
                 alt="Energy fed in and taken out in one turn of the whirl orbit, at the running "
                 "speed and at the onset, where the bars meet.",
-                caption="Per turn, area of the orbit (J/m² = N/m) and bearing. Appendix A, Eq. 5.14.",
+                caption="Per turn, orbit area (J/m² = N/m) and bearing. Appendix A, Eq. 5.14.",
             )
         with right:
             page.chart(

@@ -79,17 +79,19 @@ if family.open:
     left, right = family.columns(2)
     with left:
         page.chart(
-            lambda v: draw.family(v.response_family(words.VARIANTS[varied]), "disk", varied, units),
+            lambda v: draw.family(
+                v.response_family(words.VARIANTS[varied]), "disk", varied, v.response, units
+            ),
             "family_disk",
             alt="Size of the disk's orbit against speed for several rotors.",
-            caption="Disk.",
+            caption="The disk's orbit. Eq. 5.38 with midspan damping and journal mass added.",
         )
     with right:
         page.chart(
             lambda v: draw.family(
-                v.response_family(words.VARIANTS[varied]), "journal", varied, units
+                v.response_family(words.VARIANTS[varied]), "journal", varied, v.response, units
             ),
             "family_journal",
             alt="Size of the journal's orbit against speed for several rotors.",
-            caption="Journal.",
+            caption="The journal's orbit. Eq. 5.38 with midspan damping and journal mass added.",
         )

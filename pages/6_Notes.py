@@ -29,11 +29,7 @@ if signs.open:
         page.chart(
             lambda _: conventions(),
             "conventions",
-            alt="A journal in its bearing, seen along the shaft. The load F pulls down along X; Y "
-            "points right; the shaft turns counterclockwise, from X to Y. The journal's centre lies "
-            "below and to the right of the bearing's, at the attitude angle φ from X towards Y. r "
-            "points along the line of centres, t at a right angle ahead of it. The film is thickest "
-            "opposite to r, where θ begins, and thinnest at r.",
+            alt=notes.CONVENTIONS_ALT,
             caption="Seen along the shaft, the clearance drawn far too large. Eqs. 5.3, 5.7, 5.11.",
         )
         st.markdown(notes.text("conventions"))

@@ -250,8 +250,8 @@ def follow_branches(eigenvalues: ArrayLike) -> ComplexArray:
     """Return eigenvalues reordered so that each column is one mode followed over the sweep.
 
     Each step extrapolates every branch along its last step and pairs the next eigenvalues with the
-    predictions so that the sum of the distances is least. So modes keep their identity where
-    their frequencies cross.
+    predictions so that the sum of the distances, each relative to its size, is least. So modes keep
+    their identity where their frequencies cross, beside far larger eigenvalues too.
 
     Parameters
     ----------
@@ -269,10 +269,18 @@ def follow_branches(eigenvalues: ArrayLike) -> ComplexArray:
     branches[0] = branches[0][np.lexsort((branches[0].real, -branches[0].imag))]
     for i in range(1, len(branches)):
         last = branches[i - 1]
-        predicted = last if i == 1 else 2.0 * last - branches[i - 2]
-        _, order = linear_sum_assignment(np.abs(predicted[:, None] - branches[i][None, :]))
+        predicted = last if i == 1 else last + _bounded(last - branches[i - 2], last)
+        apart = np.abs(predicted[:, None] - branches[i][None, :])
+        size = np.abs(predicted)[:, None] + np.abs(branches[i])[None, :]
+        _, order = linear_sum_assignment(apart / np.where(size == 0.0, 1.0, size))
         branches[i] = branches[i][order]
     return branches
+
+
+def _bounded(step: ComplexArray, last: ComplexArray) -> ComplexArray:
+    """Return steps no longer than a third of the eigenvalue: a further guess would be none."""
+    length, most = np.abs(step), np.abs(last) / 3.0
+    return step * np.where(length > most, most / np.where(length == 0.0, 1.0, length), 1.0)
 
 
 def _newton_step(W: ComplexArray, dW: ComplexArray) -> ComplexArray:

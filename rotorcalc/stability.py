@@ -191,10 +191,10 @@ def _search(machine: Machine, flexible: bool) -> tuple[Array, Array]:
     A film that cannot whirl feeds no mode, whatever the rotor, so the search begins at the last
     speed before the film can; near the wall, below σ = 1e-3, none can. Above σ = 10 the film is all
     but centred and no longer changes. Without load it is centred at every speed, and the search
-    begins far below every rate of the rotor.
+    begins far below every rate of the rotor, but not so far that the growth drowns in rounding.
     """
     unit = float(modified_sommerfeld(machine, 1.0))
-    lowest = 1e-3 / unit if math.isfinite(unit) else 1e-6 * _slowest_rate(machine, flexible)
+    lowest = 1e-3 / unit if math.isfinite(unit) else 1e-3 * _slowest_rate(machine, flexible)
     centred = equilibrium(machine, 10.0 / unit if math.isfinite(unit) else lowest)
     highest = 2.0 * max(float(centred.speed), _highest_onset(machine.rotor, centred, flexible))
     points = 1 + math.ceil(_POINTS_PER_DECADE * math.log10(highest / lowest))
@@ -206,14 +206,12 @@ def _search(machine: Machine, flexible: bool) -> tuple[Array, Array]:
 
 
 def _slowest_rate(machine: Machine, flexible: bool) -> float:
-    """Return the slowest of the machine's own rates on a centred film [rad/s]."""
+    """Return the slowest of the rotor's own rates, or a rigid one's on a centred film [rad/s]."""
     rotor = machine.rotor
-    film_damping = float(np.trace(equilibrium(machine, 1.0).damping))
-    rates = [film_damping / rotor.half_mass]
-    if flexible and not rotor.is_rigid:
-        k = rotor.shaft_stiffness
-        rates += [math.sqrt(k / rotor.half_mass), k / (rotor.disk_damping + film_damping)]
-    return min(rates)
+    if rotor.is_rigid or not flexible:
+        return float(np.trace(equilibrium(machine, 1.0).damping)) / rotor.half_mass
+    k, C_s = rotor.shaft_stiffness, rotor.disk_damping
+    return min(math.sqrt(k / rotor.half_mass), k / C_s if C_s > 0.0 else math.inf)
 
 
 def _highest_onset(rotor: Rotor, centred: Equilibrium, flexible: bool) -> float:

@@ -37,8 +37,12 @@ def log_uniform(low, high):
     return st.floats(math.log10(low), math.log10(high)).map(lambda power: 10.0**power)
 
 
+RIGID = st.just(math.inf)
+BENDING = log_uniform(1e6, 1e10)
+
+
 @st.composite
-def machines(draw, *, stiffness=None, damped=False, journals=False, load=None):
+def machines(draw, *, stiffness=RIGID | BENDING, damped=False, journals=False, load=None):
     """Draw a machine from the ranges of the app's sliders.
 
     Midspan damping reaches from next to nothing to ten times what leaves the disk on its shaft
@@ -46,7 +50,7 @@ def machines(draw, *, stiffness=None, damped=False, journals=False, load=None):
     """
     diameter = draw(st.floats(0.02, 0.4))
     mass = draw(log_uniform(10, 2000))
-    shaft = draw(log_uniform(1e6, 1e10) | st.just(math.inf) if stiffness is None else stiffness)
+    shaft = draw(stiffness)
     critical = math.sqrt(min(shaft, 1e10) * mass / 2)
     return Machine(
         oil=Oil(

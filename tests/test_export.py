@@ -291,6 +291,7 @@ def test_report_names_what_is_no_number() -> None:
 def test_report_shows_the_baseline_where_it_differs() -> None:
     text = read("sheet-1e8", "sheet-1e7").text
     assert text.count("1e+07") == 1
+    assert text.count("17.2369") == 1  # the same in both, so once
     assert "1e+07" not in read("sheet-1e8", None).text
     assert not any(
         "differs" in str(attrs.get("class")) for _, attrs in read("sheet-1e8", "sheet-1e8").tags
@@ -320,6 +321,10 @@ def test_report_makes_no_anchor_of_what_is_no_web_address() -> None:
     reader = Reader(page)
     assert not any(tag == "a" for tag, _ in reader.tags)
     assert "javascript:alert(1)" in reader.text
+
+
+def test_tables_escape_what_they_show() -> None:
+    assert report._row([("<b>&", "")]) == "<tr><td>&lt;b&gt;&amp;</td></tr>"
 
 
 def test_charts_cannot_end_the_script_that_holds_them() -> None:

@@ -33,8 +33,10 @@ def step(eps):
     return 0.005 * min(eps, 1 - eps)
 
 
-eccentricities = st.floats(0.0, 0.95)
-directions = st.floats(-np.pi, np.pi)
+# Numbers so small that they have lost digits are no test of the last ones.
+eccentricities = st.floats(0.0, 0.95, allow_subnormal=False)
+directions = st.floats(-np.pi, np.pi, allow_subnormal=False)
+velocities = st.floats(-5, 5).map(lambda v: v if abs(v) > 1e-150 else 0.0)
 
 
 def minus_derivatives(force, size):
@@ -81,7 +83,7 @@ def test_damping_is_minus_the_derivative_of_the_force_by_velocity(eps):
         assert found == pytest.approx(closed, abs=DIFFERENCE_ERROR * np.max(np.abs(closed)))
 
 
-@given(eccentricities, directions, st.floats(-5, 5), st.floats(-5, 5))
+@given(eccentricities, directions, velocities, velocities)
 @example(0.95, 0.0, -5.0, 0.0)
 @example(0.95, 0.0, 5.0, 0.0)
 def test_force_is_the_integral_of_the_positive_pressure(radius, angle, dx, dy):
@@ -403,7 +405,7 @@ def test_inverse_returns_the_sommerfeld_number_of_a_scalar(power):
     assert short.modified_sommerfeld(eps) == pytest.approx(sigma, rel=1e-12)
 
 
-@given(st.floats(0.0, 0.9999))
+@given(st.floats(0.0, 0.9999, allow_subnormal=False))
 def test_inverse_returns_the_eccentricity(eps):
     # The search is for ln(1/ε² − 1), which rounds to EPS of itself.
     rounding = 16 * EPS * (1 - math.log(max(eps, 1e-308)))

@@ -67,11 +67,11 @@ def _plotly() -> str:
 
 
 def _script(charts: report_charts.Charts) -> str:
-    """Return charts as JSON that cannot end the script that it stands in."""
+    """Return charts as JSON; Plotly writes it so that it cannot end the script it stands in."""
     members = (
         f'"{key}":{plotly.io.to_json(chart, validate=False)}' for key, chart in charts.items()
     )
-    return f"{{{','.join(members)}}}".replace("<", r"\u003c")
+    return f"{{{','.join(members)}}}"
 
 
 def _anchor(link: str) -> str:
@@ -163,6 +163,7 @@ def _modes(view: View, units: Units) -> str:
     rows = (
         _mode(number, complex(value), view.speed, units)
         for number, value in enumerate(view.locus(True).here.eigenvalues, start=1)
+        if value.imag >= 0.0  # else the mirror image of another
     )
     head = _head(
         "Mode", (f"Whirl frequency [{units.speed.name}]", "n"), ("× speed", "n"),

@@ -73,17 +73,17 @@ def explain_family(view: View, varied: Literal["damping", "mass"]) -> None:
         shares = (
             "the centred film's damping"
             if rotor.is_rigid
-            else "the critical damping of the disk on its shaft, 2√(K_rot M_disk)"
+            else "the critical damping of the disk on its shaft, 2√(Kᵣₒₜ M)"
         )
         st.markdown(
-            "Thick: this machine. Thin: the same with a damper at midspan of 0, 5, 10, 20 and "
-            f"50 % of {shares}. Dotted where the machine is unstable."
+            "The thickest line is this machine, the others the same with a damper at midspan of "
+            f"0, 5, 10, 20 and 50 % of {shares}. Dotted where the machine is unstable."
         )
         return
     st.markdown(
-        "Thick: this machine. Thin: the same with 0, 5, 10, 20 and 40 % of half the rotor's mass "
-        "moved from the disk to each journal. Dotted where the machine is unstable. The imbalance "
-        "is the disk's, so a lighter disk is also driven less."
+        "The thickest line is this machine, the others the same with 0, 5, 10, 20 and 40 % of half "
+        "the rotor's mass moved from the disk to each journal. Dotted where the machine is "
+        "unstable. The imbalance is the disk's, so a lighter disk is also driven less."
     )
 
 

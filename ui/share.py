@@ -38,7 +38,10 @@ def _downloads(view: View, baseline: View | None, units: Units, address: str) ->
     files = (
         ("Machine (JSON)", "machine.json", "application/json", lambda: export.machine_json(view)),
         ("Sweep over speed (CSV)", "sweep.csv", "text/csv", lambda: export.sweep_csv(view, units)),
-        ("K and C for ROSS (CSV)", "ross.csv", "text/csv", lambda: export.ross_table(view)),
+        (
+            "K and C for ROSS (Excel)", export.ROSS_NAME, export.ROSS_MIME,
+            lambda: export.ross_table(view),
+        ),
         (
             "Report (HTML)", "report.html", "text/html",
             lambda: report.report(view, baseline, units, address, __version__),

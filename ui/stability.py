@@ -21,13 +21,14 @@ from ui.inputs import INPUTS
 from ui.results import digits
 from ui.view import View
 
-_FIELDS = {
+# The core's names for the inputs that move an onset.
+FIELDS = {
     "mass": "rotor.mass", "load": "load", "T": "temperature", "mu": "oil.reference_viscosity",
     "alpha": "oil.temperature_coefficient", "C": "bearing.radial_clearance",
     "D": "bearing.diameter", "L": "bearing.length", "k": "rotor.shaft_stiffness",
     "cs": "rotor.disk_damping", "mj": "rotor.journal_mass",
 }  # fmt: skip
-_KEYS = {name: key for key, name in _FIELDS.items()}
+_KEYS = {name: key for key, name in FIELDS.items()}
 # Whose effect goes by ratios: drawn and searched over a logarithmic axis.
 _BY_RATIO = {"mass", "load", "mu", "C", "D", "L", "k"}
 _SMALLEST_LOAD = 10.0  # N, the end of a logarithmic axis
@@ -150,7 +151,7 @@ def quantity(key: str, machine: Machine, units: Units) -> Quantity:
 
 def choose_input(label: str, default: str, key: str, without: str = "") -> str:
     """Show a choice among the inputs that move the onset; return the chosen one's key."""
-    options = [name for name in _FIELDS if name != without]
+    options = [name for name in FIELDS if name != without]
     chosen = st.selectbox(
         label,
         options,
@@ -183,7 +184,7 @@ def choose_target(view: View, units: Units) -> float:
 
 def value(view: View, key: str) -> float:
     """Return a machine's value of an input in SI."""
-    return design.value_of(view.machine, _FIELDS[key])
+    return design.value_of(view.machine, FIELDS[key])
 
 
 def choose_abscissa() -> bool:
@@ -228,7 +229,7 @@ def sensitivities(view: View) -> design.Sensitivities:
 def solution(view: View, key: str, target: float, units: Units) -> design.OnsetSolution:
     """Return the values of an input that put the onset at a speed."""
     axis = quantity(key, view.machine, units)
-    return _solution(view.machine, _FIELDS[key], target, axis.low, axis.high)
+    return _solution(view.machine, FIELDS[key], target, axis.low, axis.high)
 
 
 def answer(found: design.OnsetSolution, axis: Quantity, now: float, units: Units) -> str:
@@ -274,7 +275,7 @@ def _onset_map(
     xs, ys = (
         (np.geomspace if axis.log else np.linspace)(axis.low, axis.high, points) for axis in axes
     )
-    x, y = (_FIELDS[key] for key in keys)
+    x, y = (FIELDS[key] for key in keys)
     return design.onset_map(machine, x=x, xs=xs, y=y, ys=ys, progress=report.tell)
 
 

@@ -21,6 +21,8 @@ _MARGIN = {"l": 64, "r": 16, "t": 26, "b": 48}
 _EDGE = 1.24
 # Marks of speed closer than this, in radial clearances, would write over each other.
 _SPACING = 0.17
+# X/C below which the path has turned so far down that labels stand beside it, not above.
+_LOW = 0.55
 # The arrow that shows the sense of rotation: its ends [rad] and its radius.
 _TURN = (1.9, 2.45, 1.08)
 
@@ -38,14 +40,13 @@ def locus(
     traces = [
         *_behind_path(curves, point),
         _path(sweep, units),
-        _dots(ticks),
         _guides(at),
         style.mark(at[1], at[0], "running speed", hovertemplate=_position_hover(point, units)),
     ]
     labels = [
         *(
-            plane.label(f"{rpm:.0f}", place, size=12, **_beside(faster))
-            for rpm, place, faster in zip(speeds, ticks, marks.speed[shown] > point.speed, strict=True)
+            plane.label(f"{rpm:.0f}", place, size=12, **_beside(place, at))
+            for rpm, place in zip(speeds, ticks, strict=True)
         ),
         *_locus_labels(point, at, units),
         *_load_arrow(point, units),
@@ -56,6 +57,7 @@ def locus(
         plane.stroke((-1.0, 0.0), (1.0, 0.0)),
         plane.stroke((0.0, -1.0), (0.0, 1.0)),
         *plane.turning(*_TURN),
+        *(plane.dot(place, style.JOURNAL) for place in ticks),
     ]
     x = style.axis("Y/C, in the sense of rotation →", -_EDGE, _EDGE, dtick=0.5)
     y = style.axis("← X/C, along the load", _EDGE, -_EDGE, dtick=0.5)
@@ -194,17 +196,11 @@ def _spaced(places: Array, at: Array) -> list[int]:
     return kept
 
 
-def _beside(faster: bool) -> Part:
+def _beside(place: Array, at: Array) -> Part:
     """Return where a mark's label stands: clear of the path and of the running speed's label."""
-    if faster:
-        return {"xanchor": "right", "xshift": -1, "yshift": 12}
-    return {"xanchor": "left", "xshift": 7, "yshift": -8}
-
-
-def _dots(places: Array) -> Trace:
-    marker = {"size": 7, "color": style.JOURNAL, "line": {"color": "#ffffff", "width": 1}}
-    extra: Part = {"marker": marker, "hoverinfo": "skip"}
-    return style.mark(places[:, 1], places[:, 0], "round speeds", **extra)
+    if place[0] < at[0] < _LOW and math.dist(place, at) < 0.3:
+        return {"xanchor": "right", "yshift": 14}
+    return {"xanchor": "left", "xshift": 7, "yshift": 9 if place[0] < 0.35 else 0}
 
 
 def _guides(at: Array) -> Trace:
@@ -224,8 +220,9 @@ def _locus_labels(point: Sweep, at: Array, units: Units) -> list[Part]:
     phi = text.amount(units.angle, point.attitude_angle).replace(" ", "")
     circle = f"clearance circle, C = {text.amount(units.film, C)}"
     left: Part = {"xanchor": "right", "xshift": -6}
+    yshift = 20 if at[0] < _LOW else -4
     return [
-        plane.label(f"<b>{rpm:.0f} rpm</b>", at, xshift=9, yshift=15, xanchor="left"),
+        plane.label(f"<b>{rpm:.0f} rpm</b>", at, xshift=10, yshift=yshift, xanchor="left"),
         plane.label(f"φ = {phi}", (0.3, 0.0), **left),
         plane.label("Ω", plane.at(2.2, 1.18)),
         plane.label(circle, (1.1, 0.0), size=12, **left),

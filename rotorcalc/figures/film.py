@@ -88,7 +88,9 @@ def forces(curves: FilmForces, at: FilmForces, units: Units) -> Chart:
     """Return the film's forces over ε at the running speed (Fig. 5.2), and the load on them."""
     eps, load = curves.eccentricity_ratio, float(units.force.of(at.total))
     within = units.force.of(curves.total[(eps > 0.02) & (eps < 0.8)])
-    low, high = style.decades([within.min(), within.max(), load])
+    # The radial part vanishes with ε²: two decades below the load it may leave the chart.
+    low_part = max(float(units.force.of(-at.radial)), load / 100)
+    low, high = style.decades([within.min(), within.max(), load, low_part])
     x = style.axis(style.titled("Eccentricity ratio", "ε", "-"), 0.0, 1.0, dtick=0.2)
     y = style.axis(style.titled("Film force", "F", units.force.name), low, high, log=True)
     hover = text.hover("ε = %{x:.4f}", units.force)

@@ -87,8 +87,9 @@ def whirl_frequency(eigenvalue: ComplexArray | complex, units: Units) -> Array:
 
 
 def points(locus: Locus, x: Array, y: Array, x_axis: Axis, y_axis: Axis) -> list[Trace]:
-    """Return the running speed's points of all modes, the leading one with guides to the axes."""
-    shown = np.flatnonzero(np.isfinite(y))
+    """Return the running speed's points in view, that of the leading mode with guides."""
+    (left, right), (low, high) = x_axis["range"], y_axis["range"]
+    shown = np.flatnonzero((x >= left) & (x <= right) & (y >= low) & (y <= high))
     if not len(shown):
         return []
     lead = locus.leading if locus.leading in shown else int(shown[0])

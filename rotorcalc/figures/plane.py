@@ -66,6 +66,16 @@ def circle(radius: float) -> Part:
     }  # fmt: skip
 
 
+def dot(place: ArrayLike, colour: str) -> Part:
+    """Return a small mark at a place, in front of all lines."""
+    X, Y = np.asarray(place, dtype=float)
+    r = 0.025
+    return {
+        "type": "circle", "x0": float(Y - r), "x1": float(Y + r), "y0": float(X - r),
+        "y1": float(X + r), "fillcolor": colour, "line": {"color": "#ffffff", "width": 1},
+    }  # fmt: skip
+
+
 def stroke(tail: tuple[float, float], tip: tuple[float, float]) -> Part:
     """Return a faint straight line, behind all lines."""
     return {

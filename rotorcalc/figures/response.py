@@ -29,14 +29,15 @@ _TWO_COLUMNS = {
     "orientation": "h", "x": 0, "y": 1.01, "yanchor": "bottom",
     "entrywidth": 0.42, "entrywidthmode": "fraction",
 }  # fmt: skip
-# A family's lines beside this machine's: one hue, from light to full.
-_SHADES = (
-    "rgba(176,86,159,0.4)", "rgba(176,86,159,0.6)", "rgba(176,86,159,0.8)", "#b0569f", "#7d3b70",
+# Colour and width of a family's lines beside this machine's, in the order of what varies.
+_VARIANTS = (
+    (style.PURPLE, 1.4), (style.GREEN, 1.4), (style.GREY, 1.4), (style.PURPLE, 2.8),
+    (style.GREEN, 2.8),
 )  # fmt: skip
 
 
 def amplitude(curves: ResponseCurves, shown: Literal["axes", "XY"], units: Units) -> Chart:
-    """Return the amplitudes of disk and journal against speed, as the orbit's axes or as X and Y."""
+    """Return the amplitudes of disk and journal against speed: the orbit's axes, or X and Y."""
     x, unit = _speed_axis(curves, units), units.film
     bodies = _bodies(curves)
     sizes = [part for _, body, _, _ in bodies for part in _parts(body, shown)]
@@ -51,7 +52,7 @@ def amplitude(curves: ResponseCurves, shown: Literal["axes", "XY"], units: Units
                         _names(name, shown), colour, units)  # fmt: skip
         if shown == "axes":
             traces += _peak_marks(found, name, colour, units)
-            notes += _peak_labels(found, units, x)
+            notes += _peak_labels(found, name, units, x)
         else:
             shapes += [_guide(float(units.speed.of(speed)), colour) for speed in found.speed]
     here = [unit.of(part) for _, body in _bodies_here(curves) for part in _parts(body, shown)]
@@ -119,11 +120,12 @@ def scrubber(steps: Orbits, here: Orbits, units: Units) -> Chart:
     moments.sort(key=lambda moment: moment[0])
     points = unit.of(np.stack([paths for _, *paths in moments]))
     x, y = _plane(style.ceiling(1.05 * np.abs(points)), unit)
-    traces = style.joined([_orbit(p, unit, n, c) for n, p, c in _paths(here)])
+    # A name without the sense of whirl: that may change with speed.
+    traces = style.joined([_orbit(p, unit, n.split(",")[0], c) for n, p, c in _paths(here)])
     frames = [_frame(*moment, here.is_rigid, units) for moment in moments]
     active = [speed for speed, *_ in moments].index(float(here.speed))
     slider = _slider([frame["name"] for frame in frames], active, units)
-    layout = {"height": _HEIGHT + 110, "sliders": [slider], "updatemenus": [_play()]}
+    layout = {"height": _HEIGHT + 150, "sliders": [slider], "updatemenus": [_play()]}
     return style.chart(traces, x, y, **layout) | {"frames": frames}
 
 
@@ -131,26 +133,31 @@ def family(
     responses: ResponseFamily,
     at: Literal["disk", "journal"],
     varied: Literal["damping", "mass"],
+    curves: ResponseCurves,
     units: Units,
 ) -> Chart:
-    """Return the orbit's size against speed for several rotors, dotted where they are unstable."""
-    unit = units.film
-    sizes = unit.of(responses.disk if at == "disk" else responses.journal)
+    """Return the orbit's size against speed for several rotors, dotted where they are unstable.
+
+    The first rotor is this machine's; `curves` are its response.
+    """
+    is_disk, unit = at == "disk", units.film
+    sizes = unit.of(responses.disk if is_disk else responses.journal)
     speed = units.speed.of(responses.speed)
-    x = style.axis(style.titled("Running speed", "Ω", units.speed.name), 0.0, float(speed[-1]))
-    y = style.axis(f"{at.capitalize()}, semi-major axis [{unit.name}]", 0.0, style.ceiling(sizes))
+    x = _speed_axis(curves, units)
+    title = f"{at.capitalize()}, semi-major axis [{unit.name}]"
+    y = style.axis(title, 0.0, style.ceiling(sizes))
     names = [_variant_name(rotor, varied, units) for rotor in responses.rotors]
-    names[0] += " (this machine)"
-    own = style.DISK if at == "disk" else style.JOURNAL
-    traces: list[Trace] = []
-    for i in reversed(range(len(sizes))):
-        colour, width = (own, 3.2) if i == 0 else (_SHADES[i - 1], 1.8)
-        extra = {} if i == 0 else style.LIVE_ONLY
-        lines = _by_stability(speed, sizes[i], responses.unstable[i], (names[i], colour, width))
-        traces += [line | extra for line in lines]
-    return style.chart(
-        traces, x, y, height=440, legend={"traceorder": "reversed", **style.legend_below()}
-    )
+    own: tuple[str, float] = (style.DISK if is_disk else style.JOURNAL, 3.6)
+    lines = [
+        _by_stability(speed, size, unstable, name, look)
+        for size, unstable, name, look in zip(
+            sizes, responses.unstable, names, (own, *_VARIANTS), strict=False
+        )
+    ]
+    others = [line | style.LIVE_ONLY for line in style.joined(lines[1:])]
+    here = curves.disk_here if is_disk else curves.journal_here
+    now, size = float(units.speed.of(curves.running_speed)), float(unit.of(here.ellipse.semi_major))
+    return style.chart([*others, *lines[0], *style.here(now, size, x, y)], x, y, height=440)
 
 
 def _bodies(curves: ResponseCurves) -> list[tuple[str, BodyResponse, ResponsePeaks, str]]:
@@ -196,17 +203,18 @@ def _peak_marks(peaks: ResponsePeaks, body: str, colour: str, units: Units) -> l
     return [style.mark(at, size, f"peak of the {body}", marker=shape, showlegend=False)]
 
 
-def _peak_labels(peaks: ResponsePeaks, units: Units, x: Axis) -> list[dict[str, Any]]:
+def _peak_labels(peaks: ResponsePeaks, body: str, units: Units, x: Axis) -> list[dict[str, Any]]:
+    """Return size and speed of each peak in words, the disk's to its left, others' to its right."""
     right = max(x["range"])
     labels: list[dict[str, Any]] = []
-    for speed, size in zip(
-        units.speed.of(peaks.speed), units.film.of(peaks.amplitude), strict=True
-    ):
-        anchor = "right" if speed > 0.5 * right else "left"
+    sizes = units.film.of(peaks.amplitude)
+    for speed, size in zip(units.speed.of(peaks.speed), sizes, strict=True):
+        to_left = speed > (0.3 if body == "disk" else 0.68) * right
         text = f"{size:.3g} {units.film.name} at {speed:.0f} {units.speed.name}"
         labels.append(
             {"x": float(speed), "y": float(size), "text": text, "showarrow": False,
-             "xanchor": anchor, "yanchor": "bottom", "yshift": 7, "font": {"size": 13}}
+             "xanchor": "right" if to_left else "left", "yanchor": "bottom", "yshift": 7,
+             "font": {"size": 13}}
         )  # fmt: skip
     return labels
 
@@ -330,7 +338,7 @@ def _slider(names: list[str], active: int, units: Units) -> dict[str, Any]:
             {"label": name, "method": "animate", "args": [[name], still]} for name in names
         ],
         "currentvalue": {"prefix": "Ω = ", "suffix": f" {units.speed.name}", "xanchor": "left"},
-        "x": 0.3, "len": 0.7, "y": -0.16, "yanchor": "top", "pad": {"t": 6},
+        "x": 0.0, "len": 1.0, "y": -0.14, "yanchor": "top", "pad": {"t": 6},
         "bgcolor": "rgba(127,127,127,0.3)", "bordercolor": "rgba(127,127,127,0.6)",
         "activebgcolor": style.HERE, "ticklen": 0, "minorticklen": 0, "font": {"size": 13},
     }  # fmt: skip
@@ -342,7 +350,7 @@ def _play() -> dict[str, Any]:
     stop = {"frame": {"duration": 0, "redraw": False}, "mode": "immediate"}
     return {
         "type": "buttons", "direction": "left", "showactive": False,
-        "x": 0.0, "xanchor": "left", "y": -0.2, "yanchor": "top", "pad": {"r": 6, "t": 6},
+        "x": 0.0, "xanchor": "left", "y": -0.38, "yanchor": "top", "pad": {"r": 6, "t": 6},
         "bgcolor": "rgba(127,127,127,0.2)", "bordercolor": "rgba(127,127,127,0.6)",
         "buttons": [
             {"label": "▶", "method": "animate", "args": [None, run]},
@@ -352,10 +360,10 @@ def _play() -> dict[str, Any]:
 
 
 def _by_stability(
-    speed: Array, size: Array, unstable: BoolArray, look: tuple[str, str, float]
+    speed: Array, size: Array, unstable: BoolArray, name: str, look: tuple[str, float]
 ) -> list[Trace]:
     """Return a line that is dotted where the machine is unstable, its two parts joined."""
-    name, colour, width = look
+    colour, width = look
     joint = unstable.copy()
     joint[:-1] |= unstable[1:]
     joint[1:] |= unstable[:-1]
@@ -372,8 +380,9 @@ def _by_stability(
 def _variant_name(rotor: Rotor, varied: Literal["damping", "mass"], units: Units) -> str:
     """Return what a rotor of a family is called."""
     if varied == "damping":
-        unit, value = units.shaft_damping, rotor.disk_damping
-        symbol = "C<sub>s</sub>"
+        unit, value, symbol = units.shaft_damping, rotor.disk_damping, "C<sub>s</sub>"
     else:
         unit, value, symbol = units.mass, rotor.journal_mass, "M<sub>j</sub>"
-    return f"{symbol} = {float(unit.of(value)):.3g} {unit.name}"
+    number = float(unit.of(value))
+    digits = f"{number:.3g}" if number < 1e3 else f"{number:,.0f}".replace(",", "\u2009")
+    return f"{symbol} = {digits} {unit.name}"

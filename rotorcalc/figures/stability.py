@@ -74,7 +74,7 @@ def threshold(over: Thresholds, here: Thresholds, crossing: Crossing, units: Uni
     y = style.axis(
         titled("Threshold speed", "Ω<sub>s</sub>", unit.name),
         0.0,
-        style.ceiling([1.2 * top, min(now, 4 * top)]),
+        style.ceiling([1.2 * top, *_shown([now, *unit.of(over.rigid[-1:])], 4.0 * top)]),
     )
     line = style.line([0.0, top], [0.0, top], "Ω", style.GREY, dash="dot")
     onset = float(unit.of(crossing.onset.speed))
@@ -97,7 +97,7 @@ def whirl_frequency(over: Thresholds, here: Thresholds, crossing: Crossing, unit
     y = style.axis(
         titled("Whirl frequency", "ω<sub>s</sub>", unit.name),
         0.0,
-        style.ceiling([0.6 * top, min(now, 4 * top)]),
+        style.ceiling([0.6 * top, *_shown([now, *unit.of(over.rigid_frequency[-1:])], 4.0 * top)]),
     )
     half = style.line([0.0, top], [0.0, 0.5 * top], "½ Ω", style.GREY, dash="dot")
     rigid, flexible = unit.of(over.rigid_frequency), unit.of(over.flexible_frequency)
@@ -264,7 +264,7 @@ def _over_speed(
     name = _onset_name(mark[0])
     if not crossing.closed_form and math.isfinite(mark[0]):
         ends = [_low(y), _high(y)]
-        traces.append(style.line([mark[0]] * 2, ends, name, style.UNSTABLE, dash="dash"))
+        traces.append(style.line([mark[0]] * 2, ends, name, style.UNSTABLE))
     elif _inside(mark, axes):
         traces.append(style.mark(*mark, name, style.UNSTABLE))
     notes = list(layout.pop("annotations"))
@@ -293,6 +293,11 @@ def _finite(x: Array, y: Array, name: str, colour: str, crossing: Crossing) -> T
 def near(axis: Axis) -> Axis:
     """Return an axis with its title close to it, as a legend stands below."""
     return {**axis, "title": {**axis["title"], "standoff": 8}}
+
+
+def _shown(values: ArrayLike, most: float) -> Array:
+    """Return values for which an axis makes room; any above `most` would squeeze the rest."""
+    return np.minimum(np.asarray(values, dtype=float), most)
 
 
 def _drawable(values: Array) -> Array:
@@ -410,7 +415,7 @@ def _beyond(words: str, value: float, y: Axis) -> Item:
     """Return a note on the running speed's point where the chart cannot show it."""
     if value > _high(y) and math.isfinite(value):
         words = f"running speed: {value:.3g}, above the axis"
-    return style.note(words, 0.98, 0.06, xanchor="right")
+    return style.note(words, 0.98, 0.88, xanchor="right")
 
 
 def _inside(point: tuple[float, float], axes: tuple[Axis, Axis]) -> bool:

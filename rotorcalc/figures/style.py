@@ -35,6 +35,7 @@ SHADE = "rgba(209,84,31,0.12)"
 LIVE_ONLY: dict[str, Any] = {"meta": "live only"}
 
 HEIGHT = 380
+SMALL_HEIGHT = 280
 # The share of two panes, one above the other, in a chart's height.
 UPPER, LOWER = [0.55, 1.0], [0.0, 0.45]
 _LADDER = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
@@ -141,6 +142,12 @@ def themed(chart: Chart, *, dark: bool) -> Chart:
     """Return a chart with its text in the colour that a light or dark page wants."""
     font = {**chart["layout"]["font"], "color": _TEXT_ON_DARK if dark else _TEXT}
     return {**chart, "layout": {**chart["layout"], "font": font}}
+
+
+def small(chart: Chart) -> Chart:
+    """Return a chart as an overview shows it: less high, without a legend and words in it."""
+    layout = {**chart["layout"], "height": SMALL_HEIGHT, "showlegend": False, "annotations": []}
+    return {**chart, "layout": layout | {"margin": {"l": 56, "r": 12, "t": 12, "b": 48}}}
 
 
 def note(text: str, x: float, y: float, **extra: Any) -> dict[str, Any]:

@@ -1,5 +1,6 @@
 """The app in a browser tab: opens pages, waits for the app to come to rest, reads what is shown."""
 
+import os
 import re
 import time
 from collections.abc import Iterator
@@ -19,7 +20,7 @@ PATHS = {
     for file, name in PAGES.items()
 }
 
-TIMEOUT = 60_000  # milliseconds; a run takes a tenth of a second, but the machine may be busy
+TIMEOUT = int(os.environ.get("BROWSER_TIMEOUT", "60")) * 1000  # milliseconds
 
 # At rest: connected, no run under way, nothing left over from the last run, every chart drawn; and
 # so for three frames, for what has arrived is drawn a frame later.

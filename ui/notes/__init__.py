@@ -8,6 +8,14 @@ from pathlib import Path
 from rotorcalc.validation import Case, validate
 from ui.notes.equations import EQUATIONS, Equation
 
+CONVENTIONS_ALT = (
+    "A journal in its bearing, seen along the shaft. The load pulls down along X; Y points right; "
+    "the shaft turns counterclockwise, from X to Y. The journal's centre lies below the bearing's "
+    "and to its right, at the attitude angle φ from X towards Y. r points along the line of "
+    "centres, t at a right angle ahead of it. The film is thickest opposite to r, where θ begins, "
+    "and thinnest at r."
+)
+
 
 @functools.cache
 def text(name: str) -> str:

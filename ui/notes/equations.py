@@ -1,3 +1,4 @@
+# ruff: noqa: E501 - an equation reads best in as few lines as it can be written
 """The equations of the notes that the program uses: number, LaTeX, function and page."""
 
 from dataclasses import dataclass
@@ -88,7 +89,7 @@ EQUATIONS: dict[str, tuple[Equation, ...]] = {
         ),
         Equation(
             "5.11, 5.16", "From (r, t) to (X, Y)",
-            r"K_{XY} = Q\,K_{rt}\,Q^{\mathsf T},\qquad Q = \begin{bmatrix}\cos\varphi&-\sin\varphi\\"
+            r"K_{(X,Y)} = Q\,K_{(r,t)}\,Q^{\mathsf T},\qquad Q = \begin{bmatrix}\cos\varphi&-\sin\varphi\\"
             r"\sin\varphi&\cos\varphi\end{bmatrix}",
             ("frames.rotate",), "Coefficients",
         ),

@@ -1,0 +1,313 @@
+"""What moves the onset, against `onset_speed` itself, machine by machine."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rotorcalc import PRESETS, Machine, design, onset_speed
+from rotorcalc.machine import JournalBearing, Oil, Rotor
+
+SHEET = PRESETS["sheet-1e8"].machine
+RPM = math.pi / 30
+DAMPED = replace(SHEET, rotor=replace(SHEET.rotor, disk_damping=5e3, journal_mass=10.0))
+
+
+def _logarithmic(low: float, high: float) -> st.SearchStrategy[float]:
+    return st.floats(math.log(low), math.log(high)).map(math.exp)
+
+
+# As far as the widgets go, and further.
+machines = st.builds(
+    Machine,
+    oil=st.builds(
+        Oil,
+        reference_viscosity=_logarithmic(1e-3, 0.5),
+        reference_temperature=st.floats(0.0, 150.0),
+        temperature_coefficient=st.floats(0.0, 0.08),
+    ),
+    bearing=st.builds(
+        JournalBearing,
+        diameter=_logarithmic(0.02, 0.6),
+        length=_logarithmic(0.005, 0.3),
+        radial_clearance=_logarithmic(1e-5, 5e-4),
+    ),
+    rotor=st.builds(
+        Rotor,
+        mass=_logarithmic(10.0, 2000.0),
+        shaft_stiffness=_logarithmic(1e5, 1e10) | st.just(math.inf),
+    ),
+    temperature=st.floats(0.0, 150.0),
+    load=st.none() | _logarithmic(1.0, 2e4),
+)
+
+
+@settings(max_examples=200)
+@given(machine=machines)
+def test_the_closed_form_is_the_crossing_of_the_eigenvalues(machine: Machine) -> None:
+    assert design.has_closed_form(machine)
+    [speed] = design.onset_speeds([machine])
+    assert speed == pytest.approx(onset_speed(machine).speed, rel=1e-9)
+
+
+def test_machines_of_all_kinds_are_solved_in_their_order() -> None:
+    many = [SHEET, DAMPED, replace(SHEET, load=0.0), PRESETS["fig-5-2"].machine]
+    expected = [onset_speed(machine).speed for machine in many]
+    np.testing.assert_allclose(design.onset_speeds(many), expected, rtol=1e-9)
+    assert len(design.onset_speeds([])) == 0
+
+
+@pytest.mark.parametrize(
+    ("rotor", "closed"),
+    [
+        ({}, True),
+        ({"shaft_stiffness": math.inf}, True),
+        ({"shaft_stiffness": math.inf, "journal_mass": 20.0}, True),  # all moves as one
+        ({"journal_mass": 20.0}, False),
+        ({"disk_damping": 1.0}, False),
+        ({"shaft_stiffness": math.inf, "disk_damping": 1.0}, False),
+    ],
+)
+def test_which_machines_have_a_closed_form(rotor: dict[str, float], closed: bool) -> None:
+    machine = replace(SHEET, rotor=replace(SHEET.rotor, **rotor))
+    assert design.has_closed_form(machine) is closed
+    [speed] = design.onset_speeds([machine])
+    assert speed == pytest.approx(onset_speed(machine).speed, rel=1e-9)
+
+
+# --- Inputs by name -------------------------------------------------------------------------
+
+
+def test_an_input_goes_by_its_path_or_its_name() -> None:
+    for field in ("bearing.radial_clearance", "radial_clearance"):
+        assert design.value_of(SHEET, field) == 60e-6
+        other = design.varied(SHEET, {field: 80e-6})
+        assert other == replace(SHEET, bearing=replace(SHEET.bearing, radial_clearance=80e-6))
+
+
+def test_several_inputs_of_one_record_change_at_once() -> None:
+    other = design.varied(SHEET, {"mass": 10.0, "rotor.journal_mass": 4.0, "temperature": 20.0})
+    assert (other.rotor.mass, other.rotor.journal_mass, other.temperature) == (10.0, 4.0, 20.0)
+
+
+def test_the_load_follows_the_mass_until_it_is_given() -> None:
+    heavier = design.varied(SHEET, {"mass": 2.0 * SHEET.rotor.mass})
+    assert heavier.static_load == pytest.approx(2.0 * SHEET.static_load)
+    assert design.value_of(SHEET, "load") == SHEET.static_load
+    loaded = design.varied(SHEET, {"load": 500.0})
+    assert design.varied(loaded, {"mass": 1000.0}).static_load == 500.0
+
+
+@pytest.mark.parametrize("field", ["clearance", "bearing.mass", "film", "oil", "rotor.", ""])
+def test_an_unknown_input_is_named(field: str) -> None:
+    for ask in (design.value_of, lambda m, f: design.varied(m, {f: 1.0})):
+        with pytest.raises(ValueError, match="no input of a machine"):
+            ask(SHEET, field)
+    with pytest.raises(ValueError, match="no input of a machine"):
+        design.onset_map(SHEET, x=field, xs=[1.0], y="load", ys=[1.0])
+
+
+# --- The map --------------------------------------------------------------------------------
+
+
+AXES = {
+    "radial_clearance": np.geomspace(1e-5, 5e-4, 60),
+    "temperature": np.linspace(0.0, 150.0, 60),
+    "oil.reference_viscosity": np.geomspace(1e-3, 0.5, 60),
+    "load": np.linspace(0.0, 2e4, 60),
+    "rotor.mass": np.geomspace(10.0, 2000.0, 60),
+    "shaft_stiffness": np.geomspace(1e5, 1e10, 60),
+    "length": np.geomspace(5e-3, 0.3, 60),
+    "diameter": np.geomspace(0.02, 0.6, 60),
+}
+
+
+@pytest.mark.parametrize(
+    ("x", "y"),
+    [
+        ("radial_clearance", "temperature"),
+        ("load", "rotor.mass"),
+        ("shaft_stiffness", "length"),
+        ("diameter", "oil.reference_viscosity"),
+    ],
+)
+@pytest.mark.parametrize("key", PRESETS)
+def test_a_map_is_the_onset_of_each_machine_on_it(key: str, x: str, y: str) -> None:
+    machine = PRESETS[key].machine
+    found = design.onset_map(machine, x=x, xs=AXES[x], y=y, ys=AXES[y])
+    assert found.speed.shape == (60, 60)
+    draw = np.random.default_rng(5)
+    for i, j in draw.integers(60, size=(8, 2)):
+        cell = design.varied(machine, {x: float(found.xs[j]), y: float(found.ys[i])})
+        assert found.speed[i, j] == pytest.approx(onset_speed(cell).speed, rel=1e-9)
+
+
+def test_a_map_with_damping_tells_its_progress() -> None:
+    told: list[float] = []
+    xs, ys = np.array([5e-5, 1e-4]), np.array([0.0, 1e3, 1e4])
+    found = design.onset_map(
+        SHEET, x="radial_clearance", xs=xs, y="disk_damping", ys=ys, progress=told.append
+    )
+    assert told == pytest.approx([1 / 3, 2 / 3, 1.0])
+    for j, C in enumerate(xs):
+        for i, C_s in enumerate(ys):
+            cell = design.varied(SHEET, {"radial_clearance": float(C), "disk_damping": float(C_s)})
+            assert found.speed[i, j] == pytest.approx(onset_speed(cell).speed, rel=1e-9)
+
+
+def test_a_map_has_a_gap_where_the_values_make_no_machine() -> None:
+    xs, ys = [0.0, 60.0, 200.0], [100.0, 1000.0]
+    found = design.onset_map(SHEET, x="journal_mass", xs=xs, y="mass", ys=ys)
+    np.testing.assert_array_equal(np.isnan(found.speed), [[False, True, True], [False] * 3])
+
+
+def test_a_map_needs_two_inputs() -> None:
+    with pytest.raises(ValueError, match="must differ"):
+        design.onset_map(SHEET, x="load", xs=[1.0], y="load", ys=[1.0])
+
+
+# --- Sensitivities --------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("machine", [SHEET, DAMPED], ids=["closed form", "eigenvalues"])
+def test_sensitivities_are_onsets_of_moved_machines(machine: Machine) -> None:
+    found = design.sensitivities(machine)
+    assert found.onset == pytest.approx(onset_speed(machine).speed, rel=1e-9)
+    moves = []
+    for one in found.inputs:
+        for value, onset in ((one.low, one.onset_low), (one.high, one.onset_high)):
+            moved = design.varied(machine, {one.field: value})
+            assert onset == pytest.approx(onset_speed(moved).speed, rel=1e-9)
+        moves.append(max(abs(one.onset_low - found.onset), abs(one.onset_high - found.onset)))
+    assert moves == sorted(moves, reverse=True)
+
+
+def test_inputs_move_by_a_tenth_and_temperature_by_degrees() -> None:
+    values = {one.field: (one.low, one.high) for one in design.sensitivities(SHEET).inputs}
+    assert values["bearing.radial_clearance"] == pytest.approx((54e-6, 66e-6))
+    assert values["load"] == pytest.approx((0.9 * SHEET.static_load, 1.1 * SHEET.static_load))
+    assert values["temperature"] == (55.0, 65.0)
+
+
+def test_inputs_without_a_share_of_their_value_are_left_out() -> None:
+    rigid = replace(SHEET, rotor=replace(SHEET.rotor, shaft_stiffness=math.inf), load=0.0)
+    fields = {one.field for one in design.sensitivities(rigid).inputs}
+    assert not fields & {"rotor.shaft_stiffness", "rotor.disk_damping", "load"}
+    assert "rotor.mass" in fields
+
+
+def test_the_small_clearance_and_the_large_load_raise_the_onset() -> None:
+    """Ω_s ∝ √(F_o/MC) at a fixed film: half a tenth of a rigid rotor's onset."""
+    rigid = design.varied(PRESETS["fig-5-2"].machine, {"length": 0.15})  # nearly centred
+    by_field = {one.field: one for one in design.sensitivities(rigid).inputs}
+    onset = design.onset_speeds([rigid])[0]
+    assert by_field["bearing.radial_clearance"].onset_low / onset == pytest.approx(
+        0.9**-0.5, rel=2e-3
+    )
+    assert by_field["load"].onset_high / onset == pytest.approx(1.1**0.5, rel=2e-3)
+
+
+# --- Solving for an input -------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("vary", "low", "high"),
+    [
+        ("radial_clearance", 1e-5, 5e-4),
+        ("load", 0.0, 2e4),
+        ("shaft_stiffness", 1e5, 1e10),
+        ("length", 5e-3, 0.3),
+        ("temperature", 0.0, 150.0),
+        ("oil.reference_viscosity", 1e-3, 0.5),
+    ],
+)
+@pytest.mark.parametrize("rpm", [4700.0, 7200.0, 8800.0])
+def test_solutions_put_the_onset_at_the_target(
+    vary: str, low: float, high: float, rpm: float
+) -> None:
+    found = design.solve_onset(SHEET, vary=vary, target=rpm * RPM, low=low, high=high)
+    least, most = found.reachable
+    for value in found.solutions:
+        assert low <= value <= high
+        onset = onset_speed(design.varied(SHEET, {vary: float(value)})).speed
+        assert onset == pytest.approx(rpm * RPM, rel=1e-9)
+    assert (len(found.solutions) > 0) == (least <= rpm * RPM <= most)
+
+
+def test_an_onset_that_falls_and_rises_is_met_twice() -> None:
+    found = design.solve_onset(
+        SHEET, vary="radial_clearance", target=7200 * RPM, low=1e-5, high=5e-4
+    )
+    assert found.solutions == pytest.approx([100.44e-6, 459.40e-6], rel=1e-4)
+
+
+def test_both_solutions_beside_an_extreme_are_found() -> None:
+    """Closer to the lowest onset than the scan sees."""
+    span = {"vary": "radial_clearance", "low": 1e-5, "high": 5e-4}
+    least, _ = design.solve_onset(SHEET, target=7200 * RPM, **span).reachable
+    found = design.solve_onset(SHEET, target=least * (1.0 + 1e-7), **span)
+    assert len(found.solutions) == 2
+    assert found.solutions[0] == pytest.approx(found.solutions[1], rel=1e-2)
+    none = design.solve_onset(SHEET, target=least * (1.0 - 1e-7), **span)
+    assert len(none.solutions) == 0
+
+
+def test_no_solution_tells_what_can_be_reached() -> None:
+    found = design.solve_onset(SHEET, vary="temperature", target=20000 * RPM, low=0.0, high=150.0)
+    assert len(found.solutions) == 0
+    onsets = [
+        onset_speed(design.varied(SHEET, {"temperature": T})).speed for T in (0.0, 75.0, 150.0)
+    ]
+    least, most = found.reachable
+    assert least <= min(onsets) * (1 + 1e-9)
+    assert max(onsets) * (1 - 1e-9) <= most < 20000 * RPM
+
+
+def test_a_damped_machine_is_solved_on_its_eigenvalues() -> None:
+    found = design.solve_onset(
+        DAMPED, vary="radial_clearance", target=7200 * RPM, low=4e-5, high=2e-4
+    )
+    assert len(found.solutions) == 1
+    solved = design.varied(DAMPED, {"radial_clearance": float(found.solutions[0])})
+    assert onset_speed(solved).speed == pytest.approx(7200 * RPM, rel=1e-9)
+
+
+def test_a_jump_past_the_target_is_no_solution(monkeypatch: pytest.MonkeyPatch) -> None:
+    def jump(machines: list[Machine]) -> np.ndarray:
+        return np.array([100.0 if one.static_load < 1000.0 else 300.0 for one in machines])
+
+    monkeypatch.setattr(design, "onset_speeds", jump)
+    found = design.solve_onset(SHEET, vary="load", target=200.0, low=500.0, high=2000.0)
+    assert len(found.solutions) == 0
+    assert found.reachable == (100.0, 300.0)
+
+
+def test_an_onset_at_infinity_is_bracketed_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    def vanish(machines: list[Machine]) -> np.ndarray:
+        loads = np.array([one.static_load for one in machines])
+        return np.where(loads < 1000.0, loads, np.inf)
+
+    monkeypatch.setattr(design, "onset_speeds", vanish)
+    found = design.solve_onset(SHEET, vary="load", target=700.0, low=500.0, high=2000.0)
+    assert found.solutions == pytest.approx([700.0])
+    assert math.isinf(found.reachable[1])
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"target": 0.0}, "target"),
+        ({"target": math.nan}, "target"),
+        ({"target": math.inf}, "target"),
+        ({"low": 2e-4, "high": 1e-4}, "high"),
+        ({"low": -1e-4}, "radial_clearance"),
+        ({"vary": "clearance"}, "no input"),
+    ],
+)
+def test_what_cannot_be_solved_is_named(wrong: dict[str, float], message: str) -> None:
+    asked = {"vary": "radial_clearance", "target": 700.0, "low": 1e-5, "high": 1e-4} | wrong
+    with pytest.raises(ValueError, match=message):
+        design.solve_onset(SHEET, **asked)
