@@ -63,12 +63,12 @@ if mode_tab.open:
     with mode_tab:
         locus = view.locus(bends)
         st.markdown(words.table(locus.here, view.speed, units))
-        left, right = st.columns([3, 2])
-        with right:
+        left, right = st.columns([2, 3])
+        with left:
             mode = words.choose_mode(locus.here, locus.leading, units)
             spiral = st.toggle("Let it grow or decay over three turns", key="locus_spiral")
             st.markdown(words.ABOUT_MODES)
-        with left:
+        with right:
             chart(
                 lambda v: figures.shape(
                     v.locus(bends).here,

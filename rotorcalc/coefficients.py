@@ -385,7 +385,7 @@ def modified_sommerfeld(machine: Machine, speed: ArrayLike) -> Array:
 
 
 def checked_speed(speed: ArrayLike) -> Array:
-    """Return speeds [rad/s] as an array, or raise ValueError where one is not positive and finite."""
+    """Return speeds [rad/s] as an array, or raise ValueError where one is not positive, finite."""
     speeds = real_array("speed", speed)
     good = np.isfinite(speeds) & (speeds > 0.0)
     if not np.all(good):

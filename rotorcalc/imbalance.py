@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from rotorcalc import modes
 from rotorcalc.analysis import Sweep
-from rotorcalc.coefficients import equilibrium
+from rotorcalc.coefficients import checked_speed, equilibrium
 from rotorcalc.machine import Machine, Rotor
 from rotorcalc.response import (
     OrbitEllipse,
@@ -25,6 +25,7 @@ from rotorcalc.response import (
     orbit_ellipse,
     orbit_points,
     phase_lag,
+    response_peaks,
     synchronous_response,
 )
 from rotorcalc.typing import Array, BoolArray, ComplexArray
@@ -34,6 +35,8 @@ IntArray: TypeAlias = NDArray[np.intp]
 # A mode grows if it does so by more than a rounding error of the fastest mode's rate.
 _ROUNDING = 1e-9
 _ORBIT_POINTS = 73
+# Points around a peak, in spacings of the sweep: without much damping it is narrower than one.
+_NEAR = np.concatenate([-(0.5 ** np.arange(1, 10)), [0.0], 0.5 ** np.arange(9, 0, -1)])
 # What `damping_variants` and `journal_mass_variants` give, as fractions of their references.
 _DAMPING = (0.0, 0.05, 0.1, 0.2, 0.5)
 _JOURNAL_MASS = (0.0, 0.05, 0.1, 0.2, 0.4)
@@ -65,7 +68,7 @@ class ResponseCurves:
     Attributes
     ----------
     speed : array, (n,)
-        Ω [rad/s].
+        Ω [rad/s], denser around the peaks than the sweep.
     disk, journal : BodyResponse
         Over speed; the lag is unwrapped.
     disk_peaks, journal_peaks : ResponsePeaks
@@ -152,7 +155,7 @@ class ResponseFamily:
     rotors : tuple of Rotor
         The m rotors.
     speed : array, (n,)
-        Ω [rad/s].
+        Ω [rad/s]: those asked for, and more around the peaks of each rotor.
     disk, journal : array, (m, n)
         Semi-major axes [m].
     unstable : boolean array, (m, n)
@@ -185,18 +188,22 @@ def response_curves(
     ResponseCurves
         Curves and point.
     """
-    disk, journal = _body(sweep.disk_response), _body(sweep.journal_response)
+    machine = sweep.machine
+    speed = _with_near(sweep.speed, np.concatenate([disk_peaks.speed, journal_peaks.speed]))
+    state = equilibrium(machine, speed)
+    pair = synchronous_response(machine.rotor, state.stiffness, state.damping, speed)
+    disk, journal = _body(pair[0]), _body(pair[1])
     return ResponseCurves(
-        speed=sweep.speed,
+        speed=speed,
         disk=disk,
         journal=journal,
         disk_peaks=disk_peaks,
         journal_peaks=journal_peaks,
         unstable=unstable_ranges(sweep),
         running_speed=point.speed,
-        disk_here=_body_on(disk, sweep.speed, point.disk_response, point.speed),
-        journal_here=_body_on(journal, sweep.speed, point.journal_response, point.speed),
-        is_rigid=sweep.machine.rotor.is_rigid,
+        disk_here=_body_on(disk, speed, point.disk_response, point.speed),
+        journal_here=_body_on(journal, speed, point.journal_response, point.speed),
+        is_rigid=machine.rotor.is_rigid,
     )
 
 
@@ -287,7 +294,7 @@ def response_family(
     machine : Machine
         The machine; its load, oil and bearing serve all rotors.
     speed : array_like, (n,)
-        Ω [rad/s].
+        Rising speeds, Ω [rad/s].
     rotors : sequence of Rotor
         The m rotors.
 
@@ -301,7 +308,10 @@ def response_family(
     ValueError
         Where a speed is not positive and finite.
     """
-    state = equilibrium(machine, speed)
+    speeds = checked_speed(speed)
+    machines = [replace(machine, rotor=rotor, load=machine.static_load) for rotor in rotors]
+    peaks = [response_peaks(other, speeds, at="disk").speed for other in machines]
+    state = equilibrium(machine, _with_near(speeds, np.concatenate(peaks)))
     K, C = state.stiffness, state.damping
     pairs = [synchronous_response(rotor, K, C, state.speed) for rotor in rotors]
     values = [modes.eigenvalues(rotor, K, C) for rotor in rotors]
@@ -377,3 +387,9 @@ def _crossings(speeds: Array, growth: Array, i: IntArray, j: IntArray) -> Array:
     rise = growth[j] - growth[i]
     part = -growth[i] / np.where(i == j, np.inf, rise)
     return speeds[i] + part * (speeds[j] - speeds[i])
+
+
+def _with_near(speeds: Array, peaks: Array) -> Array:
+    """Return rising speeds with more of them around each peak."""
+    near = peaks[:, None] + (speeds[1] - speeds[0]) * _NEAR
+    return np.unique(np.concatenate([speeds, near[(near > 0.0) & (near <= speeds[-1])]]))

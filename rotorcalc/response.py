@@ -9,6 +9,7 @@ flexible rotor, with midspan damping and journal mass added.
 """
 
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -98,7 +99,7 @@ def synchronous_response(
     Z = K + 1j * speed * C - speed**2 * rotor.journal_mass * identity
     z = 1j * speed * rotor.disk_damping - speed**2 * rotor.disk_mass
     force = rotor.disk_mass * rotor.imbalance * speed**2 * _FORWARD[:, None]
-    journal: ComplexArray = np.linalg.solve(Z + z * identity + s * z * Z, force)
+    journal = cast("ComplexArray", np.linalg.solve(Z + z * identity + s * z * Z, force))
     disk = journal + s * (Z @ journal)
     return disk[..., 0], journal[..., 0]
 
@@ -211,9 +212,7 @@ def response_peaks(machine: Machine, speed: ArrayLike, *, at: str = "disk") -> R
 
 def _orbit_size(machine: Machine, speed: ArrayLike, at: str) -> Array:
     state = equilibrium(machine, speed)
-    disk, journal = synchronous_response(
-        machine.rotor, state.stiffness, state.damping, state.speed
-    )
+    disk, journal = synchronous_response(machine.rotor, state.stiffness, state.damping, state.speed)
     orbit = disk if at == "disk" else journal
     return orbit_ellipse(orbit[..., 0], orbit[..., 1]).semi_major
 

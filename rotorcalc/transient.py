@@ -3,7 +3,7 @@
 Model: the film's force at any position and velocity of the journal; a rigid rotor, a disk on a
 flexible shaft with massless journals, or the same with journal masses; midspan damping; imbalance
 from t = 0, turning forward. The load acts on the disk. Massless journals move at the velocity with
-which the film's force balances the shaft's, solved at every step. Speed may run up or down linearly.
+which the film's force balances the shaft's, solved at every step. Speed may run up or down.
 
 Integrator: LSODA (ODEPACK, through SciPy), which turns to an implicit method where the film makes
 the motion stiff; its error control is relative to the motion and to a billionth of the clearance.
@@ -13,8 +13,10 @@ rotor with the film's force in place of its linear coefficients.
 """
 
 import math
+import numbers
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -34,8 +36,8 @@ _RELATIVE, _ABSOLUTE = 1e-10, 1e-12
 _STRETCH = 20
 _MOST_STEPS = 20_000
 
-State = list[float]
-Motion = Callable[[State, float], State]
+# The rates of a state at an angle of rotation.
+Motion: TypeAlias = Callable[[Array, float], list[float]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +85,7 @@ class TransientError(RuntimeError):
         self.partial = partial
 
 
-def simulate(
+def simulate(  # noqa: PLR0913 - how long, from where, to which speed
     machine: Machine,
     speed: float,
     *,
@@ -242,8 +244,8 @@ class _Model:
             self.film, self.damper, self.load, self.force, self._drive(),
         )  # fmt: skip
 
-        def motion(state: State, angle: float) -> State:
-            x, y, vx, vy = state
+        def motion(state: Array, angle: float) -> list[float]:
+            x, y, vx, vy = state.tolist()
             u_x, u_y, nu = drive(angle)
             f_x, f_y = force(x, y, vx / nu, vy / nu)
             scale = film * nu
@@ -258,8 +260,8 @@ class _Model:
             self.film, self.shaft, self.damper, self.load, self.velocity, self._drive(),
         )  # fmt: skip
 
-        def motion(state: State, angle: float) -> State:
-            X, Y, vX, vY, x, y = state
+        def motion(state: Array, angle: float) -> list[float]:
+            X, Y, vX, vY, x, y = state.tolist()
             u_x, u_y, nu = drive(angle)
             s_x, s_y = shaft * (X - x), shaft * (Y - y)
             scale = film * nu
@@ -276,8 +278,8 @@ class _Model:
             self.journal_ratio,
         )  # fmt: skip
 
-        def motion(state: State, angle: float) -> State:
-            X, Y, vX, vY, x, y, vx, vy = state
+        def motion(state: Array, angle: float) -> list[float]:
+            X, Y, vX, vY, x, y, vx, vy = state.tolist()
             u_x, u_y, nu = drive(angle)
             s_x, s_y = shaft * (X - x), shaft * (Y - y)
             f_x, f_y = force(x, y, vx / nu, vy / nu)
@@ -310,7 +312,7 @@ class _Model:
         if not self.massless:
             return states[:, 6:8]
         motion, nu = self.motion(), self.speed(angles) / self.first
-        rates = [motion(state.tolist(), angle) for state, angle in zip(states, angles, strict=True)]
+        rates = [motion(state, angle) for state, angle in zip(states, angles, strict=True)]
         return np.array(rates)[:, 4:6] * nu[:, None]
 
 
@@ -321,7 +323,7 @@ def _integrate(
     stretch: int,
     progress: Callable[[float], None] | None,
 ) -> Transient:
-    """Integrate from stretch to stretch, so that progress can be told and a failure has its place."""
+    """Integrate stretch by stretch, so that progress can be told and a failure has its place."""
     motion = model.motion()
     states = np.empty((len(angles), len(state)))
     states[0] = state
@@ -346,12 +348,21 @@ def _integrate(
 def _stretch(motion: Motion, state: Array, angles: Array) -> tuple[Array, str]:
     """Return the good states over a stretch, and what ended it early, if anything did."""
     try:
-        states, report = odeint(
-            motion, state, angles, rtol=_RELATIVE, atol=_ABSOLUTE, mxstep=_MOST_STEPS,
-            full_output=True, printmessg=False,
-        )  # fmt: skip
+        solved = cast(
+            "tuple[Array, dict[str, Any]]",
+            odeint(  # pyright: ignore[reportCallIssue] - it takes a list of rates as well
+                motion,  # pyright: ignore[reportArgumentType]
+                state,
+                angles,
+                rtol=_RELATIVE,
+                atol=_ABSOLUTE,
+                mxstep=_MOST_STEPS,
+                full_output=True,
+            ),
+        )
     except ArithmeticError as error:
         return state[None, :], str(error)
+    states, report = solved
     journal = states[:, 4:6] if states.shape[1] > 4 else states[:, :2]
     good = np.isfinite(states).all(axis=1) & (np.hypot(journal[:, 0], journal[:, 1]) < 1.0)
     reached = int(np.argmin(good)) if not good.all() else len(states)
@@ -368,8 +379,9 @@ def _checked_speeds(speed: float, final_speed: float | None) -> tuple[float, flo
 
 
 def _check_length(revolutions: int, samples: int) -> None:
-    for name, value in (("revolutions", revolutions), ("samples_per_revolution", samples)):
-        if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < 1:
+    given: dict[str, object] = {"revolutions": revolutions, "samples_per_revolution": samples}
+    for name, value in given.items():
+        if isinstance(value, bool) or not isinstance(value, numbers.Integral) or value < 1:
             raise ValueError(f"{name} = {value!r}: must be a whole number, 1 or more")
     if revolutions > MOST_REVOLUTIONS:
         raise ValueError(f"revolutions = {revolutions}: must be at most {MOST_REVOLUTIONS}")
@@ -406,6 +418,4 @@ def _resting(machine: Machine, position: Array) -> Start:
     """Return a state at rest, the shaft carrying its static sag."""
     still = np.zeros(2)
     sag = np.array([machine.static_sag, 0.0])
-    return Start(
-        journal=position, disk=position + sag, journal_velocity=still, disk_velocity=still
-    )
+    return Start(journal=position, disk=position + sag, journal_velocity=still, disk_velocity=still)

@@ -227,3 +227,10 @@ def test_another_machine_stands_behind(name: str) -> None:
     both = with_baseline(live, pinned)
     go.Figure(both)
     assert any(trace.get("name", "").startswith("A: ") for trace in both["data"])
+
+
+def test_without_load_the_point_stands_at_the_far_end_of_sigma() -> None:
+    chart = CHARTS["over sommerfeld"](CASES["no load"], SI)
+    far = 10.0 ** chart["layout"]["xaxis"]["range"][1]
+    assert _mark(chart) == pytest.approx((far, 0.0))
+    assert _mark(chart, axis="y2") == pytest.approx((far, 90.0))

@@ -18,8 +18,7 @@ def matrix(symbol: str, values: np.ndarray, unit: Unit, axes: Axes = "XY") -> st
     """Return the LaTeX of a 2×2 matrix of coefficients: its elements' names and their values."""
     names = [[rf"{symbol}_{{{row}{column}}}" for column in axes] for row in axes]
     numbers = [[tex(float(value)) for value in row] for row in unit.of(values)]
-    unit_name = "" if unit.name == "-" else rf"\ \text{{{unit.name}}}"
-    return f"{_bracket(names)}={_bracket(numbers)}{unit_name}"
+    return f"{_bracket(names)}={_bracket(numbers)}{_unit(unit)}"
 
 
 def show_matrices(view: View, axes: Axes, units: Units) -> None:
@@ -83,7 +82,7 @@ def show_centred(view: View, units: Units) -> None:
     )
     damping = tex(float(unit.of(centred.whirl_damping[0, 0])))
     st.latex(matrix("K", centred.stiffness, unit))
-    st.latex(rf"\tfrac{{\Omega}}{{2}}C_{{XX}} = {damping}\ \text{{{unit.name}}}")
+    st.latex(rf"\tfrac{{\Omega}}{{2}}C_{{XX}} = {damping}{_unit(unit)}")
     st.markdown(_distance_from_centre(view, here.stiffness, units))
 
 
@@ -128,6 +127,13 @@ def _verdict(share: float) -> str:
 
 def _percent(share: float) -> str:
     return f"{100.0 * share:.2g} %"
+
+
+def _unit(unit: Unit) -> str:
+    """Return the LaTeX of a unit; KaTeX has no raised three of its own."""
+    if unit.name == "-":
+        return ""
+    return r"\ \text{" + unit.name.replace("³", "}^3\\text{") + "}"
 
 
 def _bracket(rows: list[list[str]]) -> str:

@@ -191,7 +191,10 @@ def _moving(step: list[Trace]) -> list[Trace]:
     line = style.line(half["x"], half["y"], "½× slider's speed", style.GREY, dash="dash", width=1.2)
     ring = style.mark(rings["x"], rings["y"], "slider's speed and ½×")
     hollow = {"size": 15, "color": "rgba(0,0,0,0)", "line": {"color": style.GREY, "width": 2.5}}
-    return [line | {"hoverinfo": "skip", "showlegend": False}, {**ring, "marker": hollow}]
+    return [
+        line | {"hoverinfo": "skip", "showlegend": False, **style.LIVE_ONLY},
+        {**ring, "marker": hollow, "cliponaxis": True, **style.LIVE_ONLY},
+    ]
 
 
 def _half_plane(right: float) -> Item:

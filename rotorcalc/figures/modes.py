@@ -147,7 +147,7 @@ def _swinging(values: ComplexArray, quantity: Array) -> Array:
 
 
 def _damping_range(locus: Locus) -> tuple[float, float]:
-    """Return damping ratios between which the modes that whirl lie at the higher speeds and here."""
+    """Return damping ratios between which the whirling modes lie at the higher speeds and here."""
     higher = modes.damping_ratio(locus.branches[len(locus.speed) // 2 :])
     here = modes.damping_ratio(locus.here.eigenvalues)
     ratio = np.append(higher[higher < HARDLY_SWINGS], here[locus.leading])

@@ -27,7 +27,7 @@ _HEADROOM = 1.12
 # Two entries a row, so that charts side by side keep one height of plot.
 _TWO_COLUMNS = {
     "orientation": "h", "x": 0, "y": 1.01, "yanchor": "bottom",
-    "entrywidth": 0.42, "entrywidthmode": "fraction",
+    "entrywidth": 0.44, "entrywidthmode": "fraction",
 }  # fmt: skip
 # Colour and width of a family's lines beside this machine's, in the order of what varies.
 _VARIANTS = (
@@ -180,7 +180,7 @@ def _parts(body: BodyResponse, shown: str) -> list[Array]:
 
 
 def _names(body: str, shown: str) -> tuple[str, str]:
-    return (f"{body} X", f"{body} Y") if shown == "XY" else (f"{body}, major", f"{body}, |minor|")
+    return (f"{body} X", f"{body} Y") if shown == "XY" else (f"{body} major", f"{body} |minor|")
 
 
 def _pair(
@@ -209,8 +209,8 @@ def _peak_labels(peaks: ResponsePeaks, body: str, units: Units, x: Axis) -> list
     labels: list[dict[str, Any]] = []
     sizes = units.film.of(peaks.amplitude)
     for speed, size in zip(units.speed.of(peaks.speed), sizes, strict=True):
-        to_left = speed > (0.3 if body == "disk" else 0.68) * right
-        text = f"{size:.3g} {units.film.name} at {speed:.0f} {units.speed.name}"
+        to_left = speed > (0.3 if body == "disk" else 0.7) * right
+        text = f"{size:.3g} {units.film.name}, {speed:.0f} {units.speed.name}"
         labels.append(
             {"x": float(speed), "y": float(size), "text": text, "showarrow": False,
              "xanchor": "right" if to_left else "left", "yanchor": "bottom", "yshift": 7,
@@ -238,7 +238,7 @@ def _unstable_note(curves: ResponseCurves) -> list[dict[str, Any]]:
     if not len(curves.unstable):
         return []
     words = {"font": {"color": style.UNSTABLE, "size": 13}, "xanchor": "right", "yanchor": "top"}
-    return [style.note("shaded: unstable", 0.995, 0.995, **words)]
+    return [style.note("unstable", 0.995, 0.995, **words)]
 
 
 def _points(
@@ -259,8 +259,9 @@ def _speed_axis(curves: ResponseCurves, units: Units) -> Axis:
 
 def _plane(reach: float, unit: Unit) -> tuple[Axis, Axis]:
     """Return the axes of an orbit: Y to the right, X down, one scale for both."""
-    x = style.axis(style.titled("Y", "", unit.name), -reach, reach) | {"constrain": "domain"}
-    equal: Axis = {"scaleanchor": "x", "scaleratio": 1, "constrain": "domain"}
+    plain: Axis = {"constrain": "domain", "exponentformat": "power"}
+    x = style.axis(style.titled("Y", "", unit.name), -reach, reach) | plain
+    equal: Axis = {"scaleanchor": "x", "scaleratio": 1, **plain}
     y = style.axis(f"X, along the load [{unit.name}]", reach, -reach) | equal
     return x, y
 

@@ -16,7 +16,15 @@ from rotorcalc.films.state import FilmField, FilmState
 from rotorcalc.machine import JournalBearing
 from rotorcalc.typing import Array
 
-__all__ = ["FilmField", "FilmState", "film_added_mass", "film_motion", "film_pressure", "film_state", "short"]
+__all__ = [
+    "FilmField",
+    "FilmState",
+    "film_added_mass",
+    "film_motion",
+    "film_pressure",
+    "film_state",
+    "short",
+]
 
 
 class _FilmModel(Protocol):

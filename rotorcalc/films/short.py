@@ -711,7 +711,7 @@ def _direction(eps: Array) -> tuple[Array, Array]:
 
 
 def _inertia_cross(eps: Array) -> Array:
-    """Return I_rt = 2/ε − ln((1+ε)/(1−ε))/ε², by its series −2Σ ε^(2n−1)/(2n+1) where ε is small."""
+    """Return I_rt = 2/ε − ln((1+ε)/(1−ε))/ε², by its series −2Σ ε^(2n−1)/(2n+1) for small ε."""
     n = np.arange(1, 8)
     small = -2.0 * np.sum(eps[..., None] ** (2 * n - 1) / (2 * n + 1), axis=-1)
     safe = np.where(eps < 0.1, 0.5, eps)
