@@ -10,6 +10,7 @@ from rotorcalc.machine import JournalBearing, Machine, Oil, Rotor
 from rotorcalc.presets import PRESETS, Preset
 from rotorcalc.response import OrbitEllipse, orbit_ellipse
 from rotorcalc.stability import Onset, WhirlOnset, onset_speed, whirl_onset
+from rotorcalc.transient import Start, Transient, TransientError, simulate
 
 __version__ = "0.1.0"
 
@@ -23,7 +24,10 @@ __all__ = [
     "OrbitEllipse",
     "Preset",
     "Rotor",
+    "Start",
     "Sweep",
+    "Transient",
+    "TransientError",
     "WhirlOnset",
     "analyse",
     "coefficients",
@@ -34,6 +38,7 @@ __all__ = [
     "onset_speed",
     "orbit_ellipse",
     "response",
+    "simulate",
     "stability",
     "whirl_onset",
 ]

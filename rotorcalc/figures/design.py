@@ -1,5 +1,6 @@
 """Charts of what moves the onset: a map over two inputs, a tornado, the onset over one input."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -39,7 +40,7 @@ class Quantity:
         """Return the axis."""
         low, high = (float(self.unit.of(end)) for end in (self.low, self.high))
         title = titled(self.words, self.symbol, self.unit.name)
-        ticks = {"dtick": "D2"} if self.log else {}
+        ticks = {"tickvals": _round_numbers(low, high)} if self.log else {}
         return near(style.axis(title, low, high, log=self.log, **ticks))
 
     def place(self, value: float) -> float:
@@ -145,6 +146,14 @@ def solution(
         legend=LEGEND,
         margin=MARGIN,
     )
+
+
+def _round_numbers(low: float, high: float) -> Array:
+    """Return the 1, 2, 5 of each decade between two numbers, over many decades only the 1."""
+    first, last = math.floor(math.log10(low)), math.ceil(math.log10(high))
+    steps = (1.0, 2.0, 5.0) if last - first <= 4 else (1.0,)
+    numbers = np.array([step * 10.0**power for power in range(first, last + 1) for step in steps])
+    return numbers[(numbers >= low * (1 - 1e-9)) & (numbers <= high * (1 + 1e-9))]
 
 
 def _contours(

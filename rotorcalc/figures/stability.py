@@ -1,7 +1,7 @@
 """Charts of stability: threshold over speed, the notes' Figs. 5.7 to 5.10, energy of the whirl."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -239,7 +239,7 @@ def energy(energies: Energies, crossing: Crossing, units: Units) -> Chart:
     return _over_speed(
         [*lines, second],
         (x, y),
-        crossing,
+        replace(crossing, closed_form=True),  # gain and loss meet at the onset of any machine
         mark=(onset, met),
         here=(rpm, now),
         shapes=_unstable_side(onset, x),

@@ -3,9 +3,10 @@
 import os
 import re
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 from urllib.parse import parse_qs, urlencode, urlsplit
 
 from google.protobuf.message import DecodeError
@@ -31,7 +32,8 @@ _AT_REST = """() => {
     && document.querySelector('[data-testid="stHeading"]')
     && !document.querySelector('[data-stale="true"], [data-testid="stSkeleton"]')
     && [...document.querySelectorAll('[data-testid="stPlotlyChart"]')].every(
-      chart => chart.offsetParent === null || chart.querySelector('.main-svg'));
+      chart => chart.offsetParent === null
+        || chart.querySelector('.plot path, .shapelayer path, .annotation'));
   window.framesAtRest = rest ? (window.framesAtRest || 0) + 1 : 0;
   return window.framesAtRest >= 3;
 }"""
@@ -114,6 +116,13 @@ class AppPage:
     def slider(self, label: str) -> Locator:
         """Return a slider by the first words of its label."""
         return self.page.get_by_role("slider", name=re.compile(f"^{re.escape(label)}"))
+
+    def changes(self, read: Callable[[], Any], before: Any) -> bool:
+        """Wait until what is read differs from what it was."""
+        end = time.monotonic() + TIMEOUT / 1000
+        while read() == before and time.monotonic() < end:
+            self.page.wait_for_timeout(50)
+        return read() != before
 
     def press(self, label: str, key: str) -> None:
         """Press a key on a slider."""

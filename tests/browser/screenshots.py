@@ -1,0 +1,49 @@
+"""Take the README's screenshots, docs/*.png: python -m tests.browser.screenshots ADDRESS.
+
+ADDRESS is that of a running app, such as http://127.0.0.1:8501.
+"""
+
+import os
+import shutil
+import sys
+from pathlib import Path
+
+from PIL import Image
+from playwright.sync_api import Browser, sync_playwright
+
+from tests.browser.app_page import PATHS, AppPage
+
+DOCS = Path(__file__).resolve().parents[2] / "docs"
+SIZE = {"width": 1440, "height": 900}
+ARGS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
+# The tab that shows a page best, where that is not its first.
+TABS: dict[str, str] = {}
+
+
+def main(address: str) -> None:
+    """Save one picture of each page."""
+    DOCS.mkdir(exist_ok=True)
+    chromium = os.environ.get("CHROMIUM") or shutil.which("chromium")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=chromium, args=ARGS)
+        for name in PATHS:
+            _take(browser, address, name)
+        browser.close()
+
+
+def _take(browser: Browser, address: str, name: str) -> None:
+    tab = AppPage(browser.new_page(viewport=SIZE), address)
+    tab.open(name)
+    if name in TABS:
+        tab.open_tab(TABS[name])
+    path = DOCS / f"{(PATHS[name] or 'home').lower()}.png"
+    tab.page.screenshot(path=path)
+    tab.page.close()
+    # 256 colours are enough for charts, and a third of the size.
+    with Image.open(path) as picture:
+        picture.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(path, optimize=True)
+    print(f"{path.name}: {path.stat().st_size / 1000:.0f} kB")  # noqa: T201
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
