@@ -32,8 +32,7 @@ if speed.open:
             lambda v: draw.amplitude(v.response, shown, units),
             "amplitude",
             alt="Amplitudes of disk and journal against speed, with peaks and unstable range.",
-            caption="Zero to peak, about equilibrium; diamonds (with X and Y dotted lines) mark "
-            "the largest orbits. Shaded: unstable, no steady response exists. Eq. 5.38.",
+            caption=words.amplitude_caption(view),
         )
     with right:
         page.chart(
@@ -66,7 +65,8 @@ if orbits.open:
             lambda v: draw.scrubber(v.orbit_steps, v.orbits, units),
             "orbit_scrubber",
             alt="Orbits of disk and journal, with a slider over speed.",
-            caption="The same at every speed; the slider starts at the running speed.",
+            caption="The same at every speed; the slider starts at the running speed, and a pinned "
+            "machine stays at its own.",
         )
 
 if family.open:

@@ -10,10 +10,9 @@ Source: San Andrés, Notes 5, Eq. 5.38, and the calculation sheet. Axes and sign
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TypeAlias
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from rotorcalc import modes
 from rotorcalc.analysis import Sweep
@@ -28,9 +27,7 @@ from rotorcalc.response import (
     response_peaks,
     synchronous_response,
 )
-from rotorcalc.typing import Array, BoolArray, ComplexArray
-
-IntArray: TypeAlias = NDArray[np.intp]
+from rotorcalc.typing import Array, BoolArray, ComplexArray, IntArray
 
 # A mode grows if it does so by more than a rounding error of the fastest mode's rate.
 _ROUNDING = 1e-9
@@ -233,7 +230,7 @@ def unstable_ranges(sweep: Sweep) -> Array:
     return np.stack([starts, ends], axis=-1)
 
 
-def orbits(sweep: Sweep, *, points: int = _ORBIT_POINTS) -> Orbits:
+def orbits(sweep: Sweep, *, points: int = _ORBIT_POINTS, every: int = 1) -> Orbits:
     """Return the orbits of disk and journal about their static equilibrium.
 
     Parameters
@@ -242,15 +239,18 @@ def orbits(sweep: Sweep, *, points: int = _ORBIT_POINTS) -> Orbits:
         A machine over speed, or at one speed.
     points : int
         Points of each orbit; the last is the first again.
+    every : int
+        Of a sweep, take each so many-th speed, so that the last stays.
 
     Returns
     -------
     Orbits
-        Its fields have the leading shape of the sweep's.
+        Its fields have the leading shape of the speeds taken.
     """
-    disk, journal = sweep.disk_response, sweep.journal_response
+    taken = slice(every - 1, None, every) if sweep.speed.ndim else ...
+    disk, journal = sweep.disk_response[taken], sweep.journal_response[taken]
     return Orbits(
-        speed=sweep.speed,
+        speed=sweep.speed[taken],
         disk=orbit_points(disk[..., 0], disk[..., 1], points=points),
         journal=orbit_points(journal[..., 0], journal[..., 1], points=points),
         disk_forward=_ellipse(disk).semi_minor > 0.0,

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from rotorcalc.coefficients import checked_speed, equilibrium
 from rotorcalc.machine import Machine, Rotor
-from rotorcalc.typing import Array, ComplexArray
+from rotorcalc.typing import Array, ComplexArray, IntArray
 
 # The imbalance (cos Ωt, sin Ωt) as phasors.
 _FORWARD = np.array([1.0, -1.0j])
@@ -201,33 +201,65 @@ def response_peaks(machine: Machine, speed: ArrayLike, *, at: str = "disk") -> R
     """
     if at not in ("disk", "journal"):
         raise ValueError(f"at = {at!r}: must be 'disk' or 'journal'")
+    disk, journal = both_peaks(machine, speed)
+    return disk if at == "disk" else journal
+
+
+def both_peaks(machine: Machine, speed: ArrayLike) -> tuple[ResponsePeaks, ResponsePeaks]:
+    """Return the peaks of the disk's response and of the journals', found in one search.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : array_like, (n,)
+        Rising speeds, Ω [rad/s], dense enough to show each peak. A peak lies within them.
+
+    Returns
+    -------
+    disk, journal : ResponsePeaks
+        As `response_peaks` gives them.
+
+    Raises
+    ------
+    ValueError
+        Where a speed is not positive and finite.
+    """
     speeds = checked_speed(speed)
-    size = _orbit_size(machine, speeds, at)
-    inside = np.flatnonzero((size[1:-1] > size[:-2]) & (size[1:-1] >= size[2:])) + 1
-    if not len(inside):
-        return ResponsePeaks(speed=np.empty(0), amplitude=np.empty(0))
-    peaks = _tops(machine, speeds[inside - 1], speeds[inside + 1], at)
-    return ResponsePeaks(speed=peaks, amplitude=_orbit_size(machine, peaks, at))
+    size = _orbit_sizes(machine, speeds)
+    is_peak = (size[:, 1:-1] > size[:, :-2]) & (size[:, 1:-1] >= size[:, 2:])
+    body, place = np.nonzero(is_peak)
+    if not len(body):
+        none = ResponsePeaks(speed=np.empty(0), amplitude=np.empty(0))
+        return none, none
+    tops = _tops(machine, speeds[place], speeds[place + 2], body)
+    sizes = _orbit_sizes(machine, tops)
+    disk, journal = (
+        ResponsePeaks(speed=tops[body == i], amplitude=sizes[i, body == i]) for i in (0, 1)
+    )
+    return disk, journal
 
 
-def _orbit_size(machine: Machine, speed: ArrayLike, at: str) -> Array:
+def _orbit_sizes(machine: Machine, speed: ArrayLike) -> Array:
+    """Return the semi-major axes of the disk's orbit and the journal's, shape (2, ...)."""
     state = equilibrium(machine, speed)
-    disk, journal = synchronous_response(machine.rotor, state.stiffness, state.damping, state.speed)
-    orbit = disk if at == "disk" else journal
-    return orbit_ellipse(orbit[..., 0], orbit[..., 1]).semi_major
+    pair = synchronous_response(machine.rotor, state.stiffness, state.damping, state.speed)
+    orbits = np.stack(pair)
+    return orbit_ellipse(orbits[..., 0], orbits[..., 1]).semi_major
 
 
-def _tops(machine: Machine, low: Array, high: Array, at: str) -> Array:
+def _tops(machine: Machine, low: Array, high: Array, body: IntArray) -> Array:
     """Return the speeds of the peaks between two speeds each, all at once.
 
-    A zoom goes into the two intervals beside the largest value; a parabola does the rest, for more
-    zooms would lose the flat top in rounding errors.
+    `body` is 0 for a peak of the disk, 1 for one of the journal. A zoom goes into the two intervals
+    beside the largest value; a parabola does the rest, for more zooms would lose the flat top in
+    rounding errors.
     """
     columns = np.arange(len(low))
     before = largest = after = np.zeros(len(low))
     for _ in range(_ZOOMS):
         grid = np.linspace(low, high, _ZOOM_POINTS)
-        size = _orbit_size(machine, grid, at)
+        size = _orbit_sizes(machine, grid)[body, :, columns].T
         top = size[1:-1].argmax(axis=0) + 1
         low, high = grid[top - 1, columns], grid[top + 1, columns]
         before, largest, after = (size[top + step, columns] for step in (-1, 0, 1))

@@ -7,6 +7,7 @@ from fractions import Fraction
 
 import numpy as np
 from hypothesis import strategies as st
+from scipy.optimize import linear_sum_assignment
 
 from rotorcalc import JournalBearing, Machine, Oil, Rotor
 from rotorcalc.coefficients import equilibrium
@@ -73,6 +74,12 @@ def machines(draw, *, stiffness=RIGID | BENDING, damped=False, journals=False, l
         temperature=draw(st.floats(20, 120)),
         load=None if load is None else draw(load),
     )
+
+
+def farthest(one, other):
+    """Return the largest distance between two sets of as many eigenvalues, paired as they lie."""
+    distance = np.abs(np.asarray(one)[:, None] - np.asarray(other)[None, :])
+    return float(distance[linear_sum_assignment(distance)].max())
 
 
 def unstable_roots(machine, speed, *, flexible=True):

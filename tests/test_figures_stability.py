@@ -206,12 +206,12 @@ def test_the_bars_meet_at_the_onset() -> None:
 def test_the_tornado_has_the_largest_on_top() -> None:
     view = view_of(SHEET)
     chart = what_if.tornado(ask.sensitivities(view), ask.names(SI), SI)
-    less, more = (np.abs(trace["x"]) for trace in chart["data"])
+    less, more = (np.abs(trace["x"]) for trace in chart["data"][:2])
     reach = np.maximum(less, more)
     assert np.all(np.diff(reach) >= 0.0)
-    assert "Film temperature T ±5 °C" in chart["layout"]["yaxis"]["ticktext"]
+    assert any("Film temperature T ±5 °C" in row for row in chart["layout"]["yaxis"]["ticktext"])
     in_us = what_if.tornado(ask.sensitivities(view), ask.names(US), US)
-    assert "Film temperature T ±9 °F" in in_us["layout"]["yaxis"]["ticktext"]
+    assert any("Film temperature T ±9 °F" in row for row in in_us["layout"]["yaxis"]["ticktext"])
 
 
 def test_a_map_keeps_its_ladder_of_colours() -> None:

@@ -126,8 +126,10 @@ def test_flexible_rotor_tends_to_the_rigid_one_and_two_modes_of_the_shaft_on_the
         error += 10 * EPS * np.abs(stiff).max() / np.abs(rigid).min()
         assert by_value(stiff[:4]) == pytest.approx(by_value(rigid), rel=error)
         fast.append(stiff[4:].real)
-    C = film(SHEET, 6000 * RPM)[1]
-    assert np.sort(fast[1]) == pytest.approx(np.sort(-1e14 / np.linalg.eigvalsh(C)), rel=1e-5)
+    C = np.linalg.eigvalsh(film(SHEET, 6000 * RPM)[1])
+    # The disk does not stand quite still: C²/(K_rot M) of it.
+    error = 2 * C.max() ** 2 / (1e14 * SHEET.rotor.half_mass)
+    assert np.sort(fast[1]) == pytest.approx(np.sort(-1e14 / C), rel=error)
 
 
 @pytest.mark.parametrize("journal_mass", [1e-2, 1e-4])

@@ -81,8 +81,8 @@ def test_forward_and_backward_circles_add_up_to_the_orbit(x, y):
     orbit = orbit_ellipse(x, y)
     turning = orbit.forward * np.exp(1j * TURN) + orbit.backward * np.exp(-1j * TURN)
     error = 32 * EPS * (abs(x) + abs(y))
-    assert turning.real == pytest.approx(motion(x, TURN), abs=error)
-    assert turning.imag == pytest.approx(motion(y, TURN), abs=error)
+    assert np.abs(turning.real - motion(x, TURN)).max() <= error
+    assert np.abs(turning.imag - motion(y, TURN)).max() <= error
 
 
 def test_a_forward_circle_is_cos_and_sin():

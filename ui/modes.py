@@ -116,7 +116,8 @@ def _row(here: ModeShapes, i: int, speed: float, units: Units) -> str:
     value = complex(here.eigenvalues[i])
     rate = f"{value.real:.4g}".replace("-", "−")
     if value.imag <= 0.0:
-        return f"| {i + 1} | does not oscillate | | {rate} | | | – | – |"
+        words = "does not oscillate" if value.imag == 0.0 else "mirror image of another mode"
+        return f"| {i + 1} | {words} | | {rate} | | | – | – |"
     ratio, decrement = float(modes.damping_ratio(value)), float(modes.logarithmic_decrement(value))
     cells = (
         f"{float(units.speed.of(value.imag)):.0f}",

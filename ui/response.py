@@ -54,6 +54,19 @@ def say_limits(view: View, units: Units) -> None:
         )
 
 
+def amplitude_caption(view: View) -> str:
+    """Return what the chart of amplitudes says."""
+    peaks = (
+        "diamonds (with X and Y dotted lines) mark the largest orbits"
+        if len(view.disk_peaks.speed) or len(view.journal_peaks.speed)
+        else "no peak up to the top speed"
+    )
+    unstable = (
+        " Shaded: unstable, no steady response exists." if len(view.response.unstable) else ""
+    )
+    return f"Zero to peak, about equilibrium; {peaks}.{unstable} Eq. 5.38."
+
+
 def senses(view: View) -> str:
     """Return in which sense disk and journal whirl at the running speed."""
     orbits = view.orbits

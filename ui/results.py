@@ -46,14 +46,15 @@ class Result:
             return "no limit"
         unit = self.unit(units)
         number = digits(float(unit.of(value)))
-        return number if unit.name == "-" else f"{number} {unit.name}"
+        return number + {"-": "", "°": "°"}.get(unit.name, f" {unit.name}")
 
     def change(self, view: View, baseline: View) -> str | None:
         """Return the change from the baseline's result, or nothing where that is no number."""
         live, pinned = self.value(view), self.value(baseline)
         if not (math.isfinite(live) and math.isfinite(pinned)) or pinned == 0.0:
             return None
-        return f"{(live / pinned - 1.0) * 100.0:+.3g} % vs A"
+        change = (live / pinned - 1.0) * 100.0
+        return f"{'+' if change >= 0.0 else '−'}{digits(abs(change))} % vs A"
 
 
 def show_results(view: View, baseline: View | None, units: Units, *keys: str) -> None:
@@ -109,13 +110,11 @@ def tex(value: float, unit: str = "") -> str:
     return number + (rf"\ \mathrm{{{words}}}" if unit else "")
 
 
-def least_damped(view: View) -> complex:
-    """Return the eigenvalue of the least damped oscillating mode at the running speed [1/s]."""
+def leading(view: View) -> complex:
+    """Return the eigenvalue of the oscillating mode nearest to growth at running speed [1/s]."""
     values = view.point.flexible_eigenvalues
     waves = values[values.imag > 0.0]
-    return (
-        complex(waves[np.argmin(modes.damping_ratio(waves))]) if len(waves) else complex(math.nan)
-    )
+    return complex(waves[np.argmax(waves.real)]) if len(waves) else complex(math.nan)
 
 
 def _highest(peaks: ResponsePeaks) -> float:
@@ -297,7 +296,7 @@ RESULTS: dict[str, Result] = {
             "Sheet", r"Q = \Omega R L C\,\varepsilon", _flow, "Per bearing, both ends together.",
         ),
         Result(
-            "equivalent_stiffness", "Equivalent stiffness K_eq", "stiffness",
+            "equivalent_stiffness", "Equivalent stiffness", "stiffness",
             lambda v: float(v.point.equivalent_stiffness), "Eq. 5.45",
             r"K_{eq} = \frac{K_{XX}C_{YY}+K_{YY}C_{XX}-C_{YX}K_{XY}-C_{XY}K_{YX}}{C_{XX}+C_{YY}}",
             _stiffness,
@@ -339,7 +338,7 @@ RESULTS: dict[str, Result] = {
             lambda v: tex(v.rigid_onset.speed, "rad/s"), _ONSET_REMARK,
         ),
         Result(
-            "whirl_frequency", "Whirl frequency", "frequency",
+            "whirl_frequency", "Whirl frequency", "speed",
             lambda v: v.onset.whirl_frequency, "Eq. 5.47", r"\omega_s = |\mathrm{Im}\,\lambda|",
             lambda v: tex(v.onset.whirl_frequency, "rad/s"), "At the onset. " + _ONSET_REMARK,
         ),
@@ -350,17 +349,17 @@ RESULTS: dict[str, Result] = {
         ),
         Result(
             "damping_ratio", "Damping ratio ζ", "number",
-            lambda v: float(modes.damping_ratio(least_damped(v))), "Re λ, Im λ",
+            lambda v: float(modes.damping_ratio(leading(v))), "Re λ, Im λ",
             r"\zeta = -\frac{\mathrm{Re}\,\lambda}{|\lambda|}",
-            lambda v: rf"{tex(float(modes.damping_ratio(least_damped(v))))},\quad \lambda = "
-            rf"{tex(least_damped(v).real)} \pm {tex(abs(least_damped(v).imag))}\,j",
-            "Of the least damped oscillating mode at the running speed.",
+            lambda v: rf"{tex(float(modes.damping_ratio(leading(v))))},\quad \lambda = "
+            rf"{tex(leading(v).real)} \pm {tex(abs(leading(v).imag))}\,j",
+            "Of the oscillating mode that decays slowest, or grows fastest, at the running speed.",
         ),
         Result(
-            "natural_frequency", "Its frequency", "frequency",
-            lambda v: abs(least_damped(v).imag), "Im λ", r"\omega_d = |\mathrm{Im}\,\lambda|",
-            lambda v: tex(abs(least_damped(v).imag), "rad/s"),
-            "Damped natural frequency of the least damped oscillating mode at the running speed.",
+            "natural_frequency", "Mode's frequency", "speed",
+            lambda v: abs(leading(v).imag), "Im λ", r"\omega_d = |\mathrm{Im}\,\lambda|",
+            lambda v: tex(abs(leading(v).imag), "rad/s"),
+            "Frequency of the oscillating mode that decays slowest at the running speed.",
         ),
         Result(
             "disk_amplitude", "Disk orbit", "film",

@@ -38,22 +38,24 @@ BARE = (
     "Midspan damping or journal mass: the closed forms, drawn dashed, are those of the rotor "
     "without them and no longer tell the onset. The vertical line does, found on the eigenvalues."
 )
-WORK = (
-    r"\oint \mathbf F\cdot d\mathbf x = \underbrace{(K_{XY}-K_{YX})\,A}_{\text{fed in}}"
-    r" - \underbrace{\pi\omega\,\mathbf P^{*}\mathbf C\,\mathbf P}_{\text{taken out}},"
-    r"\qquad \mathbf F=-\mathbf K\mathbf x-\mathbf C\dot{\mathbf x},"
-    r"\quad \mathbf x=\mathrm{Re}\{\mathbf P e^{j\omega t}\},"
-    r"\quad A=\oint x\,dy=\pi\,\mathrm{Im}(\mathbf P_X\overline{\mathbf P}_Y)"
-)
+WORK = r"""
+\begin{gathered}
+\oint \mathbf F\cdot d\mathbf x = \underbrace{(K_{XY}-K_{YX})\,A}_{\text{fed in}}
+ - \underbrace{\pi\omega\,\mathbf P^{*}\mathbf C\,\mathbf P}_{\text{taken out}} \\
+\mathbf F=-\mathbf K\mathbf x-\mathbf C\dot{\mathbf x},\quad
+\mathbf x=\mathrm{Re}\{\mathbf P e^{j\omega t}\} \\
+A=\oint x\,dy=\pi\,\mathrm{Im}(P_X\overline{P}_Y)
+\end{gathered}
+"""
 WORK_WORDS = (
-    "The symmetric part of K gives back what it takes. Only K_XY − K_YX does work on a closed "
+    "The symmetric part of K gives back what it takes. Only $K_{XY}-K_{YX}$ does work on a closed "
     "orbit: it pushes along the motion, a force that follows the whirl, and in proportion to the "
     "orbit's area."
 )
 TORNADO = (
-    "One input 10 % less or more, all others kept. A temperature, whose zero means nothing, moves "
-    "by the degrees shown. Rotor mass takes the load with it where that is half the weight. "
-    "Inputs at zero or infinite are left out."
+    "One input 10 % less or more, all others kept; a temperature, whose zero means nothing, moves "
+    "by the degrees shown. Beside each input: the onset's movement for less / more. Rotor mass "
+    "takes the load with it where that is half the weight. Inputs at zero or infinite are left out."
 )
 # Fig. 5.10's static sags over clearance, beside this machine's own.
 _SAGS = (0.0, 0.3, 1.0, 3.0, 10.0)

@@ -37,7 +37,7 @@ def _outlook(view: View, units: Units) -> str:
         return "no speed makes this machine whirl."
     if onset.speed > view.speed:
         margin = (onset.speed / view.speed - 1.0) * 100.0
-        where = f"{_speed(onset.speed, units)}, {margin:.3g} % above"
+        where = f"{_speed(onset.speed, units)}, {digits(margin)} % above"
         return f"it goes unstable at {where}, {_whirl(view, units)}."
     return (
         f"it is past its range of whirl, which begins at {_speed(onset.speed, units)}, "
@@ -48,7 +48,7 @@ def _outlook(view: View, units: Units) -> str:
 def _past(view: View, units: Units) -> str:
     onset = view.onset
     excess = (1.0 - onset.speed / view.speed) * 100.0
-    where = f"{_speed(onset.speed, units)}, {excess:.3g} % below"
+    where = f"{_speed(onset.speed, units)}, {digits(excess)} % below"
     return f"it went unstable at {where}, {_whirl(view, units)}."
 
 

@@ -41,7 +41,7 @@ from rotorcalc.imbalance import (
     response_family,
 )
 from rotorcalc.locus import Locus, root_locus
-from rotorcalc.response import ResponsePeaks, response_peaks
+from rotorcalc.response import ResponsePeaks, both_peaks
 from rotorcalc.typing import Array, ComplexArray
 from ui.inputs import Values, machine_of, speeds_of
 
@@ -51,6 +51,8 @@ POINTS = 240
 _SOMMERFELD = np.geomspace(1e-2, 1e2, POINTS)
 # 100, 200, 500 … 50000 rpm, to mark on the journal's locus.
 _ROUND_SPEEDS = np.array([a * 10.0**b for b in (2, 3, 4) for a in (1, 2, 5)]) * math.pi / 30
+# From next to the wall, ε = 0.997, to near the centre.
+_TO_THE_WALL = np.geomspace(1e-5, 1e2, POINTS)
 # Around and along the film: every two degrees, every twentieth of the length.
 _THETA = np.linspace(0.0, 2.0 * np.pi, 181)
 _ZETA = np.linspace(-0.5, 0.5, 21)
@@ -98,7 +100,7 @@ class View:
     @cached_property
     def force_curves(self) -> FilmForces:
         """The film's forces at the running speed, wherever its journal may sit."""
-        return film_forces(self.machine, self.speed, sommerfeld=_SOMMERFELD)
+        return film_forces(self.machine, self.speed, sommerfeld=_TO_THE_WALL)
 
     @property
     def onset(self) -> Onset:
@@ -139,12 +141,12 @@ class View:
     @property
     def disk_peaks(self) -> ResponsePeaks:
         """Peaks of the disk's response up to the top speed."""
-        return _peaks(self.machine, self.top_speed, "disk")
+        return _peaks(self.machine, self.top_speed)[0]
 
     @property
     def journal_peaks(self) -> ResponsePeaks:
         """Peaks of the journals' response up to the top speed."""
-        return _peaks(self.machine, self.top_speed, "journal")
+        return _peaks(self.machine, self.top_speed)[1]
 
     def coefficients(self, axes: Axes) -> ForceCoefficients:
         """Return K and C over the sweep, with dimensions, in one frame."""
@@ -199,12 +201,12 @@ class View:
     @property
     def orbits(self) -> Orbits:
         """Orbits at the running speed."""
-        return orbits(self.point)
+        return orbits(self.point, points=145)
 
     @property
     def orbit_steps(self) -> Orbits:
-        """Orbits over the sweep."""
-        return orbits(self.sweep)
+        """Orbits at some speeds of the sweep, coarser than at the running speed."""
+        return orbits(self.sweep, points=49, every=POINTS // 40)
 
     @property
     def clearance_orbit(self) -> ClearanceOrbit:
@@ -270,8 +272,8 @@ def _onset(machine: Machine, flexible: bool) -> Onset:
 
 
 @lru_cache(maxsize=64)
-def _peaks(machine: Machine, top_speed: float, at: str) -> ResponsePeaks:
-    return response_peaks(machine, speeds(top_speed), at=at)
+def _peaks(machine: Machine, top_speed: float) -> tuple[ResponsePeaks, ResponsePeaks]:
+    return both_peaks(machine, speeds(top_speed))
 
 
 @lru_cache(maxsize=32)

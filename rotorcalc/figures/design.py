@@ -81,37 +81,35 @@ def onset_map(
 
 def tornado(found: Sensitivities, names: Mapping[str, str], units: Units) -> Chart:
     """Return how far the onset moves with each input, a pair of bars an input, largest on top."""
-    onset, unit = found.onset, units.speed
+    onset, unit = float(units.speed.of(found.onset)), units.speed
     inputs = found.inputs[::-1]  # the axis counts from below
     places = np.arange(len(inputs), dtype=float)
-    less, more = (
-        np.array([_change(getattr(one, end), onset) for one in inputs])
-        for end in ("onset_low", "onset_high")
-    )
-    shown_less, shown_more = unit.per_si * less, unit.per_si * more
-    reach = style.ceiling(1.45 * np.abs([*shown_less, *shown_more, 1.0 / 1.45]))
+    less = np.array([_change(float(unit.of(one.onset_low)), onset) for one in inputs])
+    more = np.array([_change(float(unit.of(one.onset_high)), onset) for one in inputs])
+    reach = style.ceiling(1.1 * np.abs([*less, *more, 1.0]))
+    title = titled("Movement", "ΔΩ<sub>s</sub>", unit.name)
+    rows = [
+        f"{names[one.field]}<br>{_signed(low)} / {_signed(high)} {unit.name}"
+        for one, low, high in zip(inputs, less, more, strict=True)
+    ]
     return style.chart(
         [
-            _bars(shown_less, places, "10 % less", less / onset if onset else less, _LESS),
-            _bars(shown_more, places, "10 % more", more / onset if onset else more, _MORE),
+            _bars(less, places, "10 % less", onset, _LESS),
+            _bars(more, places, "10 % more", onset, _MORE),
+            *_shares_axis_holder(onset),
         ],
-        near(
-            style.axis(titled("Movement of the onset", "ΔΩ<sub>s</sub>", unit.name), -reach, reach)
-        ),
+        near(style.axis(title, -reach, reach)),
         style.axis(
-            "",
-            -0.6,
-            len(inputs) - 0.4,
-            tickvals=places,
-            showgrid=False,
-            ticktext=[names[one.field] for one in inputs],
+            "", -0.6, len(inputs) - 0.4, tickvals=places, ticktext=rows, showgrid=False,
+            tickfont={"size": 13},
         ),
+        xaxis2=_shares_axis(reach, onset),
         barmode="overlay",
-        height=110 + 34 * max(len(inputs), 4),
+        height=160 + 42 * max(len(inputs), 4),
         legend=LEGEND,
-        margin=MARGIN,
+        margin={"l": 64, "r": 16, "t": 52, "b": 84},
         shapes=[_zero()],
-    )
+    )  # fmt: skip
 
 
 def solution(
@@ -196,16 +194,36 @@ def _change(onset: float, base: float) -> float:
     return change if np.isfinite(change) else 0.0
 
 
-def _bars(x: Array, y: Array, name: str, shares: Array, colour: str) -> Trace:
-    texts = [
-        f"{move:+.0f} ({100 * share:+.2g} %)".replace("-", "−")
-        for move, share in zip(x, shares, strict=True)
-    ]
+def _signed(value: float) -> str:
+    return f"{value:+.0f}".replace("-", "−")
+
+
+def _bars(x: Array, y: Array, name: str, onset: float, colour: str) -> Trace:
+    shares = 100.0 * x / onset if onset > 0.0 else 0.0 * x
+    hover = f"{name}: %{{x:+.4g}} rpm, %{{customdata:+.2g}} %<extra></extra>"
     return {
-        "type": "bar", "orientation": "h", "x": x, "y": y, "name": name, "width": 0.62,
-        "marker": {"color": colour}, "text": texts, "textposition": "outside",
-        "cliponaxis": False, "hovertemplate": "%{text}<extra></extra>",
+        "type": "bar", "orientation": "h", "x": x, "y": y, "name": name, "width": 0.6,
+        "marker": {"color": colour}, "customdata": shares, "hovertemplate": hover,
     }  # fmt: skip
+
+
+def _shares_axis(reach: float, onset: float) -> Axis:
+    """Return the axis on top that reads the movement in per cent of the onset."""
+    share = 100.0 * reach / onset if 0.0 < onset < math.inf else 1.0
+    return near(
+        style.axis(
+            "of the onset [%]", -share, share,
+            overlaying="x", side="top", showgrid=False, tickmode="auto", nticks=7,
+        )
+    )  # fmt: skip
+
+
+def _shares_axis_holder(onset: float) -> list[Trace]:
+    """Return a trace without a mark: an axis is drawn only where something stands on it."""
+    if not 0.0 < onset < math.inf:
+        return []
+    holder = style.mark(0.0, 0.0, "", showlegend=False, hoverinfo="skip", xaxis="x2")
+    return [holder | {"marker": {"opacity": 0}}]
 
 
 def _zero() -> dict[str, Any]:

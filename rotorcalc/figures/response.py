@@ -20,8 +20,6 @@ from rotorcalc.response import ResponsePeaks
 from rotorcalc.typing import Array, BoolArray
 
 _HEIGHT = 470
-# Steps of the scrubber over speed.
-_STEPS = 40
 # Room above the highest peak, for its label.
 _HEADROOM = 1.12
 # Two entries a row, so that charts side by side keep one height of plot.
@@ -112,13 +110,14 @@ def at_running_speed(orbits: Orbits, units: Units) -> Chart:
 def scrubber(steps: Orbits, here: Orbits, units: Units) -> Chart:
     """Return the orbits with a slider over speed that runs in the browser."""
     unit = units.film
-    every = max(1, len(steps.speed) // _STEPS)
-    chosen = range(every - 1, len(steps.speed), every)
-    moments = [(float(steps.speed[i]), steps.disk[i], steps.journal[i]) for i in chosen]
-    moments = [m for m in moments if m[0] != here.speed]
+    moments = [
+        (float(speed), disk, journal)
+        for speed, disk, journal in zip(steps.speed, steps.disk, steps.journal, strict=True)
+        if speed != here.speed
+    ]
     moments.append((float(here.speed), here.disk, here.journal))
     moments.sort(key=lambda moment: moment[0])
-    points = unit.of(np.stack([paths for _, *paths in moments]))
+    points = unit.of(np.concatenate([path for _, *paths in moments for path in paths]))
     x, y = _plane(style.ceiling(1.05 * np.abs(points)), unit)
     # A name without the sense of whirl: that may change with speed.
     traces = style.joined([_orbit(p, unit, n.split(",")[0], c) for n, p, c in _paths(here)])
@@ -210,7 +209,8 @@ def _peak_labels(peaks: ResponsePeaks, body: str, units: Units, x: Axis) -> list
     sizes = units.film.of(peaks.amplitude)
     for speed, size in zip(units.speed.of(peaks.speed), sizes, strict=True):
         to_left = speed > (0.3 if body == "disk" else 0.7) * right
-        text = f"{size:.3g} {units.film.name}, {speed:.0f} {units.speed.name}"
+        number = f"{size:.3g}" if size < 1e3 else f"{size:.0f}"
+        text = f"{number} {units.film.name}, {speed:.0f} {units.speed.name}"
         labels.append(
             {"x": float(speed), "y": float(size), "text": text, "showarrow": False,
              "xanchor": "right" if to_left else "left", "yanchor": "bottom", "yshift": 7,
@@ -321,7 +321,8 @@ def _frame(speed: float, disk: Array, journal: Array, rigid: bool, units: Units)
 
 def _moved(trace: Trace) -> Trace:
     """Return what of an orbit's trace changes with speed."""
-    place = {"x": trace["x"], "y": trace["y"]}
+    # Half the digits are enough for a screen, and half as much to send.
+    place = {axis: trace[axis].astype(np.float32) for axis in ("x", "y")}
     angle = trace.get("marker", {}).get("angle")
     return place if angle is None else place | {"marker": {"angle": angle}}
 

@@ -199,6 +199,8 @@ _AXIS: Axis = {
     "ticks": "outside",
     "tickcolor": "rgba(127,127,127,0.6)",
     "automargin": True,
+    "exponentformat": "power",
+    "minexponent": 5,  # 10000 rpm, not 10k
 }
 _LAYOUT: dict[str, Any] = {
     "height": HEIGHT,

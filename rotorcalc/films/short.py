@@ -6,7 +6,7 @@ ambient pressure at both ends. The film carries over half the circumference: 0 �
 thickest film, and with a moving journal the half that its motion puts under pressure.
 
 Axes: X along the static load, Y at +90° in the sense of rotation; r along the line of centres, t
-at +90° from it. θ runs from the thickest film (r) in the sense of rotation.
+at +90° from it. θ runs in the sense of rotation from the thickest film, which lies opposite to r.
 
 Units: ε, x, y and film thickness in the radial clearance C; forces in μΩRL³/C²; stiffness in
 μΩRL³/C³ and damping in μRL³/C³ ("film units"), or k and c of Eq. 5.32 where a docstring says so.
