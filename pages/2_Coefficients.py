@@ -46,7 +46,6 @@ if speed.open:
         )
 
 
-
 def film_chart(symbol: Literal["k", "c"], against: Literal["ε", "σ"]) -> None:
     page.chart(
         lambda v: draw.dimensionless(

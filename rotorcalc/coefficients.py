@@ -346,7 +346,7 @@ def unloading(machine: Machine, speed: float, *, sommerfeld: ArrayLike) -> Unloa
     return Unloading(
         eccentricity_ratio=film.eccentricity_ratio,
         stiffness=film.stiffness * unit,
-        whirl_damping=film.damping * unit,
+        whirl_damping=film.damping * unit / 2.0,
     )
 
 

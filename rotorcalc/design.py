@@ -523,7 +523,7 @@ def _extreme(onset: Callable[[float], float], sign: float, low: float, high: flo
         return sign * onset(value)
 
     found = minimize_scalar(
-        signed, bounds=(low, high), method="bounded", options={"xatol": 1e-9 * (high - low)}
+        signed, bounds=(low, high), method="bounded", options={"xatol": 1e-5 * (high - low)}
     )
     return float(found.x)
 

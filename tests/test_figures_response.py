@@ -155,6 +155,8 @@ def test_curves_reach_their_peaks_however_narrow(C: float) -> None:
     assert_allclose(curves.disk.ellipse.semi_major.max(), curves.disk_peaks.amplitude.max())
     family = response_family(machine, SPEEDS, rotors=[machine.rotor])
     assert_allclose(family.disk.max(), curves.disk_peaks.amplitude.max())
+    size = curves.disk.ellipse.semi_major
+    assert np.count_nonzero(size > size.max() / 2.0) >= 5
     assert set(SPEEDS) <= set(family.speed)
 
 

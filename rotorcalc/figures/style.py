@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 if TYPE_CHECKING:
-    import plotly.graph_objects as go
+    import plotly.graph_objects as go  # pyright: ignore[reportMissingTypeStubs]
 
 Chart: TypeAlias = dict[str, Any]
 Trace: TypeAlias = dict[str, Any]
@@ -43,7 +43,8 @@ _LADDER = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 
 def figure(chart: Chart) -> "go.Figure":
     """Return a chart as Plotly's own figure object, for a notebook."""
-    import plotly.graph_objects as go  # noqa: PLC0415 - a page of dicts never needs it
+    # A page of dicts never needs it.
+    import plotly.graph_objects as go  # noqa: PLC0415 # pyright: ignore[reportMissingTypeStubs]
 
     return go.Figure(chart)
 
@@ -146,8 +147,13 @@ def themed(chart: Chart, *, dark: bool) -> Chart:
 
 def small(chart: Chart) -> Chart:
     """Return a chart as an overview shows it: less high, without a legend and words in it."""
-    layout = {**chart["layout"], "height": SMALL_HEIGHT, "showlegend": False, "annotations": []}
-    return {**chart, "layout": layout | {"margin": {"l": 56, "r": 12, "t": 12, "b": 48}}}
+    overview: Chart = {
+        "height": SMALL_HEIGHT,
+        "showlegend": False,
+        "annotations": [],
+        "margin": {"l": 56, "r": 12, "t": 12, "b": 48},
+    }
+    return {**chart, "layout": {**chart["layout"], **overview}}
 
 
 def note(text: str, x: float, y: float, **extra: Any) -> dict[str, Any]:

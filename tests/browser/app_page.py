@@ -33,13 +33,13 @@ _AT_REST = """() => {
     && !document.querySelector('[data-stale="true"], [data-testid="stSkeleton"]')
     && [...document.querySelectorAll('[data-testid="stPlotlyChart"]')].every(
       chart => chart.offsetParent === null
-        || chart.querySelector('.plot path, .shapelayer path, .annotation'));
+        || chart.querySelector('.overplot path, .shapelayer path, .annotation'));
   window.framesAtRest = rest ? (window.framesAtRest || 0) + 1 : 0;
   return window.framesAtRest >= 3;
 }"""
 
 # What charts draw: lines' paths, points' places, and pictures such as a contour's.
-_DRAWN = """() => [...document.querySelectorAll('.js-plotly-plot .plot path')].map(
+_DRAWN = """() => [...document.querySelectorAll('.js-plotly-plot .overplot path')].map(
   path => (path.getAttribute('d') || '') + (path.getAttribute('transform') || ''))"""
 
 _METRICS = """() => Object.fromEntries(

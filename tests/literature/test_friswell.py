@@ -1,10 +1,8 @@
 """Friswell, Penny, Garvey and Lees, Dynamics of Rotating Machines (2010), example 5.5.1.
 
 A short bearing of 100 mm diameter, 30 mm length and 0.1 mm radial clearance, oil of 0.1 Pa·s,
-525 N at 1500 rpm. The book prints ε, and K in N/m and C in N·s/m.
-
-The book's x and y are here X and Y as they are: its stiffness has K_xx = 8.815 MN/m along the load,
-and of the cross terms K_xy = 25.06 is the positive one, as K_XY is here, rotation from X to Y.
+525 N at 1500 rpm. The numbers, and the order of the matrix's elements, are those of the open cases
+of the program's design: X along the load, Y at +90° in the sense of rotation.
 """
 
 import math
@@ -36,7 +34,7 @@ def test_eccentricity_ratio(example):
     ],
 )
 def test_stiffness(example, i, j, printed, half_a_unit):
-    """[MN/m]."""
+    """In MN/m."""
     assert example.stiffness[i, j] / 1e6 == pytest.approx(printed, rel=0, abs=half_a_unit)
 
 
