@@ -130,13 +130,26 @@ def with_baseline(chart: Chart, baseline: Chart) -> Chart:
         and trace.get("meta") != LIVE_ONLY["meta"]
         and _outline(trace) not in drawn
     ]
-    behind = {**chart, "data": [*ghosts, *chart["data"]]}
+    layout = _widened(chart["layout"], baseline["layout"])
+    behind = {**chart, "data": [*ghosts, *chart["data"]], "layout": layout}
     if "frames" in chart:  # a frame names the traces that it moves by their places
         behind["frames"] = [
             {**frame, "traces": [place + len(ghosts) for place in frame["traces"]]}
             for frame in chart["frames"]
         ]
     return behind
+
+
+def _widened(layout: Chart, other: Chart) -> Chart:
+    """Return a layout whose axes hold another's ranges too, an axis that runs down running down."""
+    axes: Chart = {}
+    for name, axis in layout.items():
+        there = other.get(name)
+        if name[1:5] == "axis" and there and {"range"} <= axis.keys() & there.keys():
+            (first, last), ends = axis["range"], (*axis["range"], *there["range"])
+            low, high = min(ends), max(ends)
+            axes[name] = {**axis, "range": [low, high] if first <= last else [high, low]}
+    return {**layout, **axes}
 
 
 def themed(chart: Chart, *, dark: bool) -> Chart:
