@@ -220,6 +220,7 @@ _AXIS: Axis = {
     "automargin": True,
     "exponentformat": "power",
     "minexponent": 5,  # 10000 rpm, not 10k
+    "separatethousands": False,
 }
 _LAYOUT: dict[str, Any] = {
     "height": HEIGHT,

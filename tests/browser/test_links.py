@@ -1,5 +1,7 @@
 """Links: every page opens cold, and the address bar carries the whole machine everywhere."""
 
+import itertools
+
 import pytest
 from playwright.sync_api import expect
 
@@ -9,43 +11,42 @@ LINK = {"preset": "sheet-1e7", "C": "80", "rpm": "3000", "cs": "500"}
 
 
 @pytest.mark.parametrize("name", PATHS)
-def test_page_opens_cold_by_its_own_address(app: AppPage, name: str) -> None:
+def test_page_opens_cold_by_its_own_address_and_so_do_its_tabs(app: AppPage, name: str) -> None:
     app.open(name)
     assert app.query() == {}
     expect(app.page.get_by_test_id("stHeading").first).to_be_visible()
-    expect(app.page.get_by_test_id("stException")).to_have_count(0)
     if name != "Notes":
         assert app.metrics()
         assert app.drawn()
+    for label in app.tabs() or [None]:
+        if label:
+            app.open_tab(label)
+            assert app.page.get_by_role("tabpanel").filter(visible=True).inner_text().strip()
+        expect(app.page.get_by_test_id("stException")).to_have_count(0)
 
 
-@pytest.mark.parametrize("name", PATHS)
-def test_shared_link_gives_the_same_numbers_cold_and_on_every_page_after(
-    app: AppPage, name: str
+Shown = tuple[dict[str, str], list[str]]
+
+
+@pytest.fixture(scope="module")
+def cold() -> dict[str, Shown]:
+    """What each page shows on a cold visit by the link, as tests come by it."""
+    return {}
+
+
+@pytest.mark.parametrize(("name", "after"), itertools.pairwise([*PATHS, next(iter(PATHS))]))
+def test_shared_link_gives_the_same_numbers_cold_and_on_the_pages_visited_after(
+    app: AppPage, name: str, after: str, cold: dict[str, Shown]
 ) -> None:
     app.open(name, **LINK)
-    seen = {name: _shown(app)}
-    for other in [one for one in PATHS if one != name]:
-        app.go(other)
-        seen[other] = _shown(app)
-        assert app.query() == LINK
-    cold = _all_cold(app)
-    for other, shown in seen.items():
-        assert shown == cold[other], f"{name}, then {other}"
+    assert app.query() == LINK
+    assert cold.setdefault(name, _shown(app)) == _shown(app)
+    app.go(after)
+    assert app.query() == LINK
+    assert cold.setdefault(after, _shown(app)) == _shown(app)
 
 
-_COLD: dict[str, tuple[dict[str, str], list[str]]] = {}
-
-
-def _all_cold(app: AppPage) -> dict[str, tuple[dict[str, str], list[str]]]:
-    """Return what every page shows on a cold visit by the link, looked up once."""
-    for name in PATHS.keys() - _COLD.keys():
-        app.open(name, **LINK)
-        _COLD[name] = _shown(app)
-    return _COLD
-
-
-def _shown(app: AppPage) -> tuple[dict[str, str], list[str]]:
+def _shown(app: AppPage) -> Shown:
     sliders = app.page.get_by_test_id("stSidebar").locator("input[type=range]")
     return app.metrics(), [
         f"{slider.get_attribute('aria-label')} = {slider.get_attribute('aria-valuetext')}"

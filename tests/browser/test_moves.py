@@ -84,18 +84,6 @@ def test_preset_brings_its_machine(app: AppPage) -> None:
     expect(app.page.get_by_test_id("stMain").get_by_text("4627 rpm").first).to_be_visible()
 
 
-@pytest.mark.parametrize("name", PATHS)
-def test_every_tab_opens_and_draws(app: AppPage, name: str) -> None:
-    app.open(name)
-    for label in app.tabs():
-        app.open_tab(label)
-        expect(app.page.get_by_test_id("stException")).to_have_count(0)
-        panel = app.page.get_by_role("tabpanel").filter(visible=True)
-        assert panel.inner_text().strip()
-    if name != "Notes":
-        assert app.drawn()
-
-
 def test_keyboard_alone_reaches_sliders_and_opens_a_popover(app: AppPage) -> None:
     app.open("Equilibrium")
     keyboard = app.page.keyboard
