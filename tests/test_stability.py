@@ -374,6 +374,8 @@ def margin(machine, onset):
 # Midspan damping that quenches the whirl of the disk, and leaves that of the journals, far above.
 @example(with_rotor(shaft_stiffness=2.95e7, disk_damping=1.3e5, journal_mass=0.03), True)
 @example(with_rotor(shaft_stiffness=1e7, disk_damping=5e3, journal_mass=10.0), True)
+# Midspan damping that all but quenches the whirl, which then is far faster than the rigid rotor's.
+@example(replace(with_rotor(disk_damping=1.12e5), load=1.0), True)
 # Next to no load: the growth at the onset is a millionth of a millionth of the decay of others.
 @example(replace(SHEET, load=1e-6), True)
 @example(replace(with_rotor(disk_damping=500.0), load=1e-4), True)
