@@ -34,7 +34,7 @@ def cold() -> dict[str, Shown]:
     return {}
 
 
-@pytest.mark.parametrize(("name", "after"), itertools.pairwise([*PATHS, next(iter(PATHS))]))
+@pytest.mark.parametrize(("name", "after"), list(itertools.pairwise([*PATHS, next(iter(PATHS))])))
 def test_shared_link_gives_the_same_numbers_cold_and_on_the_pages_visited_after(
     app: AppPage, name: str, after: str, cold: dict[str, Shown]
 ) -> None:
