@@ -19,10 +19,11 @@ from rotorcalc.machine import Rotor
 from rotorcalc.typing import Array, ComplexArray
 
 _I = np.eye(2)
-# Newton's steps from an eigenvalue that is all but right, and the size of the last of them,
-# relative to λ: convergence is quadratic.
-_REFINEMENTS = 3
-_SETTLED = 1e-6
+# Newton's steps from an eigenvalue that is all but right, at most, and the size of the last of
+# them, relative to λ: where there is no need of another, and where λ is none. Of two modes that lie
+# close together each is known the worse.
+_REFINEMENTS = 8
+_NO_NEED, _SETTLED = 1e-14, 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,31 +155,27 @@ def refined_eigenvalues(rotor: Rotor, K: Array, C: Array, *, flexible: bool = Tr
 
     Returns
     -------
-    complex array, (..., n + 2)
-        λ [1/s], in no particular order; n as in `state_matrix`. Some stand there more than once,
-        and one that Newton's method does not settle on is not a number.
+    complex array, (..., m)
+        λ [1/s], in no particular order, m > n as in `state_matrix`. Some stand there more than
+        once, and one that Newton's method does not settle on is not a number.
 
     Notes
     -----
     With Z = K + λC + λ²M_j I for film and journal, z = λ²m_d + λC_s for the disk and s = 1/K_rot
     for the shaft, the free motion's journal j obeys W j = (Z + z I + s z Z) j = 0, as the
     synchronous response does with jΩ for λ. Newton's step for det W = 0 is −1/tr(W⁻¹ dW/dλ). It
-    starts from the matrix eigenvalues, and from the two of K + λ(C + C_s I), to which the slow ones
-    tend as the masses lose their part in them: those are the ones that the matrix tells least.
+    starts from the matrix eigenvalues, and from those of simpler machines, to which the ones that
+    the matrix tells least tend: with massless journals, and, of the slow ones, K + λ(C + C_s I).
     """
-    s = 1.0 / rotor.shaft_stiffness if flexible else 0.0
-    slow = np.linalg.eigvals(np.linalg.solve(C + rotor.disk_damping * _I, -K))
-    values = np.concatenate([eigenvalues(rotor, K, C, flexible=flexible), slow], axis=-1)
+    values = _first_guesses(rotor, K, C, flexible)
     step = values
-    for _ in range(_REFINEMENTS):
-        lam = values[..., None, None]
-        Z = K[..., None, :, :] + lam * C[..., None, :, :] + lam**2 * rotor.journal_mass * _I
-        dZ = C[..., None, :, :] + 2.0 * lam * rotor.journal_mass * _I
-        z = lam**2 * rotor.disk_mass + lam * rotor.disk_damping
-        dz = 2.0 * lam * rotor.disk_mass + rotor.disk_damping
-        step = _newton_step(Z + z * (_I + s * Z), dZ * (1.0 + s * z) + dz * (_I + s * Z))
-        values = values + step
-    return np.where(np.abs(step) <= _SETTLED * np.abs(values), values, np.nan)
+    with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+        for _ in range(_REFINEMENTS):
+            step = _newton_step(rotor, K, C, values, flexible)
+            values = values + step
+            if np.all(np.abs(step) <= _NO_NEED * np.abs(values)):
+                break
+        return np.where(np.abs(step) <= _SETTLED * np.abs(values), values, np.nan)
 
 
 def damped_frequency(eigenvalue: ArrayLike) -> Array:
@@ -283,8 +280,26 @@ def _bounded(step: ComplexArray, last: ComplexArray) -> ComplexArray:
     return step * np.where(length > most, most / np.where(length == 0.0, 1.0, length), 1.0)
 
 
-def _newton_step(W: ComplexArray, dW: ComplexArray) -> ComplexArray:
-    """Return −1/tr(W⁻¹ dW) = −det W/tr(adj W · dW) of 2×2 matrices."""
+def _first_guesses(rotor: Rotor, K: Array, C: Array, flexible: bool) -> ComplexArray:
+    """Return eigenvalues of the machine and of simpler ones, (..., m), none of them refined."""
+    slow = np.linalg.eigvals(np.linalg.solve(C + rotor.disk_damping * _I, -K))
+    found = [eigenvalues(rotor, K, C, flexible=flexible), slow.astype(complex)]
+    if flexible and not rotor.is_rigid and rotor.journal_mass > 0.0:
+        found.append(np.linalg.eigvals(_massless_journals(rotor, K, C)).astype(complex))
+    return np.concatenate(found, axis=-1)
+
+
+def _newton_step(
+    rotor: Rotor, K: Array, C: Array, values: ComplexArray, flexible: bool
+) -> ComplexArray:
+    """Return −1/tr(W⁻¹ dW) = −det W/tr(adj W · dW) of the machine's impedance W at each λ."""
+    s = 1.0 / rotor.shaft_stiffness if flexible else 0.0
+    lam = values[..., None, None]
+    Z = K[..., None, :, :] + lam * C[..., None, :, :] + lam**2 * rotor.journal_mass * _I
+    dZ = C[..., None, :, :] + 2.0 * lam * rotor.journal_mass * _I
+    z = lam**2 * rotor.disk_mass + lam * rotor.disk_damping
+    dz = 2.0 * lam * rotor.disk_mass + rotor.disk_damping
+    W, dW = Z * (1.0 + s * z) + z * _I, dZ * (1.0 + s * z) + dz * (_I + s * Z)
     determinant = W[..., 0, 0] * W[..., 1, 1] - W[..., 0, 1] * W[..., 1, 0]
     slope = (
         W[..., 1, 1] * dW[..., 0, 0]

@@ -102,24 +102,28 @@ def choose_mode(here: ModeShapes, leading: int, units: Units) -> int:
 
 
 def table(here: ModeShapes, speed: float, units: Units) -> str:
-    """Return the modes at the running speed as a table in Markdown."""
-    rate = units.growth.name
-    head = (
-        f"| Mode | Whirl frequency [{units.speed.name}] | × speed | Growth rate [{rate}] "
-        "| Damping ratio ζ | Log. decrement δ | Disk's orbit | Journal's orbit |\n"
-        "|--:|--:|--:|--:|--:|--:|:--|:--|\n"
-    )
-    return head + "\n".join(_row(here, i, speed, units) for i in range(len(here.eigenvalues)))
+    """Return the modes at the running speed as a table in Markdown, a column each for a phone."""
+    count = len(here.eigenvalues)
+    columns = (_column(here, i, speed, units) for i in range(count))
+    names = (
+        "Mode", f"Whirl frequency [{units.speed.name}]", "× speed",
+        f"Growth rate [{units.growth.name}]", "Damping ratio ζ", "Log. decrement δ",
+        "Disk's orbit", "Journal's orbit",
+    )  # fmt: skip
+    head, *rows = zip(names, *columns, strict=True)
+    lines = (head, (":--", *["--:"] * count), *rows)
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
 
-def _row(here: ModeShapes, i: int, speed: float, units: Units) -> str:
+def _column(here: ModeShapes, i: int, speed: float, units: Units) -> tuple[str, ...]:
     value = complex(here.eigenvalues[i])
     rate = f"{value.real:.4g}".replace("-", "−")
     if value.imag <= 0.0:
         words = "does not oscillate" if value.imag == 0.0 else "mirror image of another mode"
-        return f"| {i + 1} | {words} | | {rate} | | | – | – |"
+        return f"{i + 1}", words, "", rate, "", "", "–", "–"
     ratio, decrement = float(modes.damping_ratio(value)), float(modes.logarithmic_decrement(value))
-    cells = (
+    return (
+        f"{i + 1}",
         f"{float(units.speed.of(value.imag)):.0f}",
         f"{value.imag / speed:.3f}",
         rate,
@@ -128,7 +132,6 @@ def _row(here: ModeShapes, i: int, speed: float, units: Units) -> str:
         _direction(here.disk[i]),
         _direction(here.journal[i]),
     )
-    return f"| {i + 1} | {' | '.join(cells)} |"
 
 
 def _direction(phasors: ComplexArray) -> str:

@@ -19,10 +19,17 @@ _ICON = str(Path(__file__).with_name("icon.svg"))
 
 _ABOUT = f"rotorcalc {__version__}: rotors on fluid-film bearings, after San Andrés, Notes 5."
 # The answer first: Streamlit leaves six rem free above a page.
-# On a narrow screen results stand two in a row.
+# On a narrow screen results stand two in a row, equations break between their terms, tables are
+# tight: nothing there scrolls sideways, which a keyboard could not do. KaTeX's own boxes stick out
+# of an equation by two pixels.
 _STYLE = """<style>
 .stMainBlockContainer {padding-top: 4.2rem; padding-bottom: 3rem;}
+.katex-display {padding-right: 2px;}
 @media (max-width: 640px) {
+  .katex-display {font-size: 0.85em;}
+  .katex-display > .katex {white-space: normal;}
+  .katex-display .base {margin: 0.15em 0;}
+  .stMarkdown td, .stMarkdown th {padding: 0.25rem 0.35rem; font-size: 0.85rem;}
   [class*="st-key-results"] .stColumn {min-width: calc(50% - 1rem); flex: 1 1 calc(50% - 1rem);}
 }
 </style>"""

@@ -39,9 +39,8 @@ def _take(browser: Browser, address: str, name: str) -> None:
     path = DOCS / f"{(PATHS[name] or 'home').lower()}.png"
     tab.page.screenshot(path=path)
     tab.page.close()
-    # 256 colours are enough for charts, and a third of the size.
     with Image.open(path) as picture:
-        picture.convert("RGB").quantize(256, dither=Image.Dither.NONE).save(path, optimize=True)
+        picture.convert("RGB").save(path, optimize=True)
     print(f"{path.name}: {path.stat().st_size / 1000:.0f} kB")  # noqa: T201
 
 

@@ -101,13 +101,13 @@ EQUATIONS: dict[str, tuple[Equation, ...]] = {
         Equation(
             "5.35", r"k and c in (X, Y), k_YY and c_YY corrected; f_r = cos φ, f_t = sin φ",
             r"\begin{aligned}"
-            r"k_{XX} &= \tfrac{f_r}{\varepsilon(1-\varepsilon^2)}\{f_r^2+1+2\varepsilon^2\}&"
+            r"k_{XX} &= \tfrac{f_r}{\varepsilon(1-\varepsilon^2)}\{f_r^2+1+2\varepsilon^2\}\\"
             r"k_{XY} &= \tfrac{f_t}{\varepsilon(1-\varepsilon^2)}\{f_r^2+1+2\varepsilon^2\}\\"
-            r"k_{YX} &= \tfrac{f_t}{\varepsilon(1-\varepsilon^2)}\{f_r^2-1+\varepsilon^2\}&"
+            r"k_{YX} &= \tfrac{f_t}{\varepsilon(1-\varepsilon^2)}\{f_r^2-1+\varepsilon^2\}\\"
             r"k_{YY} &= \tfrac{f_r}{\varepsilon(1-\varepsilon^2)}\{f_t^2+1-\varepsilon^2\}\\"
-            r"c_{XX} &= \tfrac{2f_t}{\varepsilon(1-\varepsilon^2)}\{(2+\varepsilon^2)f_r^2+1-\varepsilon^2\}&"
+            r"c_{XX} &= \tfrac{2f_t}{\varepsilon(1-\varepsilon^2)}\{(2+\varepsilon^2)f_r^2+1-\varepsilon^2\}\\"
             r"c_{XY} &= \tfrac{2f_r}{\varepsilon(1-\varepsilon^2)}\{(2+\varepsilon^2)f_t^2-1+\varepsilon^2\}\\"
-            r"c_{YY} &= \tfrac{2f_t}{\varepsilon(1-\varepsilon^2)}\{(2+\varepsilon^2)f_t^2-1+\varepsilon^2\}&"
+            r"c_{YY} &= \tfrac{2f_t}{\varepsilon(1-\varepsilon^2)}\{(2+\varepsilon^2)f_t^2-1+\varepsilon^2\}\\"
             r"c_{YX} &= c_{XY}\end{aligned}",
             ("films.short.stiffness", "films.short.damping"), "Coefficients",
         ),
@@ -168,8 +168,9 @@ EQUATIONS: dict[str, tuple[Equation, ...]] = {
         ),
         Equation(
             "Calculation sheet", "Disk (capital) and journal (small) of the flexible rotor",
-            r"\begin{aligned}(M-M_j)\ddot X+C_s\dot X+K_{rot}(X-x) &= (M-M_j)u\Omega^2\cos\Omega t\\"
-            r"M_j\ddot x+(C\dot x)_X+(Kx)_X+K_{rot}(x-X) &= 0\end{aligned}",
+            r"\begin{aligned}&(M-M_j)\ddot X+C_s\dot X+K_{rot}(X-x)\\"
+            r"&\qquad = (M-M_j)u\Omega^2\cos\Omega t\\"
+            r"&M_j\ddot x+(C\dot x)_X+(Kx)_X+K_{rot}(x-X) = 0\end{aligned}",
             ("modes.state_matrix", "modes.mode_shapes", "response.synchronous_response"),
             "Root locus, Response",
         ),
