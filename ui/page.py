@@ -20,8 +20,8 @@ _ICON = str(Path(__file__).with_name("icon.svg"))
 _ABOUT = f"rotorcalc {__version__}: rotors on fluid-film bearings, after San Andrés, Notes 5."
 # The answer first: Streamlit leaves six rem free above a page.
 # On a narrow screen results stand two in a row, equations break between their terms, tables are
-# tight: nothing there scrolls sideways, which a keyboard could not do. KaTeX's own boxes stick out
-# of an equation by two pixels.
+# tight and a wide one's rows run over several lines: nothing there scrolls sideways, which a
+# keyboard could not do. KaTeX's own boxes stick out of an equation by two pixels.
 _STYLE = """<style>
 .stMainBlockContainer {padding-top: 4.2rem; padding-bottom: 3rem;}
 .katex-display {padding-right: 2px;}
@@ -30,6 +30,9 @@ _STYLE = """<style>
   .katex-display > .katex {white-space: normal;}
   .katex-display .base {margin: 0.15em 0;}
   .stMarkdown td, .stMarkdown th {padding: 0.25rem 0.35rem; font-size: 0.85rem;}
+  .stMarkdown table:has(th:nth-child(7)) {display: block;}
+  .stMarkdown tr:has(> :nth-child(7)) {display: flex; flex-wrap: wrap;}
+  .stMarkdown tr > :nth-last-child(n + 7):first-child {flex: 1 0 100%; font-weight: 600;}
   [class*="st-key-results"] .stColumn {min-width: calc(50% - 1rem); flex: 1 1 calc(50% - 1rem);}
 }
 </style>"""
