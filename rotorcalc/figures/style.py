@@ -220,7 +220,6 @@ _AXIS: Axis = {
     "automargin": True,
     "exponentformat": "power",
     "minexponent": 5,  # 10000 rpm, not 10k
-    "separatethousands": False,
 }
 _LAYOUT: dict[str, Any] = {
     "height": HEIGHT,
@@ -231,4 +230,5 @@ _LAYOUT: dict[str, Any] = {
     "hovermode": "closest",
     "legend": {"orientation": "h", "x": 0, "y": 1.01, "yanchor": "bottom"},
     "uirevision": "keep",
+    "separators": ".",  # 10000 rpm, not 10,000
 }
