@@ -160,10 +160,10 @@ def test_refined_eigenvalues_have_the_exact_number_of_unstable_ones(machine, sha
 def test_refined_eigenvalues_are_the_matrix_eigenvalues(machine, flexible, states, speed):
     rough = eigenvalues(machine, speed, flexible=flexible)
     refined = modes.refined_eigenvalues(machine.rotor, *film(machine, speed), flexible=flexible)
-    assert refined.shape == (states + 2,)
+    assert refined.size > states
     error = 100 * EPS * np.abs(rough).max()
     assert np.abs(refined[:states] - rough).max() <= error
-    # The last two have begun elsewhere: they are among the others, or have not settled.
+    # The rest have begun elsewhere: they are among the others, or have not settled.
     for lam in refined[states:][np.isfinite(refined[states:])]:
         assert np.abs(rough - lam).min() <= error
 

@@ -376,6 +376,16 @@ def margin(machine, onset):
 @example(with_rotor(shaft_stiffness=1e7, disk_damping=5e3, journal_mass=10.0), True)
 # Midspan damping that all but quenches the whirl, which then is far faster than the rigid rotor's.
 @example(replace(with_rotor(disk_damping=1.12e5), load=1.0), True)
+# A very stiff film and a light journal: two modes of the disk lie next to each other.
+@example(
+    Machine(
+        oil=replace(SHEET.oil, reference_viscosity=0.1),
+        bearing=JournalBearing(diameter=0.25, length=0.25, radial_clearance=70.3e-6),
+        rotor=replace(SHEET.rotor, mass=10.0, shaft_stiffness=1e6, journal_mass=0.005),
+        temperature=20.0,
+    ),
+    True,
+)
 # Next to no load: the growth at the onset is a millionth of a millionth of the decay of others.
 @example(replace(SHEET, load=1e-6), True)
 @example(replace(with_rotor(disk_damping=500.0), load=1e-4), True)
