@@ -14,6 +14,7 @@ Source: San Andrés, Notes 5.
 """
 
 import functools
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
@@ -24,7 +25,7 @@ from scipy.optimize import brentq, elementwise, minimize_scalar
 
 from rotorcalc.films import film_state
 from rotorcalc.machine import JournalBearing, Machine, Oil, Rotor
-from rotorcalc.stability import onset_speed, whirl_onset
+from rotorcalc.stability import Onset, onset_speed, whirl_onset
 from rotorcalc.typing import Array
 
 # What moves an onset: the inputs that `sensitivities` moves.
@@ -208,6 +209,47 @@ def has_closed_form(machine: Machine) -> bool:
     rotor = machine.rotor
     massless = rotor.journal_mass == 0.0 or rotor.is_rigid
     return massless and rotor.disk_damping == 0.0 and machine.bearing.film in _ONE_CURVE
+
+
+def closed_form_onset(machine: Machine, *, flexible: bool = True) -> Onset:
+    """Return the onset of a machine by the module's equation, without its eigenvalues.
+
+    Parameters
+    ----------
+    machine : Machine
+        A machine with `has_closed_form`; with a rigid shaft it may have journal mass.
+    flexible : bool
+        Whether the shaft bends; a rigid shaft never does.
+
+    Returns
+    -------
+    Onset
+        As `onset_speed` gives it.
+
+    Raises
+    ------
+    ValueError
+        Where the machine has midspan damping, or journal mass on a shaft that bends.
+    """
+    if not flexible:
+        machine = replace(machine, rotor=replace(machine.rotor, shaft_stiffness=math.inf))
+    if not has_closed_form(machine):
+        raise ValueError("no closed form for a machine with midspan damping or journal mass")
+    M, K_rot, F, s, C = _numbers(machine)
+    if F == 0.0:
+        return Onset(speed=0.0, whirl_frequency=0.0, eccentricity_ratio=0.0)
+    film, sag, wanted = machine.bearing.film, F / (K_rot * C), s**2 / (M * C * F)
+    low, high = _bracket(film, sag=np.array([sag]), wanted=np.array([wanted]))
+    sigma = brentq(
+        lambda sigma: _residual(film, sigma, sag, wanted), low[0], high[0], xtol=1e-17, rtol=1e-15
+    )
+    state = film_state(machine.bearing, sigma)
+    speed = sigma * F / s
+    return Onset(
+        speed=speed,
+        whirl_frequency=float(whirl_onset(state.k, state.c).whirl_ratio) * speed,
+        eccentricity_ratio=float(state.eccentricity_ratio),
+    )
 
 
 def onset_speeds(machines: Sequence[Machine]) -> Array:
@@ -448,6 +490,20 @@ def _numbers(machine: Machine) -> tuple[float, ...]:
 
 def _root(film: str, *, sag: Array, wanted: Array) -> Array:
     """Return the lowest σ at which the left side of the module's equation is the right one."""
+
+    def residual(sigma: Array, sag: Array, wanted: Array) -> Array:
+        return _residual(film, sigma, sag, wanted)
+
+    bracket = _bracket(film, sag=sag, wanted=wanted)
+    # The stubs lack what find_root returns for arrays of arguments.
+    found: Any = elementwise.find_root(residual, bracket, args=(sag, wanted), tolerances=_ROOT)
+    if not np.all(found.success):
+        raise RuntimeError("no onset found within the search's iterations")
+    return np.asarray(found.x, dtype=float)
+
+
+def _bracket(film: str, *, sag: Array, wanted: Array) -> tuple[Array, Array]:
+    """Return σ below and above the root, where the left side first passes the right one."""
     rigid, flexible = _curve(film)
     table = rigid + sag[:, None] * flexible
     first = np.argmax(table >= wanted[:, None], axis=1)
@@ -455,16 +511,13 @@ def _root(film: str, *, sag: Array, wanted: Array) -> Array:
     far = 2.0 * _SIGMA[-1] * np.sqrt(wanted / table[:, -1])
     low = np.where(beyond, _SIGMA[-1], _SIGMA[np.maximum(first - 1, 0)])
     high = np.where(beyond, far, _SIGMA[first])
+    return low, high
 
-    def residual(sigma: Array, sag: Array, wanted: Array) -> Array:
-        rigid, flexible = _left_side(film, sigma)
-        return (rigid + sag * flexible) / wanted - 1.0
 
-    # The stubs lack what find_root returns for arrays of arguments.
-    found: Any = elementwise.find_root(residual, (low, high), args=(sag, wanted), tolerances=_ROOT)
-    if not np.all(found.success):
-        raise RuntimeError("no onset found within the search's iterations")
-    return np.asarray(found.x, dtype=float)
+def _residual(film: str, sigma: Any, sag: Any, wanted: Any) -> Any:
+    """Return how far the left side is above the right one, relative; of floats or arrays."""
+    rigid, flexible = _left_side(film, sigma)
+    return (rigid + sag * flexible) / wanted - 1.0
 
 
 @functools.cache

@@ -23,13 +23,17 @@ def matrix(xx: ArrayLike, xy: ArrayLike, yx: ArrayLike, yy: ArrayLike) -> Array:
     array, (..., 2, 2)
         The matrices.
     """
-    elements = np.broadcast_arrays(xx, xy, yx, yy)
-    return np.stack(elements, axis=-1).reshape(*elements[0].shape, 2, 2).astype(float, copy=False)
+    matrices = np.empty((*np.broadcast(xx, xy, yx, yy).shape, 2, 2))
+    matrices[..., 0, 0], matrices[..., 0, 1] = xx, xy
+    matrices[..., 1, 0], matrices[..., 1, 1] = yx, yy
+    return matrices
 
 
 def vector(x: ArrayLike, y: ArrayLike) -> Array:
     """Return the vectors (x, y), shape (..., 2), from their components, shape (...)."""
-    return np.stack(np.broadcast_arrays(x, y), axis=-1).astype(float, copy=False)
+    vectors = np.empty((*np.broadcast(x, y).shape, 2))
+    vectors[..., 0], vectors[..., 1] = x, y
+    return vectors
 
 
 def rotate(coefficients: ArrayLike, angle: ArrayLike) -> Array:

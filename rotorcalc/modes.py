@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linear_sum_assignment
 
 from rotorcalc.machine import Rotor
-from rotorcalc.typing import Array, ComplexArray
+from rotorcalc.typing import Array, BoolArray, ComplexArray
 
 _I = np.eye(2)
 # Newton's steps from an eigenvalue that is all but right, at most, and the size of the last of
@@ -24,6 +24,8 @@ _I = np.eye(2)
 # close together each is known the worse.
 _REFINEMENTS = 8
 _NO_NEED, _SETTLED = 1e-14, 1e-9
+# Rows of a sweep that `follow_branches` compares at once.
+_ROWS_AT_ONCE = 32
 
 
 @dataclass(frozen=True, eq=False)
@@ -260,18 +262,38 @@ def follow_branches(eigenvalues: ArrayLike) -> ComplexArray:
     complex array, (n, m)
         The same values, each row reordered. The first row runs from the highest frequency down.
     """
-    branches = np.array(eigenvalues, dtype=complex)
-    if len(branches) == 0:
-        return branches
-    branches[0] = branches[0][np.lexsort((branches[0].real, -branches[0].imag))]
-    for i in range(1, len(branches)):
-        last = branches[i - 1]
-        predicted = last if i == 1 else last + _bounded(last - branches[i - 2], last)
-        apart = np.abs(predicted[:, None] - branches[i][None, :])
-        size = np.abs(predicted)[:, None] + np.abs(branches[i])[None, :]
-        _, order = linear_sum_assignment(apart / np.where(size == 0.0, 1.0, size))
-        branches[i] = branches[i][order]
+    branches: ComplexArray = np.array(eigenvalues, dtype=complex)
+    order = np.lexsort((branches.real, -branches.imag))
+    branches = np.take_along_axis(branches, order, axis=-1)
+    i = 1
+    while i < len(branches):
+        # All branches hold to the next row at which one of them lies nearer to another's values.
+        rows = branches[max(i - 2, 0) : i + _ROWS_AT_ONCE]
+        distance = _relative_distance(rows if i > 1 else np.concatenate([rows[:1], rows]))
+        crossed = _any_crossed(distance)
+        if not np.any(crossed):
+            i += len(crossed)
+            continue
+        first = int(np.argmax(crossed))
+        _, order = linear_sum_assignment(distance[first])
+        branches[i + first :] = branches[i + first :, order]
+        i += first + 1
     return branches
+
+
+def _relative_distance(rows: ComplexArray) -> Array:
+    """Return how far each branch, extrapolated, is from each value of the next row, (n, m, m)."""
+    last = rows[1:-1]
+    predicted = (last + _bounded(last - rows[:-2], last))[:, :, None]
+    values = rows[2:, None, :]
+    size = np.abs(predicted) + np.abs(values)
+    return np.abs(predicted - values) / np.where(size == 0.0, 1.0, size)
+
+
+def _any_crossed(distance: Array) -> BoolArray:
+    """Return whether in a row some branch is nearer to another's value than to its own, (n,)."""
+    own = np.diagonal(distance, axis1=1, axis2=2)
+    return np.any(np.min(distance, axis=2) < own, axis=1)
 
 
 def _bounded(step: ComplexArray, last: ComplexArray) -> ComplexArray:

@@ -58,6 +58,37 @@ def test_the_closed_form_is_the_crossing_of_the_eigenvalues(machine: Machine) ->
     assert speed == pytest.approx(onset_speed(machine).speed, rel=1e-7)
 
 
+@given(machine=machines, flexible=st.booleans())
+def test_one_machine_is_solved_as_many_are(machine: Machine, flexible: bool) -> None:
+    onset = design.closed_form_onset(machine, flexible=flexible)
+    bends = machine if flexible else _rigid(machine)
+    [speed] = design.onset_speeds([bends])
+    assert onset.speed == pytest.approx(speed, rel=1e-13)
+    there = analyse(machine, onset.speed)
+    # Eq. 5.46 gives ω̄² as a difference of numbers of order one.
+    ratio2 = (onset.whirl_frequency / onset.speed) ** 2
+    assert ratio2 == pytest.approx(there.whirl_ratio**2, rel=1e-9, abs=1e-12)
+    assert onset.eccentricity_ratio == pytest.approx(there.eccentricity_ratio, rel=1e-9)
+
+
+def _rigid(machine: Machine) -> Machine:
+    return replace(machine, rotor=replace(machine.rotor, shaft_stiffness=math.inf))
+
+
+@pytest.mark.parametrize("machine", [SHEET, replace(SHEET, load=0.0), PRESETS["sheet-1e7"].machine])
+@pytest.mark.parametrize("flexible", [True, False])
+def test_the_closed_form_is_the_onset_on_the_eigenvalues(machine: Machine, flexible: bool) -> None:
+    onset = design.closed_form_onset(machine, flexible=flexible)
+    found = onset_speed(machine, flexible=flexible)
+    for name in ("speed", "whirl_frequency", "eccentricity_ratio"):
+        assert getattr(onset, name) == pytest.approx(getattr(found, name), rel=1e-9), name
+
+
+def test_no_closed_form_is_said_in_words() -> None:
+    with pytest.raises(ValueError, match="no closed form for a machine with midspan damping or"):
+        design.closed_form_onset(DAMPED)
+
+
 @pytest.mark.parametrize("film", sorted(design._ONE_CURVE))
 def test_one_film_has_one_onset(film: str) -> None:
     """Both terms of the equation rise with σ, so it has one root whatever the static sag."""

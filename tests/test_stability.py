@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, assume, example, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq, minimize_scalar
 
-from rotorcalc import Onset, modes, onset_speed
+from rotorcalc import JournalBearing, Machine, Onset, modes, onset_speed
 from rotorcalc.coefficients import equilibrium, modified_sommerfeld
 from rotorcalc.films import short
 from rotorcalc.stability import flexible_threshold, whirl_onset

@@ -25,6 +25,7 @@ _ABOUT = f"rotorcalc {__version__}: rotors on fluid-film bearings, after San And
 _STYLE = """<style>
 .stMainBlockContainer {padding-top: 4.2rem; padding-bottom: 3rem;}
 .katex-display {padding-right: 2px;}
+[class*="st-key-results"] .stColumn > .stVerticalBlock {gap: 0;}
 @media (max-width: 640px) {
   .katex-display {font-size: 0.85em;}
   .katex-display > .katex {white-space: normal;}

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 import streamlit as st
 
-from rotorcalc import modes
+from rotorcalc import analyse, design, modes
 from rotorcalc.figures.units import Unit, Units
 from rotorcalc.response import ResponsePeaks, orbit_ellipse
 from ui.view import View
@@ -64,7 +64,7 @@ def show_results(view: View, baseline: View | None, units: Units, *keys: str) ->
     for column, key in zip(columns, keys, strict=True):
         result = RESULTS[key]
         change = None if baseline is None else result.change(view, baseline)
-        with column, st.container(gap=None):
+        with column:
             st.metric(
                 result.label,
                 result.shown(view, units),
@@ -241,8 +241,23 @@ def _load(view: View) -> str:
     return rf"\tfrac12\cdot {tex(view.machine.rotor.mass)}\cdot 9.80665 = {load}"
 
 
+def _onset(view: View, flexible: bool) -> str:
+    """Return Eq. 5.50 with the numbers at the onset, or what holds there where it does not."""
+    onset = view.onset if flexible else view.rigid_onset
+    speed = tex(onset.speed, "rad/s")
+    if not math.isfinite(onset.speed) or not design.has_closed_form(view.machine):
+        return speed
+    there = analyse(view.machine, onset.speed)
+    K_eq, ratio = tex(float(there.equivalent_stiffness)), tex(float(there.whirl_ratio))
+    M, K_rot = tex(view.machine.rotor.half_mass), tex(view.machine.rotor.shaft_stiffness)
+    root = rf"\frac{{1}}{{{ratio}}}\sqrt{{\frac{{{K_eq}}}{{{M}}}}}"
+    series = rf"\frac{{1}}{{\sqrt{{1+{K_eq}/{K_rot}}}}}\," if flexible else ""
+    return rf"{series}{root} = {speed}"
+
+
 _ONSET_REMARK = (
-    "Found on the eigenvalues of this machine, with its midspan damping and journal mass."
+    "With the equilibrium at that very speed. With midspan damping or journal mass, for which the "
+    "equation does not hold, it is found on the machine's eigenvalues: max Re λ = 0."
 )
 
 RESULTS: dict[str, Result] = {
@@ -329,13 +344,13 @@ RESULTS: dict[str, Result] = {
             "onset_speed", "Onset of whirl Ωₛ", "speed", lambda v: v.onset.speed, "Eq. 5.50",
             r"\Omega = \Omega_{sf}(\varepsilon(\Omega)) \;\Leftrightarrow\; "
             r"\max\mathrm{Re}\,\lambda = 0",
-            lambda v: tex(v.onset.speed, "rad/s"), _ONSET_REMARK,
+            lambda v: _onset(v, flexible=True), _ONSET_REMARK,
         ),
         Result(
             "rigid_onset", "Onset if the shaft were rigid", "speed", lambda v: v.rigid_onset.speed,
             "Eq. 5.47", r"\Omega = \Omega_s(\varepsilon(\Omega)) \;\Leftrightarrow\; "
             r"\max\mathrm{Re}\,\lambda = 0",
-            lambda v: tex(v.rigid_onset.speed, "rad/s"), _ONSET_REMARK,
+            lambda v: _onset(v, flexible=False), _ONSET_REMARK,
         ),
         Result(
             "whirl_frequency", "Whirl frequency", "speed",

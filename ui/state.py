@@ -80,10 +80,12 @@ def write_address_bar() -> None:
         st.query_params.from_dict(params)
 
 
-def mirror(key: str, value: object) -> None:
-    """Give a widget its value before it is drawn, where it has another: no needless message.
+def mirror(key: str, value: object) -> bool:
+    """Give a widget its value before it is drawn, where it has another; return whether it had.
 
     A page's widgets are its own: on arriving, `session_state` still answers for the last page's.
     """
-    if state().arriving or st.session_state.get(key) != value:
+    needed = state().arriving or st.session_state.get(key) != value
+    if needed:
         st.session_state[key] = value
+    return needed

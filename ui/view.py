@@ -13,6 +13,7 @@ from rotorcalc import (
     Rotor,
     Sweep,
     analyse,
+    design,
     film_curves,
     modes,
     onset_speed,
@@ -268,6 +269,8 @@ def _locus(machine: Machine, speed: float, top_speed: float, flexible: bool) -> 
 
 @lru_cache(maxsize=256)
 def _onset(machine: Machine, flexible: bool) -> Onset:
+    if design.has_closed_form(machine):
+        return design.closed_form_onset(machine, flexible=flexible)
     return onset_speed(machine, flexible=flexible)
 
 

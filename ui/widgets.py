@@ -68,11 +68,14 @@ def _keep(item: Input, key: str, units: Units) -> None:
 def _slider(item: Input, shown: float, units: Units, common: dict[str, Any]) -> None:
     low, high = item.shown(item.low, units), item.shown(item.high, units)
     step = _round_step(item.shown(item.low + item.step, units) - low)
-    mirror(common["key"], float(min(max(shown, low), high)))
+    written = mirror(common["key"], float(min(max(shown, low), high)))
     decimals = max(0, -math.floor(math.log10(step)))
     st.slider(
-        min_value=float(low), max_value=float(high), step=step, format=f"%.{decimals}f", **common
-    )
+        min_value=float(low), max_value=float(high), step=step, format=f"%.{decimals}f",
+        # Without a value Streamlit looks through the whole session for one; after a write it
+        # would warn of two.
+        value=None if written else float(low), **common,
+    )  # fmt: skip
 
 
 def _log_slider(item: Input, shown: float, units: Units, common: dict[str, Any]) -> None:

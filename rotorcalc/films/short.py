@@ -645,9 +645,8 @@ def _eccentricity(y: Array) -> Array:
 
 def _checked_eccentricity(eps: ArrayLike) -> Array:
     eps = real_array("eps", eps)
-    good = (eps >= 0.0) & (eps <= 1.0)
-    if not np.all(good):
-        worst = eps[~good].flat[0]
+    if eps.size and not (eps.min() >= 0.0 and eps.max() <= 1.0):
+        worst = eps[~((eps >= 0.0) & (eps <= 1.0))].flat[0]
         raise ValueError(f"eps = {worst}: the eccentricity ratio must lie between 0 and 1")
     return eps
 
@@ -655,7 +654,7 @@ def _checked_eccentricity(eps: ArrayLike) -> Array:
 def _open(eps: ArrayLike) -> tuple[Array, Array]:
     """Return ε and s² = 1 − ε² where ε < 1, as the forces need it."""
     eps = _checked_eccentricity(eps)
-    if np.any(eps == 1.0):
+    if eps.size and eps.max() == 1.0:
         raise ValueError("eps = 1: the journal touches the wall, the film's force is infinite")
     return eps, _s2(eps)
 
