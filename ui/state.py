@@ -26,6 +26,8 @@ class State:
     baseline: Values | None = None
     typed: bool = False
     image_format: str = "png"
+    # Whether a live slider's thumb is held: the address bar waits until it is let go.
+    held: bool = False
     # The page whose sidebar was drawn last, and whether the visitor has just come to another.
     page: str = ""
     arriving: bool = True
@@ -75,6 +77,8 @@ def state() -> State:
 def write_address_bar() -> None:
     """Put the whole machine into the address bar, where it is not there yet."""
     kept = state()
+    if kept.held:
+        return
     params = link.write(kept.preset, kept.values, kept.units_name)
     if st.query_params.to_dict() != params:
         st.query_params.from_dict(params)

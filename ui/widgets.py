@@ -3,7 +3,9 @@
 How an input sends and how a chart is drawn are decided here and nowhere else.
 """
 
+import importlib
 import math
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -12,7 +14,9 @@ from plotly.basedatatypes import BaseFigure
 
 from rotorcalc.figures import Chart, themed
 from rotorcalc.figures.units import Units
+from ui import settings
 from ui.inputs import Input
+from ui.link import quoted
 from ui.state import mirror, state
 
 
@@ -39,7 +43,10 @@ def show_chart(chart: Chart, *, key: str, alt: str) -> None:
         "toImageButtonOptions": {"format": state().image_format, "filename": key, "scale": 2},
     }
     drawn = themed(chart, dark=st.context.theme.type == "dark")
-    st.plotly_chart(_Checked(drawn), key=f"chart_{key}", theme=None, config=config, alt=alt)
+    if settings.live() == "off":
+        st.plotly_chart(_Checked(drawn), key=f"chart_{key}", theme=None, config=config, alt=alt)
+    else:
+        _live().show_chart(drawn, key=f"chart_{key}", config=config, alt=alt)
 
 
 def show_input(item: Input, *, disabled: bool = False) -> None:
@@ -55,6 +62,8 @@ def show_input(item: Input, *, disabled: bool = False) -> None:
     }  # fmt: skip
     if kept.typed:
         _typed(item, shown, units, common)
+    elif settings.live() != "off":
+        _live_slider(item, shown, units)
     elif item.log:
         _log_slider(item, shown, units, common)
     else:
@@ -63,6 +72,37 @@ def show_input(item: Input, *, disabled: bool = False) -> None:
 
 def _keep(item: Input, key: str, units: Units) -> None:
     state().set_value(item.key, item.kept(float(st.session_state[key]), units))
+
+
+def _live() -> ModuleType:
+    """Return the package of live components, which need not be there when they are off."""
+    return importlib.import_module("ui.live")
+
+
+def _live_slider(item: Input, shown: float, units: Units) -> None:
+    low, high = item.shown(item.low, units), item.shown(item.high, units)
+    step = item.step if item.log else _round_step(item.shown(item.low + item.step, units) - low)
+    _live().show_slider(
+        item.name(units), shown, (low, high, step), log=item.log, beyond=item.infinite,
+        key=f"input_{item.key}_{units.name}_live", help=item.help,
+        while_held=settings.live() == "drag",
+        on_move=lambda value, held: _moved(item, units, value, held=held),
+    )  # fmt: skip
+
+
+def _moved(item: Input, units: Units, value: object, *, held: bool) -> None:
+    """Keep what a live slider sent, or report why not."""
+    kept = state()
+    kept.held = held
+    try:
+        reading = math.inf if item.infinite and value == item.infinite else float(str(value))
+    except ValueError:
+        kept.problems[:] = [f"{item.label}: {quoted(value)} is no number; it was left as it is."]
+        return
+    if problem := item.problem(item.kept(reading, units)):
+        kept.problems[:] = [f"{item.name(units)} = {reading:g} {problem}; it was left as it is."]
+        return
+    kept.set_value(item.key, item.kept(reading, units))
 
 
 def _slider(item: Input, shown: float, units: Units, common: dict[str, Any]) -> None:

@@ -30,8 +30,12 @@ _AT_REST = """() => {
   const rest = app && app.dataset.testScriptState === 'notRunning'
     && app.dataset.testConnectionState === 'CONNECTED'
     && document.querySelector('[data-testid="stHeading"]')
-    && !document.querySelector('[data-stale="true"], [data-testid="stSkeleton"]')
-    && [...document.querySelectorAll('[data-testid="stPlotlyChart"]')].every(
+    && !document.querySelector(
+      '[data-stale="true"], [data-testid="stSkeleton"], .live-slider[data-busy]')
+    && !window.rotorcalcDrawing
+    && [...document.querySelectorAll('.stBidiComponent')].every(
+      component => component.querySelector('.live-slider, .live-chart'))
+    && [...document.querySelectorAll('[data-testid="stPlotlyChart"], .live-chart')].every(
       chart => chart.offsetParent === null
         || chart.querySelector('.overplot path, .shapelayer path, .annotation'));
   window.framesAtRest = rest ? (window.framesAtRest || 0) + 1 : 0;
@@ -130,6 +134,10 @@ class AppPage:
         slider.focus()
         with self.run():
             slider.press(key)
+
+    def charts(self) -> Locator:
+        """Return the charts, however they are drawn."""
+        return self.page.locator(".live-chart, [data-testid='stPlotlyChart']")
 
     def tabs(self) -> list[str]:
         """Return the labels of the page's tabs."""

@@ -69,8 +69,14 @@ def browser_type_launch_args(
 
 
 @pytest.fixture(scope="session")
-def app_url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """Base URL of the app, served by a process of its own for the whole session."""
+def app_url(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[str]:
+    """Base URL of the app, served by a process of its own for the whole session.
+
+    Its parameter is ROTORCALC_LIVE: "drag", or "off" for Streamlit's own charts and sliders.
+    """
+    environment = {**os.environ, "ROTORCALC_LIVE": getattr(request, "param", "drag")}
     port = _free_port()
     url = f"http://127.0.0.1:{port}"
     log = tmp_path_factory.mktemp("server") / "streamlit.log"
@@ -79,6 +85,7 @@ def app_url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         server = subprocess.Popen(
             [sys.executable, "-m", "streamlit", "run", "app.py", *options],
             cwd=ROOT,
+            env=environment,
             stdout=out,
             stderr=subprocess.STDOUT,
         )

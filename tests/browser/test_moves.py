@@ -12,6 +12,9 @@ FOCUS = """() => {
   return `${focus.tagName}: ${focus.getAttribute('aria-label') || focus.innerText}`;
 }"""
 
+# All this is true of live charts and sliders, and of Streamlit's own.
+pytestmark = pytest.mark.parametrize("app_url", ["drag", "off"], indirect=True)
+
 # Pages with results and charts of the machine.
 LIVE = [name for name in PATHS if name != "Notes"]
 
@@ -114,7 +117,7 @@ def test_chart_is_saved_as_a_picture(app: AppPage, kind: str, tmp_path) -> None:
         with app.run():
             body.get_by_role("radio", name="svg").click()
         app.close_popover()
-    chart = app.page.get_by_test_id("stPlotlyChart").first
+    chart = app.charts().first
     chart.hover()
     with app.page.expect_download() as started:
         chart.locator(".modebar-btn[data-title*='ownload']").click()

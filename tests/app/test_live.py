@@ -1,0 +1,84 @@
+"""Live charts and sliders as the server sees them, and pages without their package."""
+
+import base64
+import json
+import sys
+
+import numpy as np
+import pytest
+
+from tests.app.session import HOME, PAGES, faults, kept, visit
+from ui import settings
+from ui.inputs import INPUTS
+from ui.live.chart import encoded
+from ui.widgets import _moved
+
+
+@pytest.fixture
+def live(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROTORCALC_LIVE", "drag")
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_page_has_a_live_slider_for_every_input_and_live_charts(live: None, page: str) -> None:
+    at = visit(page)
+    assert faults(at) == []
+    names = [element.proto.component_name for element in at.get("bidi_component")]
+    assert names.count("rotorcalc.slider") == len(INPUTS) - 1  # the load follows the weight
+    assert not at.slider
+    assert not at.get("plotly_chart")
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_page_works_without_the_package(page: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in [name for name in sys.modules if name.startswith("ui.live")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.setitem(sys.modules, "ui.live", None)
+    at = visit(page)
+    assert faults(at) == []
+    assert at.slider
+
+
+def test_unknown_setting_is_refused_by_name(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROTORCALC_LIVE", "yes")
+    with pytest.raises(ValueError, match="ROTORCALC_LIVE = 'yes': must be one of drag, release"):
+        settings.live()
+
+
+@pytest.mark.parametrize(
+    "sent", ["", "much", None, [1], {"a": 1}, True, float("nan"), 1e9, -5, "60<b>", "rigid"]
+)
+def test_nothing_but_a_value_in_range_is_kept(sent: object, monkeypatch) -> None:
+    at = visit(HOME)
+    state = kept(at)
+    before = dict(state.values)
+    monkeypatch.setattr("ui.widgets.state", lambda: state)
+    _moved(INPUTS["C"], state.units, sent, held=False)
+    assert state.values == before
+    assert len(state.problems) == 1
+    assert state.problems[0].startswith("Radial clearance")
+
+
+def test_a_value_is_kept_in_the_links_unit_and_the_last_word_is_a_rigid_shaft(monkeypatch) -> None:
+    at = visit(HOME, units="US")
+    state = kept(at)
+    monkeypatch.setattr("ui.widgets.state", lambda: state)
+    _moved(INPUTS["C"], state.units, 3.0, held=True)
+    assert state.values["C"] == pytest.approx(76.2)
+    assert state.held
+    _moved(INPUTS["k"], state.units, "rigid", held=False)
+    assert state.values["k"] == float("inf")
+    assert state.problems == []
+
+
+def test_arrays_travel_in_single_precision_and_keep_their_shape() -> None:
+    values = np.array([[1.0, np.nan, 1e300], [0.1, 2.0, 3.0]])
+    sent = json.loads(encoded({"line": values[1], "map": values, "words": np.array(["a"])}))
+    assert sent["words"] == ["a"]
+    line = np.frombuffer(base64.b64decode(sent["line"]["bdata"]), sent["line"]["dtype"])
+    np.testing.assert_array_equal(line, values[1].astype(np.float32))
+    # What single precision cannot hold stays double.
+    assert sent["map"]["dtype"] == "f8"
+    assert sent["map"]["shape"] == "2,3"
+    with pytest.raises(TypeError, match="set"):
+        encoded({"odd": {1}})

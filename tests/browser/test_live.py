@@ -1,0 +1,132 @@
+"""Charts that follow the thumb: sliders send while they move, charts keep their place and zoom."""
+
+import re
+
+import pytest
+from playwright.sync_api import Locator, expect
+
+from tests.browser.app_page import AppPage
+
+
+def _held(app: AppPage, label: str, share: float) -> None:
+    """Press a slider's thumb and move it by a share of the slider's length, without letting go."""
+    slider = app.slider(label)
+    slider.scroll_into_view_if_needed()
+    box = slider.bounding_box()
+    assert box
+    at = float(slider.input_value())
+    low, high = (float(slider.get_attribute(end) or 0) for end in ("min", "max"))
+    thumb = 8  # half its width: it stays within the slider
+    start = box["x"] + thumb + (box["width"] - 2 * thumb) * (at - low) / (high - low)
+    height = box["y"] + box["height"] / 2
+    app.page.mouse.move(start, height)
+    app.page.mouse.down()
+    app.page.mouse.move(start + share * box["width"], height, steps=8)
+
+
+def _zoom(app: AppPage, chart: Locator) -> list[float]:
+    plot = chart.locator(".nsewdrag").first.bounding_box()
+    assert plot
+    mouse = app.page.mouse
+    mouse.move(plot["x"] + 0.3 * plot["width"], plot["y"] + 0.3 * plot["height"])
+    mouse.down()
+    mouse.move(plot["x"] + 0.6 * plot["width"], plot["y"] + 0.7 * plot["height"], steps=5)
+    mouse.up()
+    app.page.wait_for_timeout(500)  # Plotly waits for a second click before it zooms
+    return _ranges(chart)
+
+
+def _ranges(chart: Locator) -> list[float]:
+    return chart.evaluate("gd => [...gd.layout.xaxis.range, ...gd.layout.yaxis.range]")
+
+
+def test_chart_and_numbers_follow_the_held_thumb_and_the_address_its_release(app: AppPage) -> None:
+    app.open("Equilibrium")
+    numbers, drawn = app.metrics(), app.drawn()
+    _held(app, "Radial clearance", 0.2)
+    assert app.changes(app.metrics, numbers)
+    assert app.changes(app.drawn, drawn)
+    assert app.query() == {}
+    with app.run():
+        app.page.mouse.up()
+    assert float(app.query()["C"]) > 100
+
+
+@pytest.mark.parametrize(("page", "charts"), [("Stability", 2), ("Root locus", 1)])
+def test_zoom_and_node_stay_while_the_machine_changes(app: AppPage, page: str, charts: int) -> None:
+    app.open(page)
+    for number in range(charts):
+        chart = app.charts().nth(number)
+        chart.evaluate("gd => { gd.mine = true; }")
+        before = _ranges(chart)
+        zoomed = _zoom(app, chart)
+        assert zoomed != before
+        app.press("Radial clearance", "ArrowRight")
+        app.press("Running speed", "ArrowRight")
+        assert _ranges(chart) == zoomed
+        assert chart.evaluate("gd => gd.mine")
+
+
+def test_hidden_line_stays_hidden(app: AppPage) -> None:
+    app.open("Stability")
+    chart = app.charts().first
+    chart.locator(".legendtoggle").first.click()
+    expect(chart.locator(".traces[style*='opacity: 0.5']")).to_have_count(1)
+    app.press("Radial clearance", "ArrowRight")
+    expect(chart.locator(".traces[style*='opacity: 0.5']")).to_have_count(1)
+
+
+def test_value_typed_beside_the_slider(app: AppPage) -> None:
+    app.open("Machine")
+    field = app.page.get_by_role("textbox", name=re.compile("^Radial clearance"))
+    field.fill("83.5")
+    with app.run():
+        field.press("Enter")
+    assert app.query() == {"C": "83.5"}
+    assert app.slider("Radial clearance").input_value() == "84"
+    expect(field).to_have_value("83.5")
+
+
+def test_typed_value_out_of_range_is_answered_in_words_and_the_old_one_kept(app: AppPage) -> None:
+    app.open("Machine")
+    field = app.page.get_by_role("textbox", name=re.compile("^Radial clearance"))
+    for word, answer in (("5000", "5000 lies outside 10 to 500"), ("much", "much' is no number")):
+        field.fill(word)
+        with app.run():
+            field.press("Enter")
+        expect(app.page.get_by_test_id("stAlert").filter(has_text=answer)).to_be_visible()
+        expect(field).to_have_value("60")
+    assert app.query() == {}
+
+
+def test_shaft_can_be_made_rigid_at_the_sliders_end_and_by_its_word(app: AppPage) -> None:
+    app.open("Machine")
+    app.page.get_by_text("Shaft and disk").click()
+    app.press("Shaft stiffness", "End")
+    assert app.query() == {"k": "inf"}
+    app.press("Shaft stiffness", "ArrowLeft")
+    assert app.query() == {"k": "1e+10"}
+    field = app.page.get_by_role("textbox", name=re.compile("^Shaft stiffness"))
+    field.fill("rigid")
+    with app.run():
+        field.press("Enter")
+    assert app.query() == {"k": "inf"}
+
+
+def test_preset_moves_the_live_sliders(app: AppPage) -> None:
+    app.open("Equilibrium")
+    with app.run():
+        app.page.get_by_role("combobox", name=re.compile("Preset")).click()
+        app.page.get_by_role("option", name=re.compile("Friswell")).click()
+    assert app.slider("Radial clearance").input_value() == "100"
+    app.go("Stability")
+    assert app.slider("Radial clearance").input_value() == "100"
+
+
+def test_a_bundle_that_does_not_load_is_said_on_the_page(stranger: AppPage) -> None:
+    stranger.page.route("**/plotly-*.min.js", lambda route: route.abort())
+    stranger.page.goto(f"{stranger.url}/Equilibrium")
+    message = stranger.page.get_by_role("alert").filter(has_text="Plotly's script did not load")
+    expect(message.first).to_be_visible()
+    # What the console says of the refused script is this test's own doing.
+    stranger.faults[:] = [fault for fault in stranger.faults if "ERR_FAILED" not in fault]

@@ -1,0 +1,42 @@
+"""A chart that keeps its place in the page, its zoom and its hidden lines while its data change."""
+
+import base64
+from typing import Any
+
+import numpy as np
+import orjson
+from streamlit.components.v2 import component
+
+from rotorcalc.figures import Chart
+from ui.live import assets
+
+_component = component("rotorcalc.chart", js=assets.module("chart"), isolate_styles=False)
+
+
+def show(chart: Chart, *, key: str, alt: str, config: dict[str, Any]) -> None:
+    """Show a chart; `alt` says in words what is to be seen, `config` is Plotly's."""
+    message = {"chart": chart, "config": config, "alt": alt, "plotly": assets.plotly_bundle()}
+    _component(key=key, data=encoded(message), height=chart["layout"]["height"])
+
+
+def encoded(message: dict[str, Any]) -> bytes:
+    """Return a message as JSON with its arrays as Plotly's script reads them, in single precision.
+
+    Seven digits are more than a screen shows, and half of what double precision takes.
+    """
+    return orjson.dumps(message, default=_array)
+
+
+def _array(value: Any) -> Any:
+    if isinstance(value, np.generic):
+        return value.item()
+    if not isinstance(value, np.ndarray):
+        raise TypeError(f"{type(value).__name__} in a chart")
+    if value.dtype.kind != "f":
+        return value.tolist()
+    with np.errstate(over="ignore"):
+        single = value.astype(np.float32)
+    if np.any(np.isinf(single) & np.isfinite(value)):
+        single = value.astype(np.float64)
+    spec = {"dtype": single.dtype.str[1:], "bdata": base64.b64encode(single.tobytes()).decode()}
+    return spec if value.ndim == 1 else spec | {"shape": ",".join(map(str, value.shape))}

@@ -1,0 +1,154 @@
+// A slider that sends while it moves, and a field to type its value in.
+//
+// It sends {value, held, number}; the server answers with `number` as `echo`. The next value goes out
+// only when that answer is there, the script has ended and every chart is drawn: a slow server makes
+// fewer updates, never a queue. The last value always goes out, with held = false.
+
+const STYLE = `
+.live-slider {display: grid; grid-template-columns: 1fr 4.6rem; gap: 0.2rem 0.6rem; align-items: center;
+  font-family: var(--st-font); font-size: 0.875rem; color: var(--st-text-color);}
+.live-slider label {grid-column: 1 / -1;}
+.live-slider input[type=text] {width: 100%; padding: 0.1rem 0.35rem; text-align: right; font: inherit;
+  color: inherit; background: var(--st-background-color); border: 1px solid var(--st-border-color);
+  border-radius: var(--st-base-radius); box-sizing: border-box;}
+.live-slider input[type=range] {width: 100%; margin: 0; height: 1.25rem;
+  accent-color: var(--st-primary-color); cursor: pointer;}
+.live-slider input:focus-visible {outline: 2px solid var(--st-primary-color); outline-offset: 2px;}
+.live-slider input:disabled {opacity: 0.5;}
+`;
+
+// The value at a place of the range, and the place of a value.
+function scale({ low, high, step, log, beyond }) {
+  if (log) {
+    const last = Math.round(Math.log10(high / low) * step);
+    const at = (place) => Number((low * (high / low) ** (place / last)).toPrecision(3));
+    return {
+      min: 0, max: beyond ? last + 1 : last, step: 1,
+      value: (place) => (place > last ? beyond : Math.min(Math.max(at(place), low), high)),
+      place: (value) => (value === beyond ? last + 1
+        : Math.round((Math.log10(value / low) / Math.log10(high / low)) * last)),
+      text: (value) => (typeof value === "string" ? value
+        : value >= 1e5 || value < 1e-3 ? value.toExponential(2).replace(/\.?0+e\+?/, "e")
+        : String(Number(value.toPrecision(4)))),
+    };
+  }
+  const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
+  return {
+    min: low, max: high, step,
+    value: (place) => Math.min(Number(Number(place).toFixed(decimals)), high),
+    place: (value) => value,
+    text: (value) => String(Number(value.toPrecision(6))),
+  };
+}
+
+function resting() {
+  const app = document.querySelector('[data-testid="stApp"]');
+  const state = app?.dataset.testScriptState ?? "notRunning";
+  return state === "notRunning" && !window.rotorcalcDrawing;
+}
+
+class Slider {
+  constructor(parent) {
+    const id = `live-slider-${crypto.randomUUID?.() ?? Math.random()}`;
+    this.root = document.createElement("div");
+    this.root.className = "live-slider";
+    this.label = Object.assign(document.createElement("label"), { htmlFor: id });
+    this.field = Object.assign(document.createElement("input"),
+      { type: "text", inputMode: "decimal", autocomplete: "off" });
+    this.range = Object.assign(document.createElement("input"), { type: "range", id });
+    this.root.append(this.label, this.range, this.field);
+    parent.replaceChildren(this.root);
+    // A key's step is an input and a change at once: the change alone will do.
+    this.range.addEventListener("keydown", () => { this.keyed = true; });
+    this.range.addEventListener("pointerdown", () => { this.keyed = false; });
+    this.range.addEventListener("input", () => this.keyed || this.moved(true));
+    this.range.addEventListener("change", () => this.moved(false));
+    this.field.addEventListener("change", () => this.typed());
+    this.waiting = null; // what goes out next
+    this.sent = null; // the number of what went out and is not drawn yet
+    this.left = 0;
+  }
+
+  update(data, send) {
+    this.data = data;
+    this.send = send;
+    this.scale = scale(data);
+    const { min, max, step } = this.scale;
+    // The bounds first: a range clips its value to them.
+    Object.assign(this.range, { min, max, step });
+    this.label.textContent = data.label;
+    this.label.title = data.help;
+    this.range.ariaLabel = data.label;
+    this.range.ariaDescription = data.help;
+    this.field.ariaLabel = `${data.label}, typed`;
+    const held = this.waiting !== null || (this.sent !== null && data.echo !== this.sent);
+    if (!held && !this.grasped) this.show(data.value);
+  }
+
+  show(value) {
+    this.range.value = this.scale.place(value);
+    const text = this.scale.text(value);
+    this.range.ariaValueText = text;
+    this.root.dataset.shown = text;
+    if (document.activeElement !== this.field) this.field.value = text;
+  }
+
+  moved(held) {
+    this.grasped = held;
+    const value = this.scale.value(Number(this.range.value));
+    const text = this.scale.text(value);
+    this.range.ariaValueText = text;
+    this.field.value = text;
+    if (!held || this.data.whileHeld) this.want({ value, held });
+  }
+
+  typed() {
+    const text = this.field.value.trim();
+    const value = text !== "" && text === this.data.beyond ? text : Number(text.replace(",", "."));
+    this.want({ value: text === "" || Number.isNaN(value) ? text : value, held: false });
+    this.field.blur();
+  }
+
+  want(message) {
+    this.waiting = message;
+    this.root.dataset.busy = "";
+    if (this.sent === null) this.go();
+  }
+
+  go() {
+    const number = performance.now();
+    this.send("moved", { ...this.waiting, number });
+    this.waiting = null;
+    this.sent = number;
+    this.left = performance.now();
+    requestAnimationFrame(() => this.wait());
+  }
+
+  // Until what went out is drawn; at most ten seconds, for an answer can be lost with its connection.
+  wait() {
+    const answered = this.data.echo === this.sent && resting();
+    if (!answered && performance.now() - this.left < 10000) {
+      requestAnimationFrame(() => this.wait());
+      return;
+    }
+    this.sent = null;
+    if (this.waiting !== null) {
+      this.go();
+      return;
+    }
+    delete this.root.dataset.busy;
+    if (!this.grasped) this.show(this.data.value);
+  }
+}
+
+const sliders = new WeakMap();
+
+export default function ({ data, parentElement, setTriggerValue }) {
+  if (!document.getElementById("live-slider-style")) {
+    const style = Object.assign(document.createElement("style"), { id: "live-slider-style" });
+    style.textContent = STYLE;
+    document.head.append(style);
+  }
+  if (!sliders.has(parentElement)) sliders.set(parentElement, new Slider(parentElement));
+  sliders.get(parentElement).update(data, setTriggerValue);
+}
