@@ -1,0 +1,138 @@
+"""Sessions on the app, as people use it: python -m tests.load [ADDRESS ...]
+
+Without an address it starts --replicas servers of its own, and prints their memory and processor
+time too. Sessions go to the addresses in turns, as sticky sessions behind a proxy do.
+
+    python -m tests.load --sessions 50                  one process, three minutes
+    python -m tests.load --sessions 80 --replicas 2     two
+    python -m tests.load --sessions 40 --soak 10000     memory over many actions
+"""
+
+import argparse
+import asyncio
+import sys
+import time
+from contextlib import ExitStack
+
+from tests.load.client import Tally, Visitor
+from tests.load.replicas import Replica
+from tests.load.walk import EVERY, walk
+
+LIMIT = 0.250  # seconds: the 95th percentile that is wanted
+_CHUNK = 60.0  # seconds between two looks at the memory
+
+
+def main() -> None:
+    """Measure, and print; leave with an error where a session saw one."""
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("address", nargs="*")
+    parser.add_argument("--sessions", type=int, default=50)
+    parser.add_argument("--minutes", type=float, default=3.0)
+    parser.add_argument("--every", type=float, default=EVERY, help="seconds between two actions")
+    parser.add_argument("--replicas", type=int, default=1, help="servers to start")
+    parser.add_argument("--soak", type=int, default=0, help="actions; the memory is looked at")
+    asked = parser.parse_args()
+    with ExitStack() as stack:
+        own = [] if asked.address else [Replica() for _ in range(asked.replicas)]
+        for replica in own:
+            stack.callback(replica.stop)
+        addresses = asked.address or [replica.wait().address for replica in own]
+        if asked.soak:
+            errors = _soak(addresses, own, asked)
+        else:
+            warm(addresses)
+            errors = _measure(addresses, own, asked)
+    sys.exit(1 if errors else 0)
+
+
+def warm(addresses: list[str]) -> None:
+    """Let each server import and compile what a first visitor would otherwise wait for."""
+    asyncio.run(crowd(addresses, sessions=2 * len(addresses), seconds=6.0, every=0.3, seed=999))
+
+
+async def crowd(
+    addresses: list[str], *, sessions: int, seconds: float, every: float, seed: int = 0
+) -> list[Tally]:
+    """Let sessions walk at once; return what each has seen."""
+    visitors = [Visitor(addresses[i % len(addresses)]) for i in range(sessions)]
+    until = time.perf_counter() + seconds
+    walks = (
+        walk(visitor, until=until, every=every, seed=seed + i) for i, visitor in enumerate(visitors)
+    )
+    try:
+        await asyncio.gather(*walks)
+    finally:
+        await asyncio.gather(*(visitor.close() for visitor in visitors))
+    return [visitor.tally for visitor in visitors]
+
+
+def percentile(values: list[float], share: float) -> float:
+    """Return the value that a share of the values do not exceed."""
+    return sorted(values)[min(int(share * len(values)), len(values) - 1)]
+
+
+def _measure(addresses: list[str], own: list[Replica], asked: argparse.Namespace) -> list[str]:
+    used = sum(replica.seconds() for replica in own)
+    tallies = asyncio.run(
+        crowd(addresses, sessions=asked.sessions, seconds=60 * asked.minutes, every=asked.every)
+    )
+    used = sum(replica.seconds() for replica in own) - used
+    runs = sum(tally.runs for tally in tallies)
+    _say(
+        f"{asked.sessions} sessions on {len(addresses)} process(es), an action every "
+        f"{asked.every:g} s, {asked.minutes:g} min: {_summary(tallies)}"
+    )
+    if own:
+        _say(f"processor: {used / runs * 1e3:.0f} ms a run; memory: {_memory(own)}")
+    return _errors(tallies)
+
+
+def _soak(addresses: list[str], own: list[Replica], asked: argparse.Namespace) -> list[str]:
+    """Walk in rounds of new sessions, and look at the memory after each."""
+    errors: list[str] = []
+    done = number = 0
+    while done < asked.soak:
+        number += 1
+        tallies = asyncio.run(
+            crowd(
+                addresses, sessions=asked.sessions, seconds=_CHUNK, every=asked.every,
+                seed=number * asked.sessions,
+            )
+        )  # fmt: skip
+        done += sum(tally.runs for tally in tallies)
+        errors += _errors(tallies)
+        _say(f"{done} actions, {number * asked.sessions} sessions: {_memory(own)}; "
+             f"{_summary(tallies)}")  # fmt: skip
+    return errors
+
+
+def _summary(tallies: list[Tally]) -> str:
+    latencies = [latency for tally in tallies for latency in tally.latencies]
+    low, high, most = (percentile(latencies, share) * 1e3 for share in (0.5, 0.95, 1.0))
+    received = sum(tally.received for tally in tallies) / len(latencies) / 1e3
+    verdict = "" if high < LIMIT * 1e3 else f" (above {LIMIT * 1e3:.0f})"
+    return (
+        f"{len(latencies)} runs, median {low:.0f} ms, 95 % {high:.0f} ms{verdict}, longest "
+        f"{most:.0f} ms, {received:.0f} kB each, {len(_errors(tallies))} error(s)"
+    )
+
+
+def _errors(tallies: list[Tally]) -> list[str]:
+    errors = [error for tally in tallies for error in tally.errors]
+    for error in sorted(set(errors)):
+        _say(f"error, {errors.count(error)} times: {error}")
+    return errors
+
+
+def _memory(own: list[Replica]) -> str:
+    return ", ".join(f"{replica.memory():.0f} MB" for replica in own) or "not known"
+
+
+def _say(line: str) -> None:
+    print(line, flush=True)  # noqa: T201 - what this script is for
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,52 @@
+"""What people do with the app: move a slider, open a tab, go to another page, a pause between."""
+
+import asyncio
+import random
+import time
+
+from tests.load.client import ServerError, Visitor, slider_data
+from ui.page import PAGES
+
+EVERY = 3.0  # seconds from one action to the next
+# Shares of the actions; the rest goes to another page.
+SLIDES, TABS = 0.7, 0.15
+
+
+async def walk(visitor: Visitor, *, until: float, every: float, seed: int) -> None:
+    """Open the home page and act until a time, at a steady pace that begins anywhere in it."""
+    dice = random.Random(seed)  # noqa: S311 - a walk that can be repeated
+    due = time.perf_counter() + dice.random() * every
+    begun = False
+    while due < until:
+        await asyncio.sleep(max(0.0, due - time.perf_counter()))
+        try:
+            if begun:
+                await act(visitor, dice)
+            else:
+                await visitor.open()
+                begun = True
+        except ServerError:  # counted by the visitor, who goes on as people do
+            await visitor.reconnect()
+        # Who waited for an answer thinks no shorter for it.
+        due = max(due + every, time.perf_counter())
+
+
+async def act(visitor: Visitor, dice: random.Random) -> None:
+    """Do one thing."""
+    chance = dice.random()
+    rows = visitor.tab_rows()
+    if chance < SLIDES:
+        data = slider_data(dice.choice(visitor.live_sliders()))
+        await visitor.slide(data["label"], place(data, dice.random()))
+    elif chance < SLIDES + TABS and rows:
+        await visitor.open_tab(dice.choice(dice.choice(rows)[1]))
+    else:
+        await visitor.go(dice.choice(list(PAGES.values())))
+
+
+def place(data: dict[str, float], share: float) -> float:
+    """Return the value at a share of a live slider's range."""
+    low, high, step = data["low"], data["high"], data["step"]
+    if data["log"]:
+        return float(f"{low * (high / low) ** share:.3g}")
+    return min(low + round(share * (high - low) / step) * step, high)
