@@ -193,14 +193,12 @@ def test_a_bad_request_is_refused_in_words(changes, words):
 def test_a_motion_that_cannot_go_on_is_told_with_time_place_and_what_was_computed(monkeypatch):
     calls = itertools.count()
 
-    def fails_once(x, y, f_x, f_y):
+    def fails_once(x, y, f_x, f_y, *near):
         if next(calls) == 200:
             raise ArithmeticError("no velocity found")
-        return short_motion.velocity(x, y, f_x, f_y)
+        return short_motion.velocity(x, y, f_x, f_y, *near)
 
-    monkeypatch.setattr(
-        "rotorcalc.transient.film_motion", lambda _: (short_motion.force, fails_once)
-    )
+    monkeypatch.setattr("rotorcalc.motion.film_motion", lambda _: (short_motion.force, fails_once))
     with pytest.raises(TransientError, match=r"found after .* s, with the journal at") as failure:
         simulate(SHEET, 5000 * RPM, revolutions=40)
     assert len(failure.value.partial.time) >= 1

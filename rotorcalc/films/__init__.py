@@ -37,9 +37,15 @@ class _FilmModel(Protocol):
     def inertia(self, bearing: JournalBearing, sommerfeld: ArrayLike) -> Array: ...
 
 
+class _Velocity(Protocol):
+    def __call__(
+        self, x: float, y: float, f_x: float, f_y: float, near: tuple[float, float] = ...
+    ) -> tuple[float, float]: ...
+
+
 # Force from position and velocity, velocity from position and force, point by point.
 _Kernel: TypeAlias = Callable[[float, float, float, float], tuple[float, float]]
-_MOTIONS: dict[str, tuple[_Kernel, _Kernel]] = {
+_MOTIONS: dict[str, tuple[_Kernel, _Velocity]] = {
     "short": (short_motion.force, short_motion.velocity)
 }
 _MODELS: dict[str, _FilmModel] = {"short": short}
@@ -121,7 +127,7 @@ def film_added_mass(bearing: JournalBearing, sommerfeld: ArrayLike) -> Array:
     return _MODELS[bearing.film].inertia(bearing, sommerfeld)
 
 
-def film_motion(bearing: JournalBearing) -> tuple[_Kernel, _Kernel]:
+def film_motion(bearing: JournalBearing) -> tuple[_Kernel, _Velocity]:
     """Return the nonlinear film of a moving journal, by the bearing's own film model.
 
     Parameters
@@ -133,6 +139,7 @@ def film_motion(bearing: JournalBearing) -> tuple[_Kernel, _Kernel]:
     -------
     force, velocity : callables
         Of plain floats: force (f_x, f_y) from (x, y, x', y'), and velocity (x', y') from
-        (x, y, f_x, f_y); position in C, velocity in CΩ, force in μΩRL³/C².
+        (x, y, f_x, f_y), and if need be a velocity to begin the search at; position in C, velocity
+        in CΩ, force in μΩRL³/C².
     """
     return _MOTIONS[bearing.film]
