@@ -22,9 +22,24 @@ from numpy.typing import ArrayLike
 
 from rotorcalc import modes
 from rotorcalc.coefficients import checked_speed, equilibrium
+from rotorcalc.cycles import bifurcation
 from rotorcalc.machine import Machine
 from rotorcalc.motion import Equations, Motion, Start, integrated, resting
 from rotorcalc.typing import Array
+
+__all__ = [
+    "MOST_REVOLUTIONS",
+    "MOST_SAMPLES",
+    "TOLERANCE",
+    "Start",
+    "Transient",
+    "TransientError",
+    "bifurcation",  # what these motions end on, beside them
+    "last_state",
+    "resting",
+    "simulate",
+    "start_on_mode",
+]
 
 MOST_REVOLUTIONS = 5000
 MOST_SAMPLES = 2_000_000
@@ -165,6 +180,16 @@ def start_on_mode(machine: Machine, speed: float, amplitude: float) -> Start:
         disk=rest.disk + (scale * disk).real,
         journal_velocity=(lam * scale * journal).real,
         disk_velocity=(lam * scale * disk).real,
+    )
+
+
+def last_state(motion: Transient) -> Start:
+    """Return the state in which a motion ends, for another to start from."""
+    return Start(
+        journal=motion.journal[-1],
+        disk=motion.disk[-1],
+        journal_velocity=motion.journal_velocity[-1],
+        disk_velocity=motion.disk_velocity[-1],
     )
 
 

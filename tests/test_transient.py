@@ -9,37 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotorcalc import PRESETS, Rotor, analyse, orbit_ellipse, whirl_onset
+from rotorcalc import analyse, orbit_ellipse
 from rotorcalc.films import short, short_motion
 from rotorcalc.transient import TransientError, simulate, start_on_mode
-
-SHEET = PRESETS["sheet-1e8"].machine
-C = SHEET.bearing.radial_clearance
-RPM = math.pi / 30
-# Every kind of rotor that the equations of motion know.
-ROTORS = {
-    "rigid": replace(SHEET.rotor, shaft_stiffness=math.inf),
-    "rigid, damped": replace(SHEET.rotor, shaft_stiffness=math.inf, disk_damping=2e4),
-    "massless journals": SHEET.rotor,
-    "damped": replace(SHEET.rotor, disk_damping=2e4),
-    "journal mass": replace(SHEET.rotor, journal_mass=15.0),
-    "journal mass, damped": replace(SHEET.rotor, journal_mass=15.0, disk_damping=2e4),
-}
-
-
-def machine_with(rotor, *, imbalance):
-    return replace(SHEET, rotor=replace(rotor, imbalance=imbalance))
-
-
-def near_hopf(eps, factor, speed=600.0):
-    """Return a rigid rotor that rests at ε with p² = factor · p_s², and its rest."""
-    b = SHEET.bearing
-    sigma = float(short.modified_sommerfeld(eps))
-    load = SHEET.viscosity * speed * b.length * b.radius * (b.length / C) ** 2 / (4.0 * sigma)
-    p_s2 = float(whirl_onset(short.stiffness(eps), short.damping(eps)).critical_mass)
-    mass = factor * p_s2 * load / (C * speed**2)
-    machine = replace(SHEET, load=load, rotor=Rotor(mass=2.0 * mass))
-    return machine, speed, analyse(machine, speed).journal_position
+from tests.machines import ROTORS, RPM, SHEET, C, balanced, near_hopf
 
 
 def last_amplitude(machine, speed, rest, *, kick, revolutions):
@@ -77,7 +50,7 @@ def test_the_velocity_for_a_force_gives_that_force(eps, angle, velocity):
 
 @pytest.mark.parametrize("kind", ROTORS)
 def test_a_machine_without_imbalance_rests_in_its_equilibrium(kind):
-    machine = machine_with(ROTORS[kind], imbalance=0.0)
+    machine = balanced(ROTORS[kind])
     motion = simulate(machine, 6000 * RPM, revolutions=20)
     rest = analyse(machine, 6000 * RPM).journal_position
     assert np.abs(motion.journal - rest).max() < 1e-9 * C
@@ -87,7 +60,7 @@ def test_a_machine_without_imbalance_rests_in_its_equilibrium(kind):
 
 @pytest.mark.parametrize("kind", ROTORS)
 def test_a_small_imbalance_draws_the_linear_ellipse(kind):
-    machine = machine_with(ROTORS[kind], imbalance=0.001 * C)
+    machine = balanced(ROTORS[kind], 0.001 * C)
     speed = 5000 * RPM
     motion = simulate(machine, speed, revolutions=200, samples_per_revolution=32)
     linear = analyse(machine, speed)
@@ -104,13 +77,13 @@ def test_a_small_imbalance_draws_the_linear_ellipse(kind):
 @pytest.mark.parametrize("rpm", [5000, 11500])
 @pytest.mark.parametrize("kind", ROTORS)
 def test_a_small_whirl_grows_and_turns_as_its_eigenvalue_says(kind, rpm):
-    machine = machine_with(ROTORS[kind], imbalance=0.0)
+    machine = balanced(ROTORS[kind])
     speed = rpm * RPM
     start = start_on_mode(machine, speed, 1e-5 * C)
     motion = simulate(machine, speed, revolutions=12, start=start)
     values = analyse(machine, speed).flexible_eigenvalues
     expected = max((value for value in values if value.imag > 0.0), key=lambda value: value.real)
-    x, y = (motion.disk - motion.disk.mean(axis=0) * 0.0 - start_rest(machine, speed)).T
+    x, y = (motion.disk - start_rest(machine, speed)).T
     signal = x + 1j * y
     # One complex exponential by its forward part: least squares on log amplitude and phase.
     growth = np.polyfit(motion.time, np.log(np.abs(signal)), 1)[0]
