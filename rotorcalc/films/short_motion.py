@@ -19,7 +19,7 @@ _SLACK = 0.2
 _MOST_ITERATIONS = 120
 _TOLERANCE = 4e-15
 # After a step of Newton's as short as this, the next one would be a rounding error.
-_LAST_STEP = 1e-7
+_LAST_STEP = 3e-8
 
 
 def force(x: float, y: float, dx: float, dy: float) -> tuple[float, float]:
