@@ -16,11 +16,8 @@ from numpy.typing import ArrayLike
 from rotorcalc.transient import Transient
 from rotorcalc.typing import Array, ComplexArray
 
-# Of a line's peak within the spectrum of a Hann window, on either side [bins].
-_HALF_LOBE = 2.0
-# The synchronous line, and where whirl is looked for [orders].
-_SYNCHRONOUS = 1.0
-_WHIRL = (0.2, 0.85)
+# Where the synchronous line and whirl are looked for [orders].
+_SYNCHRONOUS, _WHIRL = (0.97, 1.03), (0.2, 0.85)
 # A line smaller than this share of the largest one is none.
 _LEAST_LINE = 1e-3
 # A pencil's rows, and the share of its largest singular value that is taken for rounding.
@@ -99,7 +96,7 @@ def spectrum(motion: Transient, *, of: str = "journal", last: int | None = None)
     signal, revolutions = _signal(motion, of, last)
     order, circles = _circles(signal, revolutions)
     size = np.abs(circles)
-    at_1x, radius_1x = _line(order, size, (0.97, 1.03))
+    at_1x, radius_1x = _line(order, size, _SYNCHRONOUS)
     ratio, radius = _line(order, size, _WHIRL)
     exists = radius > _LEAST_LINE * size.max() and not math.isnan(ratio)
     return Spectrum(
@@ -280,13 +277,13 @@ def _line(order: Array, size: Array, within: tuple[float, float]) -> tuple[float
     πd(1 − d²)/sin πd.
     """
     spacing = order[1] - order[0]
-    inside = np.flatnonzero((order >= within[0]) & (order <= within[1]))
-    if not len(inside):
+    inside = (order[1:-1] >= within[0]) & (order[1:-1] <= within[1])
+    is_peak = (size[1:-1] > size[:-2]) & (size[1:-1] >= size[2:])  # no flank of a line outside
+    peaks = 1 + np.flatnonzero(inside & is_peak)
+    if not len(peaks):
         return math.nan, 0.0
-    top = int(inside[np.argmax(size[inside])])
+    top = int(peaks[np.argmax(size[peaks])])
     before, peak, after = (float(value) for value in size[top - 1 : top + 2])
-    if peak == 0.0 or peak < max(before, after):  # the flank of a line outside
-        return math.nan, 0.0
     side, beside = (1.0, after) if after > before else (-1.0, before)
     d = min(max((2.0 * beside - peak) / (beside + peak), 0.0), 1.0)
     height = 1.0 if d == 0.0 else math.pi * d * (1.0 - d * d) / math.sin(math.pi * d)

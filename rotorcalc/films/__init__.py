@@ -1,8 +1,9 @@
 """Film models: where the journal sits, and how the film holds it.
 
-A film model is a module with three functions, which answer for whole arrays: `state(bearing,
+A film model is a module with four functions, which answer for whole arrays: `state(bearing,
 sommerfeld)` with a `FilmState`, `field(bearing, sommerfeld, angle=..., zeta=...)` with a
-`FilmField`, and `inertia(bearing, sommerfeld)` with the film's added mass. A bearing names its
+`FilmField`, `inertia(bearing, sommerfeld)` with the film's added mass, and `gap(position)` with the
+thinnest film around a journal that is not in equilibrium. A bearing names its
 model in its field `film`.
 """
 
@@ -20,6 +21,7 @@ __all__ = [
     "FilmField",
     "FilmState",
     "film_added_mass",
+    "film_gap",
     "film_motion",
     "film_pressure",
     "film_state",
@@ -33,6 +35,8 @@ class _FilmModel(Protocol):
     def field(
         self, bearing: JournalBearing, sommerfeld: ArrayLike, *, angle: ArrayLike, zeta: ArrayLike
     ) -> FilmField: ...
+
+    def gap(self, position: ArrayLike) -> Array: ...
 
     def inertia(self, bearing: JournalBearing, sommerfeld: ArrayLike) -> Array: ...
 
@@ -125,6 +129,24 @@ def film_added_mass(bearing: JournalBearing, sommerfeld: ArrayLike) -> Array:
         Where σ is not positive.
     """
     return _MODELS[bearing.film].inertia(bearing, sommerfeld)
+
+
+def film_gap(bearing: JournalBearing, position: ArrayLike) -> Array:
+    """Return the thinnest film around a journal wherever it is, by the bearing's own film model.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing.
+    position : array_like, (..., 2)
+        Journal centre in X, Y from the bearing's centre, in C.
+
+    Returns
+    -------
+    array, (...)
+        Smallest film thickness, in C.
+    """
+    return _MODELS[bearing.film].gap(position)
 
 
 def film_motion(bearing: JournalBearing) -> tuple[_Kernel, _Velocity]:
