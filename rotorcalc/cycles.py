@@ -107,7 +107,7 @@ def bifurcation(
     *,
     lowest: float = 0.5,
     highest: float = 1.5,
-    progress: Callable[[float], None] | None = None,
+    progress: Callable[[float], object] | None = None,
 ) -> Bifurcation:
     """Return the limit cycles of a machine without its imbalance, followed from its onset.
 

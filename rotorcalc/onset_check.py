@@ -59,7 +59,7 @@ class Onsets:
         return self.spread < _AGREE
 
 
-def onsets(machine: Machine, *, progress: Callable[[float], None] | None = None) -> Onsets:
+def onsets(machine: Machine, *, progress: Callable[[float], object] | None = None) -> Onsets:
     """Return the onset of a machine, found three ways.
 
     Parameters
@@ -114,7 +114,7 @@ def measured_growth(machine: Machine, speed: float) -> float:
 
 
 def measured_onset(
-    machine: Machine, *, near: float, progress: Callable[[float], None] | None = None
+    machine: Machine, *, near: float, progress: Callable[[float], object] | None = None
 ) -> float:
     """Return the speed at which a released journal's whirl neither grows nor dies.
 

@@ -84,6 +84,27 @@ class Release:
         return float(self.size[-self.settled :].max())
 
     @property
+    def revolutions(self) -> Array:
+        """Revolutions since the release, (n,) [-]."""
+        return self.motion.angle / (2.0 * math.pi)
+
+    @property
+    def peaks(self) -> tuple[Array, Array]:
+        """Revolutions, and the largest distance from rest over each two of them [m], (n/2,)."""
+        two = int(np.searchsorted(self.motion.angle, 4.0 * math.pi))
+        rows = len(self.size) // two
+        largest = self.size[: rows * two].reshape(rows, two).max(axis=1)
+        return 2.0 * np.arange(rows, dtype=float) + 1.0, largest
+
+    @property
+    def predicted_peaks(self) -> Array:
+        """The linear theory's growth or decay of the first of the peaks, (n/2,) [m]."""
+        at, largest = self.peaks
+        time = 2.0 * math.pi * (at - at[0]) / self.motion.speed[0]
+        with np.errstate(over="ignore"):
+            return largest[0] * np.exp(self.whirl.real * time)
+
+    @property
     def settled(self) -> int:
         """Samples in the last quarter of the motion."""
         return max(int(_SETTLED * len(self.motion.time)), 1)
@@ -97,7 +118,7 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
     revolutions: int,
     samples_per_revolution: int = 64,
     tolerance: float = TOLERANCE,
-    progress: Callable[[float], None] | None = None,
+    progress: Callable[[float], object] | None = None,
 ) -> Release:
     """Return what becomes of a journal that is let go off its rest.
 

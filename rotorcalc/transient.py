@@ -94,7 +94,7 @@ def simulate(  # noqa: PLR0913 - how long, from where, to which speed
     start: ArrayLike | Start | None = None,
     final_speed: float | None = None,
     tolerance: float = TOLERANCE,
-    progress: Callable[[float], None] | None = None,
+    progress: Callable[[float], object] | None = None,
 ) -> Transient:
     """Return the nonlinear motion of a machine, integrated in time.
 
@@ -203,7 +203,7 @@ class _Run:
 
 
 def _integrate(
-    model: Equations, state: Array, run: _Run, progress: Callable[[float], None] | None
+    model: Equations, state: Array, run: _Run, progress: Callable[[float], object] | None
 ) -> Transient:
     """Integrate stretch by stretch, so that progress can be told and a failure has its place."""
     motion, angles = model.motion(), run.angles
