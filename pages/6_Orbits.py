@@ -15,7 +15,7 @@ page.results("onset_speed", "whirl_frequency", "margin", "damping_ratio")
 asked = ask.choose_release(view)
 page, found = ask.try_out(page, asked)
 with answer:
-    ask.say_outcome(view, found, units)
+    ask.say_outcome(view, asked, found, units)
 TABS = ["Orbit", "In time", "Spectrum", "Run-up", "Limit cycles", "Onset three ways"]
 orbit, time, spectrum, run_up, cycles, onset = st.tabs(TABS, on_change="rerun", key="orbits_tab")
 
@@ -44,7 +44,7 @@ if time.open:
     with left:
         chart(
             draw.growth, "growth", "Distance from rest over revolutions, logarithmic.",
-            "Largest distance over each two revolutions; dashed: growth or decay at Re λ. Eq. 5.38.",
+            "Largest distance over each two revolutions; dashed: e^(Re λ t). Eq. 5.38.",
         )  # fmt: skip
     with right:
         chart(
@@ -70,7 +70,7 @@ if run_up.open:
         if (run := ask.ask_run_up(view)) is not None:
             page.alone().chart(
                 lambda _: draw.waterfall(run, units), "orbits_waterfall",
-                alt="Spectra over running speed: the imbalance at 1×, whirl near ½× past the onset.",
+                alt="Spectra over running speed: imbalance at 1×, whirl near ½× past the onset.",
                 caption=ask.run_up_caption(view),
             )  # fmt: skip
 if cycles.open:

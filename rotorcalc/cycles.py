@@ -39,7 +39,7 @@ _TAIL = 1e-6
 # Newton's method: steps at most, and the size of the last one.
 _ITERATIONS, _SETTLED = 8, 1e-10
 _FIRST_AMPLITUDE = 0.02
-_FIRST_STEP, _LONGEST_STEP, _SHORTEST_STEP = 0.02, 0.045, 1e-5
+_FIRST_STEP, _LONGEST_STEP, _SHORTEST_STEP = 0.02, 0.035, 1e-5
 _NEAREST_WALL = 0.97
 _DIFFERENCE = 1e-6
 
@@ -81,16 +81,25 @@ class Bifurcation:
 
     @property
     def folds(self) -> Array:
-        """Speeds at which the branch turns back [rad/s], shape (folds,).
+        """Speeds at which the branch turns back [rad/s], shape (folds,)."""
+        return self._turns()[0]
 
-        Each is the top or bottom of the parabola through the three cycles nearest to it.
-        """
+    @property
+    def fold_amplitudes(self) -> Array:
+        """Amplitudes of the cycles at the folds [m], shape (folds,)."""
+        return self._turns()[1]
+
+    def _turns(self) -> tuple[Array, Array]:
+        """Return the tops and bottoms of parabolas through the three cycles nearest to each."""
         step, size = np.diff(self.speed), np.diff(self.amplitude)
         turns = np.flatnonzero(step[:-1] * step[1:] < 0.0)
         before, after = step[turns] / size[turns], step[turns + 1] / size[turns + 1]
         bend = (after - before) / (size[turns] + size[turns + 1])
         slope = before + bend * size[turns]  # at the middle one of the three
-        return self.speed[turns + 1] - slope**2 / (4.0 * bend)
+        return (
+            self.speed[turns + 1] - slope**2 / (4.0 * bend),
+            self.amplitude[turns + 1] - slope / (2.0 * bend),
+        )
 
     def at(self, speed: float) -> tuple[Array, BoolArray]:
         """Return the amplitudes of all cycles at a speed [m], and which of them are stable."""

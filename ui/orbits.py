@@ -39,6 +39,8 @@ T = TypeVar("T")
 _KICK, _REVOLUTIONS = "orbits_kick", "orbits_revolutions"
 # Revolutions from which a release shows its progress, and is sampled half as finely.
 _LONG = 150
+# Swings of its fastest mode that a release is followed for, and revolutions at least.
+_MOST_SWINGS, _FEWEST = 1500, 16
 # Of the integrator's steps: a picture needs less than the core's default.
 _TOLERANCE, _RUN_UP_TOLERANCE = 1e-9, 1e-7
 _RUN_UP_REVOLUTIONS, _SPECTRA = 1600, 200
@@ -131,7 +133,14 @@ def _set_up(demo: Demo) -> None:
 
 def let_go(view: View, ask: Ask) -> Release:
     """Return the release of a machine's journal."""
-    return _release(view.machine, view.speed, ask, _Report(lambda _: None))
+    return _release(view.machine, view.speed, _affordable(view, ask), _Report(lambda _: None))
+
+
+def _affordable(view: View, ask: Ask) -> Ask:
+    """Return what is asked for, shorter where the machine swings many times in a revolution."""
+    swings = float(np.abs(view.point.flexible_eigenvalues.imag).max()) / view.speed
+    most = max(_FEWEST, round(_MOST_SWINGS / max(swings, 1.0)))
+    return ask if ask.revolutions <= most else replace(ask, revolutions=most)
 
 
 def try_out(page: Page, ask: Ask) -> tuple[Page, Release]:
@@ -139,6 +148,7 @@ def try_out(page: Page, ask: Ask) -> tuple[Page, Release]:
 
     Say in words why there is none, and stop, where there is none.
     """
+    ask = _affordable(page.view, ask)
     bar = st.progress(0.0, "Integrating …") if ask.revolutions >= _LONG else None
     report = _Report((lambda _: None) if bar is None else bar.progress)
     try:
@@ -173,8 +183,13 @@ def _release(machine: Machine, speed: float, ask: Ask, report: _Report) -> Relea
 # --- What became of it ------------------------------------------------------------------------
 
 
-def say_outcome(view: View, found: Release, units: Units) -> None:
+def say_outcome(view: View, asked: Ask, found: Release, units: Units) -> None:
     """Say in one sentence what the journal did, and in another what the linear theory said."""
+    if found.revolutions[-1] < asked.revolutions and not found.stopped:
+        st.info(
+            f"This machine swings so often in a revolution that only {found.revolutions[-1]:.0f} "
+            "of them are followed."
+        )
     if found.stopped:
         st.warning(f"The integration ended early: {found.stopped}.")
     whirls = _is_whirling(found)
@@ -256,13 +271,12 @@ def on_demand(label: str, key: str, token: object, work: Callable[[_Report], T])
     runs, a bar shows how far it is, and a button ends it: its click makes the page run anew, and
     the next word of progress ends the old run.
     """
-    asked, done = f"{key}_asked", f"{key}_done"
+    asked, done, place = f"{key}_asked", f"{key}_done", st.empty()
     if st.session_state.get(asked) != token:
-        st.button(label, key=key, on_click=lambda: st.session_state.update({asked: token}))
+        place.button(label, key=key, on_click=lambda: st.session_state.update({asked: token}))
         return None
     if st.session_state.get(done) == token:
         return work(_Report(lambda _: None))
-    place = st.empty()
     with place.container():
         bar = st.progress(0.0, "Computing …")
         st.button("Cancel", key=f"{key}_cancel", on_click=lambda: st.session_state.pop(asked, None))
@@ -287,7 +301,7 @@ def run_up_caption(view: View) -> str:
     stirred = view.machine.rotor.imbalance == 0.0
     return (
         f"{_RUN_UP_REVOLUTIONS} revolutions from {_RUN_UP_FROM:g} times the top speed to the top "
-        "speed, the journal's forward circles; dashed white: Im λ/Ω of the least damped whirl."
+        "speed, the journal's forward circles; dashed: Im λ/Ω of the least damped whirl."
         + (" An imbalance of C/1000 stirs the balanced rotor." if stirred else "")
     )
 

@@ -22,7 +22,7 @@ from rotorcalc.typing import Array
 
 LINEAR = style.PURPLE
 UP, DOWN = style.GREEN, style.OCHRE
-_PLANE_HEIGHT = 620
+_PLANE_HEIGHT = 680
 # Frames of an animation at most, points of a trail, revolutions that it reaches back.
 _FRAMES, _TRAIL, _REACH = 150, 64, 2.0
 # Points of a line over time that a screen can tell apart.
@@ -81,7 +81,7 @@ def orbit(let_go: Release, units: Units) -> Chart:
     rest = unit.of(let_go.rest)
     still = [
         _ring(C),
-        _path(let_go.motion.journal, unit, "whole path", style.FAINT, width=1.0, dash="solid"),
+        _path(let_go.motion.journal, unit, "whole path", style.GREY, width=0.8, opacity=0.6),
         *_steady(let_go, unit),
         {
             **style.mark(rest[1], rest[0], "rest", style.GREY),
@@ -90,13 +90,13 @@ def orbit(let_go: Release, units: Units) -> Chart:
     ]
     chart = plane.chart(
         [*still, *steps[-1]], x, y, height=_PLANE_HEIGHT, showlegend=True,
-        margin={"l": 64, "r": 16, "t": 16, "b": 190}, legend={**_LEGEND, "itemwidth": 30},
+        margin={"l": 64, "r": 16, "t": 56, "b": 184},
     )  # fmt: skip
     chart = scrubbed(
         chart, [[_change(trace) for trace in step] for step in steps],
         labels=labels, active=len(labels) - 1, unit="", prefix="Revolution ",
     )  # fmt: skip
-    return _placed(playable(chart, step=60, y=-0.36))
+    return _placed(playable(chart, step=60, y=-0.33))
 
 
 def over_time(let_go: Release, units: Units) -> Chart:
@@ -143,7 +143,13 @@ def growth(let_go: Release, units: Units) -> Chart:
     C = float(unit.of(let_go.clearance))
     shown, predicted = unit.of(size), unit.of(let_go.predicted_peaks)
     floor = max(min(float(shown[shown > 0.0].min(initial=C)), C / 10.0), C * 1e-6)
-    y = style.axis(f"Largest distance from rest [{unit.name}]", 0.8 * floor, 2.0 * C, log=True)
+    y = style.axis(
+        f"Largest distance from rest [{unit.name}]",
+        0.8 * floor,
+        2.0 * C,
+        log=True,
+        dtick="D2" if floor > 1e-3 * C else 1,
+    )
     x = style.axis("Revolutions since the release [-]", 0.0, float(let_go.revolutions[-1]))
     inside = np.where((predicted < 2.0 * C) & (predicted > 0.5 * floor), predicted, np.nan)
     traces = [
@@ -216,7 +222,7 @@ def waterfall(run: RunUp, units: Units) -> Chart:
     }  # fmt: skip
     traces = [
         heat,
-        style.line(run.whirl_order, speed, "linear theory's whirl", "#ffffff", dash="dash"),
+        style.line(run.whirl_order, speed, "linear theory's whirl", LINEAR, dash="dash", width=3),
     ]
     traces.append(_across(run.onset, "onset", style.UNSTABLE, units, y))
     traces.append(_across(run.running_speed, "running speed", style.HERE, units, y))
@@ -241,7 +247,7 @@ def cycles(
     here = float(units.speed.of(running_speed))
     ends = min(low - room, 0.97 * onset), max(high, 1.03 * onset)
     x = style.axis(titled("Running speed", "Ω", units.speed.name), *ends)
-    y = style.axis("Largest distance from rest over the clearance, a/C [-]", 0.0, _top(size))
+    y = style.axis("Largest distance from rest, a/C [-]", 0.0, _top(size))
     traces = [
         *_branch_lines(at, size, branch),
         style.line([ends[0], onset], [0.0, 0.0], "rest, stable", style.JOURNAL, width=3.2,
@@ -259,7 +265,7 @@ def cycles(
                                  np.append(0.0, amplitudes / C), "running speed"))  # fmt: skip
     else:
         edge = ends[0] if here < ends[0] else ends[1]
-        traces.append(style.mark(edge, 0.0, "running speed, outside", symbol="x"))
+        traces.append(style.mark(edge, 0.0, "running speed, outside"))
     return style.chart(traces, x, y, height=560, margin=_MARGIN, legend=_LEGEND)
 
 
@@ -301,7 +307,8 @@ def _plane_axes(reach: float, unit: Unit) -> tuple[Axis, Axis]:
 
 
 def _ring(C: float) -> Trace:
-    circle = plane.arc(0.0, 2.0 * np.pi, C)
+    angle = np.linspace(0.0, 2.0 * np.pi, 181)
+    circle = C * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     return plane.line(circle, "clearance", style.GREY, width=1.8, showlegend=False)
 
 
@@ -345,7 +352,7 @@ def _change(trace: Trace) -> Trace:
 def _placed(chart: Chart) -> Chart:
     """Return a chart with its slider right of the buttons, below the plot."""
     (slider,) = chart["layout"]["sliders"]
-    moved = {**slider, "x": 0.0, "len": 1.0, "y": -0.12, "yanchor": "top", "pad": {"t": 6}}
+    moved = {**slider, "x": 0.0, "len": 1.0, "y": -0.11, "yanchor": "top", "pad": {"t": 6}}
     return {**chart, "layout": {**chart["layout"], "sliders": [moved]}}
 
 
@@ -405,7 +412,8 @@ def _branch_lines(at: Array, size: Array, branch: Bifurcation) -> list[Trace]:
             style.line(at, np.where(joint, size, np.nan), "limit cycle, unstable", style.UNSTABLE,
                        dash="dash", hovertemplate=hover)
         )  # fmt: skip
-    return lines
+    # Cycles are few; the eye wants the smooth curve on which they lie.
+    return [{**line, "line": {**line["line"], "shape": "spline"}} for line in lines]
 
 
 def _sweeps(swept: tuple[Array, Array, Array], C: float, units: Units) -> list[Trace]:
@@ -421,10 +429,7 @@ def _folds(branch: Bifurcation, units: Units) -> list[Trace]:
     folds = branch.folds
     if not len(folds):
         return []
-    sizes = [
-        float(branch.amplitude[int(np.argmin(np.abs(branch.speed - fold)))]) / branch.hopf.clearance
-        for fold in folds
-    ]
+    sizes = branch.fold_amplitudes / branch.hopf.clearance
     words = ", ".join(f"{speed:.0f}" for speed in units.speed.of(folds))
     name = f"{'fold' if len(folds) == 1 else 'folds'}, {words} {units.speed.name}"
     return [style.mark(units.speed.of(folds), sizes, name, style.PURPLE)]
