@@ -40,7 +40,7 @@ _KICK, _REVOLUTIONS = "orbits_kick", "orbits_revolutions"
 # Revolutions from which a release shows its progress, and is sampled half as finely.
 _LONG = 150
 # Swings of its fastest mode that a release is followed for, and revolutions at least.
-_MOST_SWINGS, _FEWEST = 1500, 16
+_MOST_SWINGS, _FEWEST = 800, 16
 # Of the integrator's steps: a picture needs less than the core's default.
 _TOLERANCE, _RUN_UP_TOLERANCE = 1e-9, 1e-7
 _RUN_UP_REVOLUTIONS, _SPECTRA = 1600, 200
@@ -167,7 +167,7 @@ def try_out(page: Page, ask: Ask) -> tuple[Page, Release]:
     return page, found
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=48)  # half a megabyte each, four for the longest
 def _release(machine: Machine, speed: float, ask: Ask, report: _Report) -> Release:
     return release(
         machine,
@@ -185,10 +185,11 @@ def _release(machine: Machine, speed: float, ask: Ask, report: _Report) -> Relea
 
 def say_outcome(view: View, asked: Ask, found: Release, units: Units) -> None:
     """Say in one sentence what the journal did, and in another what the linear theory said."""
-    if found.revolutions[-1] < asked.revolutions and not found.stopped:
+    followed = round(float(found.revolutions[-1]))
+    if followed < asked.revolutions and not found.stopped:
         st.info(
-            f"This machine swings so often in a revolution that only {found.revolutions[-1]:.0f} "
-            "of them are followed."
+            f"This machine swings so often in a revolution that only {followed} of them are "
+            "followed."
         )
     if found.stopped:
         st.warning(f"The integration ended early: {found.stopped}.")
