@@ -87,8 +87,8 @@ if onset.open:
     with onset:
         if (three := ask.ask_onsets(view)) is not None:
             ask.say_onsets(three[0], units)
-            page.alone().chart(
-                lambda _: draw.onset_growth(three[1], three[0], units), "orbits_onset",
+            ask.with_onset(page).chart(
+                lambda v: draw.onset_growth(*ask.three_onsets(v), units), "orbits_onset",
                 alt="Growth rate over speed: eigenvalues as a line, measured rates as points.",
                 caption="Each point: 16 revolutions of the nonlinear motion after a kick of "
                 "C/10000, its exponentials fitted. Without imbalance. Eqs. 5.38, 5.45 to 5.50.",

@@ -109,7 +109,7 @@ def test_the_three_onsets_on_the_growth_over_speed(running):
         speeds, speeds - found.eigenvalues, speeds, speeds - found.eigenvalues,
         running * found.eigenvalues, 0.1,
     )  # fmt: skip
-    chart = orbits.onset_growth(curve, found, SI)
+    chart = orbits.onset_growth(found, curve, SI)
     assert figure(chart).data
     assert (chart["data"][-1]["name"] == "running speed: outside") == (running > 1.2)
 

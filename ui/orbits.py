@@ -386,11 +386,20 @@ def ask_onsets(view: View) -> tuple[Onsets, GrowthCurve] | None:
     if not 0.0 < onset < math.inf:
         st.info(_no_onset(onset))
         return None
-    found = _try(lambda: _three(_balanced(view.machine)))
-    if found is None:
-        return None
-    here = complex(leading(view))
-    return found[0], replace(found[1], running_speed=view.speed, running_rate=here.real)
+    return _try(lambda: three_onsets(view))
+
+
+def three_onsets(view: View) -> tuple[Onsets, GrowthCurve]:
+    """Return the onset found three ways, and growth over speed, of a machine that has one."""
+    found, curve = _three(_balanced(view.machine))
+    here = leading(view).real
+    return found, replace(curve, running_speed=view.speed, running_rate=here)
+
+
+def with_onset(page: Page) -> Page:
+    """Return the page without a pinned machine that has no onset."""
+    pinned = page.baseline
+    return page if pinned is None or 0.0 < pinned.onset.speed < math.inf else page.alone()
 
 
 def say_onsets(found: Onsets, units: Units) -> None:

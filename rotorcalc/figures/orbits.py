@@ -269,7 +269,7 @@ def cycles(
     return style.chart(traces, x, y, height=560, margin=_MARGIN, legend=_LEGEND)
 
 
-def onset_growth(curve: GrowthCurve, found: Onsets, units: Units) -> Chart:
+def onset_growth(found: Onsets, curve: GrowthCurve, units: Units) -> Chart:
     """Return growth rates over speed, by eigenvalues and as measured, with the three onsets."""
     x = style.axis(
         titled("Running speed", "Ω", units.speed.name),
