@@ -69,7 +69,7 @@ if run_up.open:
     with run_up:
         if (run := ask.ask_run_up(view)) is not None:
             page.alone().chart(
-                lambda _: draw.waterfall(run, units), "orbits_waterfall",
+                lambda _, run=run: draw.waterfall(run, units), "orbits_waterfall",
                 alt="Spectra over running speed: imbalance at 1×, whirl near ½× past the onset.",
                 caption=ask.run_up_caption(view),
             )  # fmt: skip
@@ -78,7 +78,8 @@ if cycles.open:
         if (branch := ask.ask_cycles(view)) is not None:
             ask.say_cycles(branch, units)
             page.alone().chart(
-                lambda v: draw.cycles(branch, ask.swept(branch), v.speed, units), "orbits_cycles",
+                lambda v, branch=branch: draw.cycles(branch, ask.swept(branch), v.speed, units),
+                "orbits_cycles",
                 alt="Size of the limit cycles over speed, stable and unstable, and two sweeps.",
                 caption="Without imbalance: harmonic balance, stability by Floquet. At the onset "
                 "ȧ = (Re λ) a + ℓ (a/C)² a decides.",
