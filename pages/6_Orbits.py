@@ -11,7 +11,6 @@ page = frame.begin(
 )
 view, units = page.view, page.units
 answer = st.container()
-page.results("onset_speed", "whirl_frequency", "margin", "damping_ratio")
 asked = ask.choose_release(view)
 page, found = ask.try_out(page, asked)
 with answer:
@@ -94,3 +93,4 @@ if onset.open:
                 caption="Each point: 16 revolutions of the nonlinear motion after a kick of "
                 "C/10000, its exponentials fitted. Without imbalance. Eqs. 5.38, 5.45 to 5.50.",
             )  # fmt: skip
+page.results("onset_speed", "whirl_frequency", "margin", "damping_ratio")
