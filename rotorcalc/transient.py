@@ -16,28 +16,38 @@ import math
 import numbers
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.integrate import odeint
 
 from rotorcalc import modes
 from rotorcalc.coefficients import checked_speed, equilibrium
-from rotorcalc.films import film_motion
+from rotorcalc.cycles import bifurcation
 from rotorcalc.machine import Machine
+from rotorcalc.motion import Equations, Motion, Start, integrated, resting
 from rotorcalc.typing import Array
+
+__all__ = [
+    "MOST_REVOLUTIONS",
+    "MOST_SAMPLES",
+    "TOLERANCE",
+    "Start",
+    "Transient",
+    "TransientError",
+    "bifurcation",  # what these motions end on, beside them
+    "last_state",
+    "resting",
+    "simulate",
+    "start_on_mode",
+]
 
 MOST_REVOLUTIONS = 5000
 MOST_SAMPLES = 2_000_000
-# Of LSODA's own steps: relative, and in clearances.
-_RELATIVE, _ABSOLUTE = 1e-10, 1e-12
+# Of LSODA's own steps, relative; a hundredth of it in clearances.
+TOLERANCE = 1e-10
+_TOLERANCES = (1e-13, 1e-3)
 # A stretch after which progress is told and the wall is looked for [revolutions].
-_STRETCH = 20
-_MOST_STEPS = 20_000
-
-# The rates of a state at an angle of rotation.
-Motion: TypeAlias = Callable[[Array, float], list[float]]
+_STRETCH = 10
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,16 +77,6 @@ class Transient:
     angle: Array
 
 
-@dataclass(frozen=True, eq=False)
-class Start:
-    """A state to start from, each of shape (2,), in X, Y from the bearing's centre [m], [m/s]."""
-
-    journal: Array
-    disk: Array
-    journal_velocity: Array
-    disk_velocity: Array
-
-
 class TransientError(RuntimeError):
     """The integration could not go on; `partial` holds the motion computed so far."""
 
@@ -93,7 +93,8 @@ def simulate(  # noqa: PLR0913 - how long, from where, to which speed
     samples_per_revolution: int = 64,
     start: ArrayLike | Start | None = None,
     final_speed: float | None = None,
-    progress: Callable[[float], None] | None = None,
+    tolerance: float = TOLERANCE,
+    progress: Callable[[float], object] | None = None,
 ) -> Transient:
     """Return the nonlinear motion of a machine, integrated in time.
 
@@ -112,6 +113,9 @@ def simulate(  # noqa: PLR0913 - how long, from where, to which speed
         sag; or the whole state; None for the static equilibrium.
     final_speed : float or None
         Speed at the end of a linear run-up or run-down [rad/s]; None for constant speed.
+    tolerance : float
+        Relative error allowed in each of the integrator's steps, 1e-13 to 1e-3. The default keeps
+        a motion over 200 revolutions to better than 1e-6.
     progress : callable or None
         Called now and then with the share done, 0 to 1. What it raises ends the integration.
 
@@ -123,16 +127,19 @@ def simulate(  # noqa: PLR0913 - how long, from where, to which speed
     Raises
     ------
     ValueError
-        Where a speed, the number of revolutions or samples, or the start is out of bounds.
+        Where a speed, the number of revolutions or samples, the start or the tolerance is out of
+        bounds.
     TransientError
         Where the integration cannot go on, with the time and place; it holds the part computed.
     """
     speeds = _checked_speeds(speed, final_speed)
     _check_length(revolutions, samples_per_revolution)
-    model = _Model(machine, *speeds, turned=2.0 * math.pi * revolutions)
+    _check_tolerance(tolerance)
+    model = Equations(machine, *speeds, turned=2.0 * math.pi * revolutions)
     state = model.initial(_checked_start(machine, speeds[0], start))
     angles = np.linspace(0.0, model.turned, revolutions * samples_per_revolution + 1)
-    return _integrate(model, state, angles, _STRETCH * samples_per_revolution, progress)
+    run = _Run(angles, _STRETCH * samples_per_revolution, tolerance)
+    return _integrate(model, state, run, progress)
 
 
 def start_on_mode(machine: Machine, speed: float, amplitude: float) -> Start:
@@ -167,7 +174,7 @@ def start_on_mode(machine: Machine, speed: float, amplitude: float) -> Start:
     # The phase at which the journal's displacement is largest: (x·x) real and positive.
     scale = amplitude * np.exp(-0.5j * np.angle(np.sum(journal**2)))
     scale /= np.linalg.norm((journal * scale / abs(scale)).real)
-    rest = _resting(machine, state.film.position * machine.bearing.radial_clearance)
+    rest = resting(machine, state.film.position * machine.bearing.radial_clearance)
     return Start(
         journal=rest.journal + (scale * journal).real,
         disk=rest.disk + (scale * disk).real,
@@ -176,164 +183,39 @@ def start_on_mode(machine: Machine, speed: float, amplitude: float) -> Start:
     )
 
 
-class _Model:
-    """The equations of motion over the angle of rotation θ, in clearances.
+def last_state(motion: Transient) -> Start:
+    """Return the state in which a motion ends, for another to start from."""
+    return Start(
+        journal=motion.journal[-1],
+        disk=motion.disk[-1],
+        journal_velocity=motion.journal_velocity[-1],
+        disk_velocity=motion.disk_velocity[-1],
+    )
 
-    dq/dθ = (dq/dt)/Ω. The state holds disk position and velocity, then the journal's position where
-    the shaft bends, then its velocity where it has mass; velocities are by time, in CΩ_0.
-    """
 
-    def __init__(self, machine: Machine, first: float, last: float, *, turned: float) -> None:
-        rotor, bearing = machine.rotor, machine.bearing
-        C = bearing.radial_clearance
-        self.machine, self.C, self.turned = machine, C, turned
-        self.first, self.acceleration = first, (last**2 - first**2) / (2.0 * turned)
-        self.flexible = not rotor.is_rigid
-        self.massless = self.flexible and rotor.journal_mass == 0.0
-        self.mass = rotor.disk_mass if self.flexible else rotor.half_mass
-        # Forces in units of M C Ω_0² with M the mass they move; the film's at Ω_0.
-        unit = C * first**2
-        self.film_unit = machine.viscosity * first * bearing.radius * bearing.length**3 / C**2
-        self.film = self.film_unit / (self.mass * unit)
-        self.shaft = rotor.shaft_stiffness * C / (self.mass * unit) if self.flexible else 0.0
-        self.damper = rotor.disk_damping / (self.mass * first)
-        self.load = machine.static_load / (self.mass * unit)
-        self.imbalance = rotor.disk_mass * rotor.imbalance / (self.mass * C)
-        self.journal_ratio = self.mass / rotor.journal_mass if rotor.journal_mass > 0.0 else 0.0
-        self.force, self.velocity = film_motion(bearing)
+@dataclass(frozen=True, eq=False)
+class _Run:
+    """Angles at which to tell the state, how many of them make a stretch, and the tolerance."""
 
-    def speed(self, angle: ArrayLike) -> Array:
-        """Return the running speed at an angle of rotation [rad/s]."""
-        return np.sqrt(self.first**2 + 2.0 * self.acceleration * np.asarray(angle, dtype=float))
-
-    def time(self, angle: ArrayLike) -> Array:
-        """Return the time at an angle of rotation [s]."""
-        return 2.0 * np.asarray(angle, dtype=float) / (self.first + self.speed(angle))
-
-    def initial(self, start: Start) -> Array:
-        """Return the state vector of a start."""
-        C, unit = self.C, self.C * self.first
-        parts = [start.disk / C, start.disk_velocity / unit]
-        if self.flexible:
-            parts.append(start.journal / C)
-        if self.flexible and not self.massless:
-            parts.append(start.journal_velocity / unit)
-        return np.concatenate(parts)
-
-    def motion(self) -> Motion:
-        """Return the function of state and angle that LSODA integrates."""
-        if not self.flexible:
-            return self._rigid()
-        return self._massless() if self.massless else self._with_journal_mass()
-
-    def _drive(self) -> Callable[[float], tuple[float, float, float]]:
-        """Return imbalance force and speed ratio ν = Ω/Ω_0 over the angle."""
-        u, twice = self.imbalance, 2.0 * self.acceleration / self.first**2
-        spin = 0.5 * twice  # Ω̇/Ω_0²
-        cos, sin, sqrt = math.cos, math.sin, math.sqrt
-
-        def drive(angle: float) -> tuple[float, float, float]:
-            nu2 = 1.0 + twice * angle
-            c, s = cos(angle), sin(angle)
-            return u * (nu2 * c + spin * s), u * (nu2 * s - spin * c), sqrt(nu2)
-
-        return drive
-
-    def _rigid(self) -> Motion:
-        film, damper, load, force, drive = (
-            self.film, self.damper, self.load, self.force, self._drive(),
-        )  # fmt: skip
-
-        def motion(state: Array, angle: float) -> list[float]:
-            x, y, vx, vy = state.tolist()
-            u_x, u_y, nu = drive(angle)
-            f_x, f_y = force(x, y, vx / nu, vy / nu)
-            scale = film * nu
-            a_x = scale * f_x - damper * vx + load + u_x
-            a_y = scale * f_y - damper * vy + u_y
-            return [vx / nu, vy / nu, a_x / nu, a_y / nu]
-
-        return motion
-
-    def _massless(self) -> Motion:
-        film, shaft, damper, load, velocity, drive = (
-            self.film, self.shaft, self.damper, self.load, self.velocity, self._drive(),
-        )  # fmt: skip
-
-        def motion(state: Array, angle: float) -> list[float]:
-            X, Y, vX, vY, x, y = state.tolist()
-            u_x, u_y, nu = drive(angle)
-            s_x, s_y = shaft * (X - x), shaft * (Y - y)
-            scale = film * nu
-            vx, vy = velocity(x, y, -s_x / scale, -s_y / scale)  # already by the angle
-            a_x = -s_x - damper * vX + load + u_x
-            a_y = -s_y - damper * vY + u_y
-            return [vX / nu, vY / nu, a_x / nu, a_y / nu, vx, vy]
-
-        return motion
-
-    def _with_journal_mass(self) -> Motion:
-        film, shaft, damper, load, force, drive, ratio = (
-            self.film, self.shaft, self.damper, self.load, self.force, self._drive(),
-            self.journal_ratio,
-        )  # fmt: skip
-
-        def motion(state: Array, angle: float) -> list[float]:
-            X, Y, vX, vY, x, y, vx, vy = state.tolist()
-            u_x, u_y, nu = drive(angle)
-            s_x, s_y = shaft * (X - x), shaft * (Y - y)
-            f_x, f_y = force(x, y, vx / nu, vy / nu)
-            scale = film * nu
-            a_x = -s_x - damper * vX + load + u_x
-            a_y = -s_y - damper * vY + u_y
-            b_x, b_y = ratio * (s_x + scale * f_x), ratio * (s_y + scale * f_y)
-            return [vX / nu, vY / nu, a_x / nu, a_y / nu, vx / nu, vy / nu, b_x / nu, b_y / nu]
-
-        return motion
-
-    def transient(self, angles: Array, states: Array) -> Transient:
-        """Return states over angles as a motion with dimensions."""
-        C, unit = self.C, self.C * self.first
-        disk, disk_velocity = states[:, :2] * C, states[:, 2:4] * unit
-        journal = states[:, 4:6] * C if self.flexible else disk
-        return Transient(
-            time=self.time(angles),
-            journal=journal,
-            disk=disk,
-            journal_velocity=self._journal_velocity(angles, states) * unit,
-            disk_velocity=disk_velocity,
-            speed=self.speed(angles),
-            angle=angles,
-        )
-
-    def _journal_velocity(self, angles: Array, states: Array) -> Array:
-        if not self.flexible:
-            return states[:, 2:4]
-        if not self.massless:
-            return states[:, 6:8]
-        motion, nu = self.motion(), self.speed(angles) / self.first
-        rates = [motion(state, angle) for state, angle in zip(states, angles, strict=True)]
-        return np.array(rates)[:, 4:6] * nu[:, None]
+    angles: Array
+    stretch: int
+    tolerance: float
 
 
 def _integrate(
-    model: _Model,
-    state: Array,
-    angles: Array,
-    stretch: int,
-    progress: Callable[[float], None] | None,
+    model: Equations, state: Array, run: _Run, progress: Callable[[float], object] | None
 ) -> Transient:
     """Integrate stretch by stretch, so that progress can be told and a failure has its place."""
-    motion = model.motion()
+    motion, angles = model.motion(), run.angles
     states = np.empty((len(angles), len(state)))
     states[0] = state
-    for first in range(0, len(angles) - 1, stretch):
-        span = slice(first, min(first + stretch, len(angles) - 1) + 1)
-        rows, message = _stretch(motion, states[first], angles[span])
+    for first in range(0, len(angles) - 1, run.stretch):
+        span = slice(first, min(first + run.stretch, len(angles) - 1) + 1)
+        rows, message = _stretch(model, motion, states[first], angles[span], run.tolerance)
         states[first : first + len(rows)] = rows
         done = first + len(rows)
         if message:
-            partial = model.transient(angles[:done], states[:done])
+            partial = _transient(model, angles[:done], states[:done])
             place = partial.journal[-1] * 1e6
             raise TransientError(
                 f"{message} after {partial.time[-1]:.6g} s, with the journal at "
@@ -342,34 +224,38 @@ def _integrate(
             )
         if progress is not None:
             progress(float(angles[span][-1] / model.turned))
-    return model.transient(angles, states)
+    return _transient(model, angles, states)
 
 
-def _stretch(motion: Motion, state: Array, angles: Array) -> tuple[Array, str]:
+def _transient(model: Equations, angles: Array, states: Array) -> Transient:
+    """Return states over angles as a motion with dimensions."""
+    C, unit = model.C, model.C * model.first
+    return Transient(
+        time=model.time(angles),
+        journal=model.journal(states) * C,
+        disk=states[:, :2] * C,
+        journal_velocity=model.journal_velocity(angles, states) * unit,
+        disk_velocity=states[:, 2:4] * unit,
+        speed=model.speed(angles),
+        angle=angles,
+    )
+
+
+def _stretch(
+    model: Equations, motion: Motion, state: Array, angles: Array, tolerance: float
+) -> tuple[Array, str]:
     """Return the good states over a stretch, and what ended it early, if anything did."""
     try:
-        solved = cast(
-            "tuple[Array, dict[str, Any]]",
-            odeint(  # pyright: ignore[reportCallIssue] - it takes a list of rates as well
-                motion,  # pyright: ignore[reportArgumentType]
-                state,
-                angles,
-                rtol=_RELATIVE,
-                atol=_ABSOLUTE,
-                mxstep=_MOST_STEPS,
-                full_output=True,
-            ),
-        )
+        states, message = integrated(motion, state, angles, tolerance=tolerance)
     except ArithmeticError as error:
         return state[None, :], str(error)
-    states, report = solved
-    journal = states[:, 4:6] if states.shape[1] > 4 else states[:, :2]
+    journal = model.journal(states)
     good = np.isfinite(states).all(axis=1) & (np.hypot(journal[:, 0], journal[:, 1]) < 1.0)
     reached = int(np.argmin(good)) if not good.all() else len(states)
     if reached < len(states):
         return states[: max(reached, 1)], "the journal came too close to the wall"
-    if report["message"] != "Integration successful.":
-        return states[:1], f"the integrator gave up ({report['message']})"
+    if message:
+        return states[:1], f"the integrator gave up ({message})"
     return states, ""
 
 
@@ -392,15 +278,21 @@ def _check_length(revolutions: int, samples: int) -> None:
         )
 
 
+def _check_tolerance(tolerance: float) -> None:
+    low, high = _TOLERANCES
+    if not low <= tolerance <= high:
+        raise ValueError(f"tolerance = {tolerance}: must lie within {low:g} and {high:g}")
+
+
 def _checked_start(machine: Machine, speed: float, start: ArrayLike | Start | None) -> Start:
     C = machine.bearing.radial_clearance
     if start is None:
-        start = _resting(machine, equilibrium(machine, speed).film.position * C)
+        start = resting(machine, equilibrium(machine, speed).film.position * C)
     elif not isinstance(start, Start):
         position = np.asarray(start, dtype=float)
         if position.shape != (2,):
             raise ValueError(f"start: must be a position (X, Y), has the shape {position.shape}")
-        start = _resting(machine, position)
+        start = resting(machine, position)
     for name in ("journal", "disk", "journal_velocity", "disk_velocity"):
         value = getattr(start, name)
         if not np.all(np.isfinite(value)):
@@ -412,10 +304,3 @@ def _checked_start(machine: Machine, speed: float, start: ArrayLike | Start | No
             f"than the radial clearance, {C:.6g} m"
         )
     return start
-
-
-def _resting(machine: Machine, position: Array) -> Start:
-    """Return a state at rest, the shaft carrying its static sag."""
-    still = np.zeros(2)
-    sag = np.array([machine.static_sag, 0.0])
-    return Start(journal=position, disk=position + sag, journal_velocity=still, disk_velocity=still)

@@ -9,8 +9,9 @@ import numpy as np
 from hypothesis import strategies as st
 from scipy.optimize import linear_sum_assignment
 
-from rotorcalc import JournalBearing, Machine, Oil, Rotor
+from rotorcalc import JournalBearing, Machine, Oil, Rotor, whirl_onset
 from rotorcalc.coefficients import equilibrium
+from rotorcalc.films import short
 
 EPS = float(np.finfo(float).eps)
 RPM = math.pi / 30
@@ -31,6 +32,34 @@ SHEET = Machine(
 def with_rotor(machine=SHEET, **changes):
     """Return the machine with some of its rotor's fields changed."""
     return replace(machine, rotor=replace(machine.rotor, **changes))
+
+
+# Every kind of rotor that the equations of motion know.
+ROTORS = {
+    "rigid": replace(SHEET.rotor, shaft_stiffness=math.inf),
+    "rigid, damped": replace(SHEET.rotor, shaft_stiffness=math.inf, disk_damping=2e4),
+    "massless journals": SHEET.rotor,
+    "damped": replace(SHEET.rotor, disk_damping=2e4),
+    "journal mass": replace(SHEET.rotor, journal_mass=15.0),
+    "journal mass, damped": replace(SHEET.rotor, journal_mass=15.0, disk_damping=2e4),
+}
+C = SHEET.bearing.radial_clearance
+
+
+def balanced(rotor, imbalance=0.0):
+    """Return the sheet's machine with another rotor, by default without imbalance."""
+    return replace(SHEET, rotor=replace(rotor, imbalance=imbalance))
+
+
+def near_hopf(eps, factor, speed=600.0):
+    """Return a rigid rotor that rests at ε with p² = factor · p_s², the speed, and its rest."""
+    b = SHEET.bearing
+    sigma = float(short.modified_sommerfeld(eps))
+    load = SHEET.viscosity * speed * b.length * b.radius * (b.length / C) ** 2 / (4.0 * sigma)
+    p_s2 = float(whirl_onset(short.stiffness(eps), short.damping(eps)).critical_mass)
+    mass = factor * p_s2 * load / (C * speed**2)
+    machine = replace(SHEET, load=load, rotor=Rotor(mass=2.0 * mass))
+    return machine, speed, equilibrium(machine, speed).film.position * C
 
 
 def log_uniform(low, high):

@@ -1,7 +1,7 @@
 """The frame of every page: title, navigation, sidebar, and means to show a machine's results."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import streamlit as st
@@ -45,7 +45,8 @@ PAGES = {
     "pages/3_Stability.py": "Stability",
     "pages/4_Root_locus.py": "Root locus",
     "pages/5_Response.py": "Response",
-    "pages/6_Notes.py": "Notes",
+    "pages/6_Orbits.py": "Orbits",
+    "pages/7_Notes.py": "Notes",
 }
 
 
@@ -64,6 +65,10 @@ class Page:
             chart = with_baseline(chart, draw(self.baseline))
         show_chart(chart, key=key, alt=alt)
         st.caption(caption)
+
+    def alone(self) -> "Page":
+        """Return the page without the pinned machine, for what is too long to compute twice."""
+        return replace(self, baseline=None)
 
     def results(self, *keys: str) -> None:
         """Show results in a row, each with its equation and its change from the pinned machine."""

@@ -3,6 +3,7 @@
 It needs nothing but itself: Plotly's own bundle, as the wheel brings it, is in the file.
 """
 
+import datetime as dt
 import functools
 import importlib.resources
 import math
@@ -55,6 +56,7 @@ def report(view: View, baseline: View | None, units: Units, link: str, version: 
         verdict=escape(judged.sentence),
         body="\n".join(body),
         version=escape(version),
+        date=dt.datetime.now(dt.UTC).date().isoformat(),
         link=_anchor(link),
         plotly=_plotly(),
         charts=_script(charts),

@@ -21,7 +21,7 @@ class Result:
     """A number that pages show.
 
     `equation` is LaTeX, `number` where it stands in the notes, `filled` its right-hand side with
-    this machine's SI values, `remark` what the equation does not say.
+    this machine's SI values, `remark` what the equation does not say, `nought` a word for zero.
     """
 
     key: str
@@ -32,6 +32,7 @@ class Result:
     equation: str
     filled: Callable[[View], str]
     remark: str = ""
+    nought: str = ""
 
     def unit(self, units: Units) -> Unit:
         """Return the unit in which the result is shown."""
@@ -44,6 +45,8 @@ class Result:
             return "none"
         if math.isinf(value):
             return "no limit"
+        if value == 0.0 and self.nought:
+            return self.nought
         unit = self.unit(units)
         number = digits(float(unit.of(value)))
         return number + {"-": "", "°": "°"}.get(unit.name, f" {unit.name}")
@@ -344,18 +347,19 @@ RESULTS: dict[str, Result] = {
             "onset_speed", "Onset of whirl Ωₛ", "speed", lambda v: v.onset.speed, "Eq. 5.50",
             r"\Omega = \Omega_{sf}(\varepsilon(\Omega)) \;\Leftrightarrow\; "
             r"\max\mathrm{Re}\,\lambda = 0",
-            lambda v: _onset(v, flexible=True), _ONSET_REMARK,
+            lambda v: _onset(v, flexible=True), _ONSET_REMARK, nought="any speed",
         ),
         Result(
             "rigid_onset", "Onset if the shaft were rigid", "speed", lambda v: v.rigid_onset.speed,
             "Eq. 5.47", r"\Omega = \Omega_s(\varepsilon(\Omega)) \;\Leftrightarrow\; "
             r"\max\mathrm{Re}\,\lambda = 0",
-            lambda v: _onset(v, flexible=False), _ONSET_REMARK,
+            lambda v: _onset(v, flexible=False), _ONSET_REMARK, nought="any speed",
         ),
         Result(
             "whirl_frequency", "Whirl frequency", "speed",
             lambda v: v.onset.whirl_frequency, "Eq. 5.47", r"\omega_s = |\mathrm{Im}\,\lambda|",
             lambda v: tex(v.onset.whirl_frequency, "rad/s"), "At the onset. " + _ONSET_REMARK,
+            nought="half of any",
         ),
         Result(
             "margin", "Margin to onset", "percent", _margin, "Ωₛ/Ω − 1",

@@ -13,8 +13,14 @@ _STILL: dict[str, Any] = {
 _GREY, _CLEAR = "rgba(127,127,127,0.35)", "rgba(0,0,0,0)"
 
 
-def scrubbed(
-    chart: Chart, steps: Sequence[Sequence[Trace]], *, labels: Sequence[str], active: int, unit: str
+def scrubbed(  # noqa: PLR0913 - steps, and the words of their slider
+    chart: Chart,
+    steps: Sequence[Sequence[Trace]],
+    *,
+    labels: Sequence[str],
+    active: int,
+    unit: str,
+    prefix: str = "Slide the speed: ",
 ) -> Chart:
     """Return a chart whose last traces a slider below it moves.
 
@@ -30,6 +36,8 @@ def scrubbed(
         The step at which the slider begins.
     unit : str
         The unit of the labels.
+    prefix : str
+        Words before the label of the step shown.
 
     Returns
     -------
@@ -44,18 +52,53 @@ def scrubbed(
     return {
         **chart,
         "frames": frames,
-        "layout": {**chart["layout"], "sliders": [_slider(labels, active, unit)]},
+        "layout": {**chart["layout"], "sliders": [_slider(labels, active, unit, prefix)]},
     }
 
 
-def _slider(labels: Sequence[str], active: int, unit: str) -> dict[str, Any]:
+def playable(chart: Chart, *, step: int, y: float) -> Chart:
+    """Return a scrubbed chart with buttons that play it and stop it.
+
+    Parameters
+    ----------
+    chart : Chart
+        A chart with frames.
+    step : int
+        Time that each frame stands [ms].
+    y : float
+        Top of the buttons in fractions of the plot, negative below it.
+
+    Returns
+    -------
+    Chart
+        The chart with its buttons.
+    """
+    run = {
+        "frame": {"duration": step, "redraw": False},
+        "transition": {"duration": 0},
+        "fromcurrent": True,
+        "mode": "immediate",
+    }
+    menu = {
+        "type": "buttons", "direction": "left", "showactive": False,
+        "x": 0.0, "xanchor": "left", "y": y, "yanchor": "top", "pad": {"r": 6, "t": 6},
+        "bgcolor": _GREY, "bordercolor": _GREY,
+        "buttons": [
+            {"label": "▶ Play", "method": "animate", "args": [None, run]},
+            {"label": "❚❚ Stop", "method": "animate", "args": [[None], _STILL]},
+        ],
+    }  # fmt: skip
+    return {**chart, "layout": {**chart["layout"], "updatemenus": [menu]}}
+
+
+def _slider(labels: Sequence[str], active: int, unit: str, prefix: str) -> dict[str, Any]:
     return {
         "active": active,
         "steps": [
             {"method": "animate", "label": label, "args": [[str(i)], _STILL]}
             for i, label in enumerate(labels)
         ],
-        "currentvalue": {"prefix": "Slide the speed: ", "suffix": f" {unit}", "xanchor": "left"},
+        "currentvalue": {"prefix": prefix, "suffix": f" {unit}", "xanchor": "left"},
         "pad": {"t": 66, "b": 4, "l": 0, "r": 0},
         "len": 1.0,
         "bgcolor": _GREY,

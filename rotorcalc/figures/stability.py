@@ -413,8 +413,9 @@ def _box(**place: Any) -> Item:
 
 def _beyond(words: str, value: float, y: Axis) -> Item:
     """Return a note on the running speed's point where the chart cannot show it."""
-    if value > _high(y) and math.isfinite(value):
-        words = f"running speed: {value:.3g}, above the axis"
+    if math.isfinite(value):
+        side = "above" if value > _high(y) else "below"
+        words = f"running speed: {value:.3g}, {side} the axis"
     return style.note(words, 0.98, 0.88, xanchor="right")
 
 

@@ -1,8 +1,9 @@
 """Film models: where the journal sits, and how the film holds it.
 
-A film model is a module with three functions, which answer for whole arrays: `state(bearing,
+A film model is a module with four functions, which answer for whole arrays: `state(bearing,
 sommerfeld)` with a `FilmState`, `field(bearing, sommerfeld, angle=..., zeta=...)` with a
-`FilmField`, and `inertia(bearing, sommerfeld)` with the film's added mass. A bearing names its
+`FilmField`, `inertia(bearing, sommerfeld)` with the film's added mass, and `gap(position)` with the
+thinnest film around a journal that is not in equilibrium. A bearing names its
 model in its field `film`.
 """
 
@@ -20,6 +21,7 @@ __all__ = [
     "FilmField",
     "FilmState",
     "film_added_mass",
+    "film_gap",
     "film_motion",
     "film_pressure",
     "film_state",
@@ -34,12 +36,20 @@ class _FilmModel(Protocol):
         self, bearing: JournalBearing, sommerfeld: ArrayLike, *, angle: ArrayLike, zeta: ArrayLike
     ) -> FilmField: ...
 
+    def gap(self, position: ArrayLike) -> Array: ...
+
     def inertia(self, bearing: JournalBearing, sommerfeld: ArrayLike) -> Array: ...
+
+
+class _Velocity(Protocol):
+    def __call__(
+        self, x: float, y: float, f_x: float, f_y: float, near: tuple[float, float] = ...
+    ) -> tuple[float, float]: ...
 
 
 # Force from position and velocity, velocity from position and force, point by point.
 _Kernel: TypeAlias = Callable[[float, float, float, float], tuple[float, float]]
-_MOTIONS: dict[str, tuple[_Kernel, _Kernel]] = {
+_MOTIONS: dict[str, tuple[_Kernel, _Velocity]] = {
     "short": (short_motion.force, short_motion.velocity)
 }
 _MODELS: dict[str, _FilmModel] = {"short": short}
@@ -121,7 +131,25 @@ def film_added_mass(bearing: JournalBearing, sommerfeld: ArrayLike) -> Array:
     return _MODELS[bearing.film].inertia(bearing, sommerfeld)
 
 
-def film_motion(bearing: JournalBearing) -> tuple[_Kernel, _Kernel]:
+def film_gap(bearing: JournalBearing, position: ArrayLike) -> Array:
+    """Return the thinnest film around a journal wherever it is, by the bearing's own film model.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing.
+    position : array_like, (..., 2)
+        Journal centre in X, Y from the bearing's centre, in C.
+
+    Returns
+    -------
+    array, (...)
+        Smallest film thickness, in C.
+    """
+    return _MODELS[bearing.film].gap(position)
+
+
+def film_motion(bearing: JournalBearing) -> tuple[_Kernel, _Velocity]:
     """Return the nonlinear film of a moving journal, by the bearing's own film model.
 
     Parameters
@@ -133,6 +161,7 @@ def film_motion(bearing: JournalBearing) -> tuple[_Kernel, _Kernel]:
     -------
     force, velocity : callables
         Of plain floats: force (f_x, f_y) from (x, y, x', y'), and velocity (x', y') from
-        (x, y, f_x, f_y); position in C, velocity in CΩ, force in μΩRL³/C².
+        (x, y, f_x, f_y), and if need be a velocity to begin the search at; position in C, velocity
+        in CΩ, force in μΩRL³/C².
     """
     return _MOTIONS[bearing.film]

@@ -112,6 +112,23 @@ def field(
     )
 
 
+def gap(position: ArrayLike) -> Array:
+    """Return the thinnest film around a journal wherever it is, 1 − ε (Eq. 5.19).
+
+    Parameters
+    ----------
+    position : array_like, (..., 2)
+        Journal centre in X, Y from the bearing's centre, in C.
+
+    Returns
+    -------
+    array, (...)
+        Smallest film thickness, in C.
+    """
+    place = np.asarray(position, dtype=float)
+    return 1.0 - np.hypot(place[..., 0], place[..., 1])
+
+
 def modified_sommerfeld(eps: ArrayLike) -> Array:
     """Return the modified Sommerfeld number at which the journal sits at ε (Eq. 5.8).
 

@@ -18,6 +18,8 @@ _SERIES = tuple(range(2, 16))
 _SLACK = 0.2
 _MOST_ITERATIONS = 120
 _TOLERANCE = 4e-15
+# After a step of Newton's as short as this, the next one would be a rounding error.
+_LAST_STEP = 3e-8
 
 
 def force(x: float, y: float, dx: float, dy: float) -> tuple[float, float]:
@@ -44,7 +46,9 @@ def force(x: float, y: float, dx: float, dy: float) -> tuple[float, float]:
     return V * (g_a * cos - g_b * sin), V * (g_a * sin + g_b * cos)
 
 
-def velocity(x: float, y: float, f_x: float, f_y: float) -> tuple[float, float]:
+def velocity(
+    x: float, y: float, f_x: float, f_y: float, near: tuple[float, float] = (0.0, 0.0)
+) -> tuple[float, float]:
     """Return the velocity at which the film's force on the journal is the given one.
 
     Parameters
@@ -53,6 +57,8 @@ def velocity(x: float, y: float, f_x: float, f_y: float) -> tuple[float, float]:
         Journal centre from the bearing's centre, in C.
     f_x, f_y : float
         Force of the film in X and Y, in μΩRL³/C².
+    near : (float, float)
+        A velocity at which the search begins, in CΩ; the nearer the sooner it ends.
 
     Returns
     -------
@@ -75,18 +81,20 @@ def velocity(x: float, y: float, f_x: float, f_y: float) -> tuple[float, float]:
         return -0.5 * y, 0.5 * x
     kappa2, towards = _kappa2(x, y), math.atan2(f_y, f_x)
     low, high = towards - math.pi, towards
-    alpha = towards - 0.5 * math.pi
+    alpha = towards - (towards - math.atan2(near[0] + 0.5 * y, 0.5 * x - near[1])) % math.pi
     last = math.pi
     for _ in range(_MOST_ITERATIONS):
         cos, sin = math.cos(alpha), math.sin(alpha)
         a, b = x * cos + y * sin, -x * sin + y * cos
-        g_a, g_b = _impedance(a, b, kappa2)
+        g_a, g_b, slope_a, slope_b = _impedance_and_slope(a, b, kappa2)
+        size2 = g_a * g_a + g_b * g_b
         error = alpha + math.atan2(g_b, g_a) - towards
-        step = -error / _slope(a, b, kappa2, g_a, g_b)
+        step = -error / (1.0 + (g_a * slope_b - g_b * slope_a) / size2)
         low, high = (low, alpha) if error > 0.0 else (alpha, high)
-        if abs(step) <= _TOLERANCE or high - low <= _TOLERANCE:
-            V = size / math.hypot(g_a, g_b)
-            return V * sin - 0.5 * y, -V * cos + 0.5 * x
+        if abs(step) <= _LAST_STEP or high - low <= _TOLERANCE:
+            alpha += step
+            V = size / math.hypot(g_a + step * slope_a, g_b + step * slope_b)
+            return V * math.sin(alpha) - 0.5 * y, -V * math.cos(alpha) + 0.5 * x
         if not low < alpha + step < high or abs(step) > 0.5 * last:
             step = 0.5 * (low + high) - alpha
         alpha, last = alpha + step, abs(step)
@@ -113,13 +121,17 @@ def _impedance(a: float, b: float, kappa2: float) -> tuple[float, float]:
     return g_a, g_b
 
 
-def _slope(a: float, b: float, kappa2: float, g_a: float, g_b: float) -> float:
-    """Return the derivative of α + arg(g_a + j g_b) by α, where da/dα = b and db/dα = −a."""
-    kappa, wide = math.sqrt(kappa2), kappa2 + b * b  # wide = 1 − a²
+def _impedance_and_slope(a: float, b: float, kappa2: float) -> tuple[float, float, float, float]:
+    """Return g_a and g_b, and their derivatives by α, where da/dα = b and db/dα = −a."""
+    kappa, b2 = math.sqrt(kappa2), b * b
+    wide = kappa2 + b2  # 1 − a²
     G = 2.0 / kappa * math.atan2(kappa, b)
-    dG = 2.0 * a / wide
-    bracket = 3.0 * b * G - 4.0 - 2.0 * b * b / wide
-    d_bracket = -3.0 * a * G + 3.0 * b * dG + 4.0 * a * b / wide - 4.0 * a * b**3 / wide**2
-    dg_a = 0.5 * (b * bracket + a * d_bracket) / kappa2**2
-    dg_b = 0.5 * (dG / kappa2 + 3.0 * (-a * (b * G - 2.0) + b * (b * dG - a * G)) / kappa2**2)
-    return 1.0 + (g_a * dg_b - g_b * dg_a) / (g_a * g_a + g_b * g_b)
+    ratio, slack, half = a / wide, b * G - 2.0, 0.5 / (kappa2 * kappa2)
+    bracket = 3.0 * b * G - 4.0 - 2.0 * b2 / wide
+    d_slack = 2.0 * b * ratio - a * G
+    d_bracket = 3.0 * d_slack + 4.0 * b * ratio * (1.0 - b2 / wide)
+    d_g_a = half * (b * bracket + a * d_bracket)
+    d_g_b = half * (2.0 * ratio * kappa2 + 3.0 * (b * d_slack - a * slack))
+    if b > 0.0 and kappa < _SLACK * b:
+        return *_impedance(a, b, kappa2), d_g_a, d_g_b
+    return half * a * bracket, half * (G * kappa2 + 3.0 * b * slack), d_g_a, d_g_b

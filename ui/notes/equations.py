@@ -187,4 +187,19 @@ EQUATIONS: dict[str, tuple[Equation, ...]] = {
             ("response.orbit_ellipse",), "Response",
         ),
     ),
+    "Nonlinear motion": (
+        Equation(
+            "5.1", "Rotor on the film's full force, imbalance forward",
+            r"M\begin{bmatrix}\ddot X\\\ddot Y\end{bmatrix} = "
+            r"\mathbf F(X,Y,\dot X,\dot Y)+\begin{bmatrix}F_o\\0\end{bmatrix}"
+            r"+Mu\Omega^2\begin{bmatrix}\cos\Omega t\\\sin\Omega t\end{bmatrix}",
+            ("films.short.film_force", "transient.simulate", "energy.energy_balance"), "Orbits",
+        ),
+        Equation(
+            "Beyond the notes", "Size a of the whirl near its onset",
+            r"\dot a = (\mathrm{Re}\,\lambda)\,a+\ell\left(\frac aC\right)^2 a,\qquad "
+            r"\ell>0\ \text{below}\ \varepsilon = 0.1411\ \text{(rigid rotor)}",
+            ("normal_form.hopf", "cycles.bifurcation"), "Orbits",
+        ),
+    ),
 }  # fmt: skip

@@ -1,0 +1,441 @@
+"""Charts of nonlinear orbits: a released journal, its spectrum, a run-up, and the limit cycles.
+
+In the plane X, along the load, points down and Y to the right, so the shaft turns anticlockwise.
+The linear theory is always drawn in purple, broken.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rotorcalc.cycles import Bifurcation
+from rotorcalc.figures import plane, style, text
+from rotorcalc.figures.scrub import playable, scrubbed
+from rotorcalc.figures.style import Axis, Chart, Trace, titled
+from rotorcalc.figures.units import Unit, Units
+from rotorcalc.onset_check import Onsets
+from rotorcalc.release import Release
+from rotorcalc.signals import Waterfall
+from rotorcalc.typing import Array
+
+LINEAR = style.PURPLE
+UP, DOWN = style.GREEN, style.OCHRE
+_PLANE_HEIGHT = 680
+# Frames of an animation at most, points of a trail, revolutions that it reaches back.
+_FRAMES, _TRAIL, _REACH = 150, 64, 2.0
+# Points of a line over time that a screen can tell apart.
+_MOST_POINTS = 6000
+_MARGIN = {"l": 64, "r": 16, "t": 16, "b": 96}
+_LEGEND = {"orientation": "h", "x": 0, "yref": "container", "y": 0, "yanchor": "bottom"}
+
+
+@dataclass(frozen=True, eq=False)
+class GrowthCurve:
+    """Growth rates of the whirl over speed, by the eigenvalues and as measured in time.
+
+    Attributes
+    ----------
+    speed, rate : array, (n,)
+        Ω [rad/s], and the largest Re λ of the linear theory [1/s].
+    measured_speed, measured : array, (m,)
+        Ω [rad/s], and the growth rate measured there [1/s].
+    running_speed, running_rate : float
+        Ω [rad/s], and the linear theory's rate there [1/s].
+    """
+
+    speed: Array
+    rate: Array
+    measured_speed: Array
+    measured: Array
+    running_speed: float
+    running_rate: float
+
+
+@dataclass(frozen=True, eq=False)
+class RunUp:
+    """A run-up's spectra, with the linear theory's whirl and speeds to mark on them.
+
+    Attributes
+    ----------
+    seen : Waterfall
+        The spectra.
+    whirl_order : array, (m,)
+        Order of the least damped whirl at the spectra's speeds by the linear theory [-].
+    onset, running_speed : float
+        [rad/s].
+    """
+
+    seen: Waterfall
+    whirl_order: Array
+    onset: float
+    running_speed: float
+
+
+def orbit(let_go: Release, units: Units) -> Chart:
+    """Return the journal's path in the clearance circle, to play and to scrub."""
+    unit, C = units.film, float(units.film.of(let_go.clearance))
+    x, y = _plane_axes(1.06 * C, unit)
+    steps, labels = _steps(let_go, unit)
+    rest = unit.of(let_go.rest)
+    still = [
+        _ring(C),
+        _path(let_go.motion.journal, unit, "whole path", style.GREY, width=0.8, opacity=0.6),
+        *_steady(let_go, unit),
+        {
+            **style.mark(rest[1], rest[0], "rest", style.GREY),
+            "marker": {"size": 7, "color": style.GREY, "symbol": "x"},
+        },
+    ]
+    chart = plane.chart(
+        [*still, *steps[-1]], x, y, height=_PLANE_HEIGHT, showlegend=True,
+        margin={"l": 64, "r": 16, "t": 56, "b": 184},
+    )  # fmt: skip
+    chart = scrubbed(
+        chart, [[_change(trace) for trace in step] for step in steps],
+        labels=labels, active=len(labels) - 1, unit="", prefix="Revolution ",
+    )  # fmt: skip
+    return _placed(playable(chart, step=60, y=-0.33))
+
+
+def over_time(let_go: Release, units: Units) -> Chart:
+    """Return X and Y of the journal over revolutions, and the linear theory's."""
+    unit, at = units.film, _thin(let_go.revolutions)
+    C, last = float(unit.of(let_go.clearance)), float(let_go.revolutions[-1])
+    x = style.axis("Revolutions since the release [-]", 0.0, last, anchor="y2")
+    y = style.axis(f"X [{unit.name}]", -C, C, domain=style.UPPER)
+    y2 = style.axis(f"Y [{unit.name}]", -C, C, domain=style.LOWER)
+    motion, linear = unit.of(_thin(let_go.motion.journal)), unit.of(_thin(let_go.linear))
+    panes = [
+        [
+            style.line(at, motion[:, i], "journal", style.JOURNAL, width=1.4, showlegend=i == 0),
+            style.line(at, linear[:, i], "linear theory", LINEAR, width=1.2, dash="dot",
+                       showlegend=i == 0),
+            style.mark(last, motion[-1, i], "now", showlegend=False),
+        ]
+        for i in (0, 1)
+    ]  # fmt: skip
+    return style.chart(
+        [*panes[0], *style.lower(panes[1])], x, y, yaxis2=y2,
+        height=_PLANE_HEIGHT, margin=_MARGIN, legend=_LEGEND,
+    )  # fmt: skip
+
+
+def film(let_go: Release, units: Units) -> Chart:
+    """Return the thinnest film over revolutions, and its least."""
+    unit, thickness = units.film, let_go.film
+    place = int(np.argmin(thickness))
+    x = style.axis("Revolutions since the release [-]", 0.0, float(let_go.revolutions[-1]))
+    y = style.axis(titled("Thinnest film", "h", unit.name), 0.0, float(unit.of(let_go.clearance)))
+    least = f"least, {text.amount(unit, thickness[place])}"
+    traces = [
+        style.line(_thin(let_go.revolutions), unit.of(_thin(thickness)), "thinnest film",
+                   style.JOURNAL, width=1.4),
+        style.mark(let_go.revolutions[place], unit.of(thickness[place]), least),
+    ]  # fmt: skip
+    return style.chart(traces, x, y, margin=_MARGIN, legend=_LEGEND)
+
+
+def growth(let_go: Release, units: Units) -> Chart:
+    """Return the distance from rest over revolutions, with the linear theory's growth or decay."""
+    unit, (at, size) = units.film, let_go.peaks
+    C = float(unit.of(let_go.clearance))
+    shown, predicted = unit.of(size), unit.of(let_go.predicted_peaks)
+    floor = max(min(float(shown[shown > 0.0].min(initial=C)), C / 10.0), C * 1e-6)
+    y = style.axis(
+        f"Largest distance from rest [{unit.name}]",
+        0.8 * floor,
+        2.0 * C,
+        log=True,
+        dtick="D2" if floor > 1e-3 * C else 1,
+    )
+    x = style.axis("Revolutions since the release [-]", 0.0, float(let_go.revolutions[-1]))
+    inside = np.where((predicted < 2.0 * C) & (predicted > 0.5 * floor), predicted, np.nan)
+    traces = [
+        style.line(at, np.where(shown > 0.0, shown, np.nan), "journal", style.JOURNAL),
+        style.line(at, inside, "linear theory, e^(Re λ t)", LINEAR, dash="dash"),
+        style.mark(at[-1], max(float(shown[-1]), 0.8 * floor), "now"),
+    ]
+    return style.chart(traces, x, y, margin=_MARGIN, legend=_LEGEND)
+
+
+def spectrum(let_go: Release, units: Units) -> Chart:
+    """Return the spectrum of the journal's motion over orders of the running speed."""
+    unit, seen = units.film, let_go.spectrum
+    x = style.axis("Frequency over running speed, order [-]", -1.5, 2.5, dtick=0.5)
+    lines = [seen.whirl, seen.synchronous]
+    top = style.ceiling(1.1 * unit.of([*lines, float(seen.amplitude.max())]))
+    y = style.axis(f"Radius of the circle [{unit.name}]", 0.0, top)
+    speed = float(let_go.motion.speed[0])
+    traces = [
+        style.line(seen.order, unit.of(seen.amplitude), "journal", style.JOURNAL, width=1.6),
+        style.mark(1.0, unit.of(seen.synchronous), "1×, imbalance"),
+    ]
+    if seen.whirl > 0.0:
+        name = f"whirl, {seen.whirl_ratio:.4f}×"
+        traces.append(style.mark(seen.whirl_ratio, unit.of(seen.whirl), name, style.UNSTABLE))
+    if np.isfinite(let_go.whirl.imag):
+        at = let_go.whirl.imag / speed
+        name = f"linear theory's whirl, {at:.4f}×"
+        traces.append(style.line([at, at], [0.0, top], name, LINEAR, dash="dash", width=1.6))
+    return style.chart(
+        traces, x, y, shapes=_guides(), annotations=_guide_names(), height=460,
+        margin={**_MARGIN, "t": 40}, legend=_LEGEND,
+    )  # fmt: skip
+
+
+def once_a_revolution(let_go: Release, units: Units) -> Chart:
+    """Return where the journal is once a revolution, over the last quarter in strong colour."""
+    unit = units.film
+    reach = 1.06 * float(unit.of(let_go.clearance))
+    x, y = _plane_axes(reach, unit)
+    points = unit.of(let_go.points)
+    late = points[-max(len(points) // 4, 4) :]
+    dots: dict[str, Any] = {"mode": "markers", "marker": {"size": 4, "color": style.GREY}}
+    traces: list[Trace] = [
+        _ring(float(unit.of(let_go.clearance))),
+        {**style.line(points[:, 1], points[:, 0], "all", style.GREY), **dots},
+        style.mark(late[:, 1], late[:, 0], "last quarter"),
+    ]
+    traces[-1]["marker"] = {**traces[-1]["marker"], "size": 7}
+    return plane.chart(
+        traces, x, y, height=460, showlegend=True, margin=_MARGIN, legend=_LEGEND
+    )  # fmt: skip
+
+
+def waterfall(run: RunUp, units: Units) -> Chart:
+    """Return the spectra of a run-up over orders and speed, the linear theory's whirl on them."""
+    unit, seen = units.film, run.seen
+    speed = units.speed.of(seen.speed)
+    x = style.axis("Frequency over running speed, order [-]", 0.0, 1.5, dtick=0.25)
+    y = style.axis(titled("Running speed", "Ω", units.speed.name), speed.min(), speed.max())
+    title = f"Radius of the circle [{unit.name}]"
+    top = float(np.quantile(unit.of(seen.amplitude), 0.9995))
+    heat: Trace = {
+        "type": "heatmap", "name": "spectrum", "x": seen.order, "y": speed,
+        "z": unit.of(seen.amplitude).astype(np.float32), "zmin": 0.0, "zmax": style.ceiling(top),
+        "colorscale": "Cividis",
+        "colorbar": {"title": {"text": title, "side": "right"}, "thickness": 14, "outlinewidth": 0},
+        "hovertemplate": f"%{{x:.3f}}×, %{{y:.0f}} {units.speed.name}<br>%{{z:.3g}} {unit.name}"
+        "<extra></extra>",
+    }  # fmt: skip
+    traces = [
+        heat,
+        style.line(run.whirl_order, speed, "linear theory's whirl", LINEAR, dash="dash", width=3),
+    ]
+    traces.append(_across(run.onset, "onset", style.UNSTABLE, units, y))
+    traces.append(_across(run.running_speed, "running speed", style.HERE, units, y))
+    return style.chart(
+        traces, x, y, shapes=_guides(), annotations=_guide_names(), height=560,
+        margin={**_MARGIN, "t": 40}, legend=_LEGEND,
+    )  # fmt: skip
+
+
+def cycles(
+    branch: Bifurcation, swept: tuple[Array, Array, Array], running_speed: float, units: Units
+) -> Chart:
+    """Return the limit cycles over speed, stable solid and unstable broken, with two sweeps.
+
+    `swept` holds rising speeds [rad/s] and the amplitudes of creeping up and down [m].
+    """
+    C, onset = branch.hopf.clearance, float(units.speed.of(branch.hopf.speed))
+    at = units.speed.of(np.append(branch.hopf.speed, branch.speed))
+    size = np.append(0.0, branch.amplitude) / C
+    low, high = float(at.min()), float(at.max())
+    room = 0.12 * (high - low)
+    here = float(units.speed.of(running_speed))
+    ends = min(low - room, 0.97 * onset), max(high, 1.03 * onset)
+    x = style.axis(titled("Running speed", "Ω", units.speed.name), *ends)
+    y = style.axis("Largest distance from rest, a/C [-]", 0.0, _top(size))
+    traces = [
+        *_branch_lines(at, size, branch),
+        style.line([ends[0], onset], [0.0, 0.0], "rest, stable", style.JOURNAL, width=3.2,
+                   showlegend=False, cliponaxis=False),
+        style.line([onset, ends[1]], [0.0, 0.0], "rest, unstable", style.JOURNAL, dash="dot",
+                   showlegend=False, cliponaxis=False),
+        *_sweeps(swept, C, units),
+        style.mark(onset, 0.0, f"onset, {onset:.0f} {units.speed.name}", style.UNSTABLE),
+        *_folds(branch, units),
+    ]  # fmt: skip
+    if ends[0] <= here <= ends[1]:
+        traces += _here_line(here, y)
+        amplitudes, _ = branch.at(running_speed)
+        traces.append(style.mark(np.full(len(amplitudes) + 1, here),
+                                 np.append(0.0, amplitudes / C), "running speed"))  # fmt: skip
+    else:
+        edge = ends[0] if here < ends[0] else ends[1]
+        traces.append(style.mark(edge, 0.0, "running speed, outside"))
+    return style.chart(traces, x, y, height=560, margin=_MARGIN, legend=_LEGEND)
+
+
+def onset_growth(found: Onsets, curve: GrowthCurve, units: Units) -> Chart:
+    """Return growth rates over speed, by eigenvalues and as measured, with the three onsets."""
+    x = style.axis(
+        titled("Running speed", "Ω", units.speed.name),
+        *(float(value) for value in units.speed.of(curve.speed[[0, -1]])),
+    )
+    rates = np.concatenate([curve.rate, curve.measured[np.isfinite(curve.measured)]])
+    reach = style.ceiling(np.abs(rates))
+    y = style.axis(titled("Growth rate", "", units.growth.name), -reach, reach)
+    zero = float(units.speed.of(found.eigenvalues))
+    traces = [
+        style.line(x["range"], [0.0, 0.0], "neither grows nor dies", style.GREY, width=1.2,
+                   showlegend=False),
+        style.line(units.speed.of(curve.speed), curve.rate, "eigenvalues, max Re λ", LINEAR,
+                   dash="dash"),
+        {**style.mark(units.speed.of(curve.measured_speed), curve.measured, "measured in time",
+                      style.JOURNAL), "mode": "markers"},
+        style.mark(zero, 0.0, f"onset, {zero:.0f} {units.speed.name}", style.UNSTABLE),
+    ]  # fmt: skip
+    here = float(units.speed.of(curve.running_speed))
+    inside = x["range"][0] <= here <= x["range"][1] and abs(curve.running_rate) <= reach
+    place = [[here, curve.running_rate]] if inside else np.empty((0, 2))
+    at, rate = np.asarray(place, dtype=float).T
+    name = "running speed" if inside else "running speed: outside"
+    return style.chart(
+        [*traces, style.mark(at, rate, name)], x, y, height=460, margin=_MARGIN, legend=_LEGEND
+    )
+
+
+# --- The plane --------------------------------------------------------------------------------
+
+
+def _plane_axes(reach: float, unit: Unit) -> tuple[Axis, Axis]:
+    x = style.axis(titled("Y", "", unit.name), -reach, reach)
+    return x, style.axis(f"X, along the load [{unit.name}]", reach, -reach)
+
+
+def _ring(C: float) -> Trace:
+    angle = np.linspace(0.0, 2.0 * np.pi, 181)
+    circle = C * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    return plane.line(circle, "clearance", style.GREY, width=1.8, showlegend=False)
+
+
+def _path(points: Array, unit: Unit, name: str, colour: str, **extra: Any) -> Trace:
+    return plane.line(unit.of(_thin(points)), name, colour, **extra)
+
+
+def _steady(let_go: Release, unit: Unit) -> list[Trace]:
+    """Return the linear theory's synchronous orbit, where there is one and it stays."""
+    if let_go.whirl.real >= 0.0 or not np.ptp(let_go.ellipse):
+        return []
+    name = "linear theory, steady"
+    return [plane.line(unit.of(let_go.ellipse), name, LINEAR, dash="dot", width=1.6)]
+
+
+def _steps(let_go: Release, unit: Unit) -> tuple[list[list[Trace]], list[str]]:
+    """Return the moving traces at each step of the animation, and the steps' labels."""
+    n = len(let_go.motion.time)
+    per_revolution = (n - 1) / float(let_go.revolutions[-1])
+    ends = np.unique(np.linspace(0, n - 1, min(_FRAMES, n)).astype(int))
+    back = np.linspace(_REACH * per_revolution, 0.0, _TRAIL)
+    journal, linear = unit.of(let_go.motion.journal), unit.of(let_go.linear)
+    steps: list[list[Trace]] = []
+    for end in ends:
+        at = np.unique(np.maximum(end - back, 0.0).astype(int))
+        steps.append([
+            plane.line(linear[at], "linear theory", LINEAR, dash="dash", width=1.6),
+            style.mark(linear[end, 1], linear[end, 0], "linear journal", LINEAR,
+                       showlegend=False, opacity=0.8),
+            plane.line(journal[at], "journal", style.JOURNAL, width=2.6),
+            style.mark(journal[end, 1], journal[end, 0], "now"),
+        ])  # fmt: skip
+    return steps, [f"{let_go.revolutions[end]:.1f}" for end in ends]
+
+
+def _change(trace: Trace) -> Trace:
+    """Return what of a trace moves; half the digits are enough for a screen."""
+    return {axis: np.asarray(trace[axis], dtype=np.float32) for axis in ("x", "y")}
+
+
+def _placed(chart: Chart) -> Chart:
+    """Return a chart with its slider right of the buttons, below the plot."""
+    (slider,) = chart["layout"]["sliders"]
+    moved = {**slider, "x": 0.0, "len": 1.0, "y": -0.11, "yanchor": "top", "pad": {"t": 6}}
+    return {**chart, "layout": {**chart["layout"], "sliders": [moved]}}
+
+
+# --- Over orders and speed --------------------------------------------------------------------
+
+
+def _thin(values: Array) -> Array:
+    """Return every so manieth value, no more than a screen can show."""
+    return values[:: max(1, len(values) // _MOST_POINTS)]
+
+
+def _guides() -> list[dict[str, Any]]:
+    return [
+        {"type": "line", "x0": order, "x1": order, "y0": 0, "y1": 1, "yref": "paper",
+         "line": {"color": style.GREY, "width": 1.4, "dash": "dot"}}
+        for order in (0.5, 1.0)
+    ]  # fmt: skip
+
+
+def _guide_names() -> list[dict[str, Any]]:
+    return [
+        {"text": name, "x": order, "y": 1.0, "yref": "paper", "yanchor": "bottom",
+         "showarrow": False}
+        for order, name in ((0.5, "½×"), (1.0, "1×"))
+    ]  # fmt: skip
+
+
+def _across(speed: float, name: str, colour: str, units: Units, y: Axis) -> Trace:
+    """Return a line across the orders at a speed, where that is within the axis."""
+    at = float(units.speed.of(speed))
+    inside = y["range"][0] <= at <= y["range"][1]
+    words = f"{name}, {at:.0f} {units.speed.name}" if inside else f"{name}: outside"
+    ends = np.array([0.0, 1.5] if inside else np.empty(0))
+    return style.line(ends, np.full(len(ends), at), words, colour, width=2.0)
+
+
+def _top(size: Array) -> float:
+    return max(1.0, 1.08 * float(size.max()))
+
+
+def _branch_lines(at: Array, size: Array, branch: Bifurcation) -> list[Trace]:
+    """Return the branch in two lines that meet, stable solid and unstable broken."""
+    stable = np.append(branch.stable[0], branch.stable)
+    unstable = ~stable
+    joint = unstable.copy()
+    joint[:-1] |= unstable[1:]
+    joint[1:] |= unstable[:-1]
+    hover = "%{x:.0f}, a/C = %{y:.3f}<extra>%{fullData.name}</extra>"
+    lines: list[Trace] = []
+    if stable.any():
+        lines.append(
+            style.line(at, np.where(stable, size, np.nan), "limit cycle, stable", style.JOURNAL,
+                       width=3.2, hovertemplate=hover)
+        )  # fmt: skip
+    if unstable.any():
+        lines.append(
+            style.line(at, np.where(joint, size, np.nan), "limit cycle, unstable", style.UNSTABLE,
+                       dash="dash", hovertemplate=hover)
+        )  # fmt: skip
+    # Cycles are few; the eye wants the smooth curve on which they lie.
+    return [{**line, "line": {**line["line"], "shape": "spline"}} for line in lines]
+
+
+def _sweeps(swept: tuple[Array, Array, Array], C: float, units: Units) -> list[Trace]:
+    speed, up, down = swept
+    at = units.speed.of(speed)
+    return [
+        style.line(at, up / C, "creeping up ▸", UP, width=1.6, dash="dot"),
+        style.line(at, down / C, "creeping down ◂", DOWN, width=1.6, dash="dot"),
+    ]
+
+
+def _folds(branch: Bifurcation, units: Units) -> list[Trace]:
+    folds = branch.folds
+    if not len(folds):
+        return []
+    sizes = branch.fold_amplitudes / branch.hopf.clearance
+    words = ", ".join(f"{speed:.0f}" for speed in units.speed.of(folds))
+    name = f"{'fold' if len(folds) == 1 else 'folds'}, {words} {units.speed.name}"
+    return [style.mark(units.speed.of(folds), sizes, name, style.PURPLE)]
+
+
+def _here_line(here: float, y: Axis) -> list[Trace]:
+    ends: ArrayLike = y["range"]
+    guide = style.line([here, here], ends, "running speed", style.GREY, dash="dash", width=1.2)
+    return [{**guide, "showlegend": False, "hoverinfo": "skip"}]

@@ -1,0 +1,122 @@
+"""The orbits page: demonstrations, refusals, long work on demand, words for what happened."""
+
+import re
+
+import pytest
+from streamlit.testing.v1 import AppTest
+
+from tests.app.session import charts, faults, kept, open_part, visit
+
+ORBITS = "pages/6_Orbits.py"
+
+
+def said(at: AppTest) -> str:
+    return " ".join(box.value for box in (*at.success, *at.info, *at.warning, *at.error))
+
+
+def press(at: AppTest, key: str) -> None:
+    at.button(key=key).click().run()
+    assert faults(at) == []
+
+
+@pytest.mark.parametrize(
+    ("demo", "words"),
+    [
+        ("below", "comes to rest|still dying"),
+        ("above", "whirls at 0.5.. of the running speed.*unstable"),
+        ("small", "still dying|comes to rest"),
+        ("big", "up to 0.86. C.*stable.*too large"),
+    ],
+)
+def test_demonstrations_set_up_machine_and_kick(demo: str, words: str) -> None:
+    at = visit(ORBITS)
+    press(at, f"orbits_{demo}")
+    assert kept(at).values["u"] == 0.0
+    assert re.search(words, said(at)), said(at)
+    assert set(charts(at)) == {"chart_orbits_path", "chart_orbits_time"}
+
+
+def test_onset_demonstrations_keep_the_machine_and_need_an_onset() -> None:
+    at = visit(ORBITS, C="80")
+    press(at, "orbits_above")
+    assert kept(at).values["C"] == 80.0
+    assert kept(at).values["rpm"] == pytest.approx(1.05 * 7000, rel=0.3)
+    at = visit(ORBITS, cs="100000")
+    assert at.button(key="orbits_below").disabled
+    assert not at.button(key="orbits_big").disabled
+
+
+def test_a_kick_out_of_the_clearance_is_refused_in_words() -> None:
+    at = visit(ORBITS)
+    at.slider(key="orbits_kick").set_value(1.2).run()
+    assert not at.exception
+    assert "less than the radial clearance" in said(at)
+    assert charts(at) == {}
+
+
+def test_long_work_starts_on_demand_and_is_kept_until_the_machine_changes() -> None:
+    at = visit(ORBITS)
+    for tab, key, chart in (
+        ("Run-up", "orbits_run_up", "chart_orbits_waterfall"),
+        ("Limit cycles", "orbits_cycles", "chart_orbits_cycles"),
+    ):
+        open_part(at, "orbits_tab", tab)
+        assert charts(at) == {}
+        press(at, key)
+        assert set(charts(at)) == {chart}
+        at.run()
+        assert set(charts(at)) == {chart}
+        assert not [button for button in at.button if button.key == f"{key}_cancel"]
+    kept(at).set_value("C", 61.0)
+    at.run()
+    assert charts(at) == {}
+    assert at.button(key="orbits_cycles")
+
+
+def test_cancel_ends_what_was_asked_for() -> None:
+    at = visit(ORBITS)
+    open_part(at, "orbits_tab", "Limit cycles")
+    press(at, "orbits_cycles")
+    del at.session_state["orbits_cycles_asked"]  # as the button's callback does
+    at.run()
+    assert charts(at) == {}
+    assert at.button(key="orbits_cycles")
+
+
+@pytest.mark.parametrize(
+    ("query", "words"),
+    [({"load": "0"}, "whirls at any speed"), ({"cs": "100000"}, "No speed makes this machine")],
+)
+def test_machines_without_an_onset_are_explained(query: dict[str, str], words: str) -> None:
+    at = visit(ORBITS, **query)
+    for tab in ("Limit cycles", "Onset three ways"):
+        open_part(at, "orbits_tab", tab)
+        assert faults(at) == []
+        assert words in said(at)
+        assert charts(at) == {}
+
+
+@pytest.mark.parametrize("query", [{}, {"k": "inf"}, {"mj": "20"}, {"cs": "2000"}])
+def test_three_onsets_agree_on_the_page(query: dict[str, str]) -> None:
+    at = visit(ORBITS, **query)
+    open_part(at, "orbits_tab", "Onset three ways")
+    assert "They agree" in said(at)
+    metrics = {metric.label: metric.value for metric in at.metric}
+    closed = metrics["Closed form"]
+    assert (closed == "no closed form") == bool(query.keys() & {"mj", "cs"})
+    assert metrics["Eigenvalues"].split(".")[0] == metrics["Measured growth in time"].split(".")[0]
+
+
+def test_a_machine_that_swings_often_in_a_revolution_is_followed_for_fewer() -> None:
+    at = visit(ORBITS, rpm="100", load="20000")
+    assert faults(at) == []
+    assert "only 16 of them are followed" in said(at)
+
+
+def test_a_pinned_machine_that_allows_no_release_is_left_out() -> None:
+    at = visit(ORBITS, rpm="100", load="20000")
+    kept(at).pin()
+    kept(at).set_preset("sheet-1e8")
+    at.slider(key="orbits_kick").set_value(0.9).run()
+    assert not at.exception
+    assert charts(at)

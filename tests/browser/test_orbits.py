@@ -1,0 +1,101 @@
+"""The orbits page in a browser: its buttons, its animation, long work that can be cancelled."""
+
+import re
+
+from playwright.sync_api import expect
+
+from tests.browser.app_page import AppPage
+
+_NOW = """() => {
+  const chart = document.querySelector('.js-plotly-plot');
+  const now = chart.data[chart.data.length - 1];
+  return [now.x[0], now.y[0], chart.layout.sliders[0].active];
+}"""
+_FRAMES = "() => document.querySelector('.js-plotly-plot')._transitionData._frames.length"
+
+
+def press(app: AppPage, label: str) -> None:
+    with app.run():
+        app.page.get_by_role("button", name=label, exact=True).click()
+
+
+def test_demonstrations_set_up_machine_kick_and_answer(app: AppPage) -> None:
+    app.open("Orbits")
+    main = app.page.get_by_test_id("stMain")
+    press(app, "5 % above onset")
+    expect(main.get_by_text(re.compile("whirls at 0.5.*unstable"))).to_be_visible()
+    assert app.query()["u"] == "0"
+    press(app, "Subcritical: small kick")
+    expect(main.get_by_text(re.compile("dying|comes to rest"))).to_be_visible()
+    press(app, "Subcritical: big kick")
+    expect(main.get_by_text(re.compile("up to 0.86.*stable.*too large"))).to_be_visible()
+    assert app.query()["mass"] == "660"
+    press(app, "5 % below onset")
+    expect(main.get_by_text(re.compile("linear theory: stable"))).to_be_visible()
+
+
+def test_the_orbit_plays_stops_and_is_scrubbed(app: AppPage) -> None:
+    app.open("Orbits")
+    page = app.page
+    assert page.evaluate(_FRAMES) > 100
+    chart = page.get_by_test_id("stPlotlyChart").first
+    last = page.evaluate(_NOW)
+    assert last[2] == page.evaluate(_FRAMES) - 1
+    # Pull the slider to its beginning: the journal is where it was let go.
+    chart.get_by_text("▶ Play").scroll_into_view_if_needed()
+    grip = chart.locator(".slider-grip-rect").bounding_box()
+    rail = chart.locator(".slider-rail-rect").bounding_box()
+    assert grip is not None
+    assert rail is not None
+    page.mouse.move(grip["x"] + grip["width"] / 2, grip["y"] + grip["height"] / 2)
+    page.mouse.down()
+    page.mouse.move(rail["x"], grip["y"] + grip["height"] / 2, steps=8)
+    page.mouse.up()
+    assert app.changes(lambda: page.evaluate(_NOW)[2], last[2])
+    start = page.evaluate(_NOW)
+    assert start[2] == 0
+    assert start[1] < last[1]  # let go above its rest
+    chart.get_by_text("▶ Play").click()
+    assert app.changes(lambda: page.evaluate(_NOW)[2] > 5, False)
+    chart.get_by_text("Stop").click()
+    page.wait_for_timeout(300)
+    stopped = page.evaluate(_NOW)
+    page.wait_for_timeout(500)
+    assert page.evaluate(_NOW) == stopped
+    assert stopped[2] < last[2]
+    # Plotly's own: an animation that is stopped rejects its promise, with nothing.
+    app.faults = [fault for fault in app.faults if fault != "page error: undefined"]
+
+
+def test_long_work_shows_progress_and_can_be_cancelled(app: AppPage) -> None:
+    app.open("Orbits", k="inf")
+    app.open_tab("Run-up")
+    app.page.get_by_role("button", name="Run up to the top speed").click()
+    expect(app.page.get_by_role("progressbar")).to_be_visible()
+    app.page.get_by_role("button", name="Cancel", exact=True).click()
+    expect(app.page.get_by_role("button", name="Run up to the top speed")).to_be_enabled()
+    app.rest()
+    expect(app.page.get_by_test_id("stPlotlyChart")).to_have_count(0)
+    press(app, "Run up to the top speed")
+    expect(app.page.get_by_test_id("stPlotlyChart")).to_have_count(1)
+    expect(app.page.get_by_role("button", name="Cancel", exact=True)).to_have_count(0)
+
+
+def test_limit_cycles_and_three_onsets_are_drawn(app: AppPage) -> None:
+    app.open("Orbits")
+    app.open_tab("Limit cycles")
+    press(app, "Follow the limit cycles")
+    (names,) = app.traces()
+    assert {"limit cycle, stable", "limit cycle, unstable"} <= set(names)
+    app.open_tab("Onset three ways")
+    expect(app.page.get_by_text("They agree")).to_be_visible()
+    metrics = app.metrics()
+    assert metrics["Closed form"] == metrics["Eigenvalues"] == metrics["Measured growth in time"]
+
+
+def test_kick_and_length_survive_a_change_of_page(app: AppPage) -> None:
+    app.open("Orbits")
+    app.press("Journal let go", "ArrowRight")
+    app.go("Notes")
+    app.go("Orbits")
+    assert app.slider("Journal let go").input_value() == "0.31"
