@@ -34,6 +34,7 @@ LOCK := uv pip compile --universal --python-version 3.11 --upgrade --quiet --no-
 lock:
 	$(LOCK) pyproject.toml --extra app --group test -o requirements.txt
 	$(LOCK) --group dev -c requirements.txt -o requirements-dev.txt
+	$(LOCK) pyproject.toml --extra app -c requirements.txt -o deploy/requirements.txt
 
 $(RUNTIME): requirements.txt $(if $(BROKEN),broken)
 	@$(PYTHON) -c 'import sys; sys.exit(not (3, 11) <= sys.version_info < (3, 15))' \

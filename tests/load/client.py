@@ -46,10 +46,17 @@ class Tally:
 
 
 class Visitor:
-    """One browser tab with the app; `address` is the app's, without a page's name."""
+    """One browser tab with the app.
 
-    def __init__(self, address: str, *, cookies: dict[str, str] | None = None) -> None:
+    `address` is the app's, without a page's name; `port` is where on this machine it is reached,
+    where the address names another.
+    """
+
+    def __init__(
+        self, address: str, *, port: int | None = None, cookies: dict[str, str] | None = None
+    ) -> None:
         self.address = address.rstrip("/")
+        self._at = {} if port is None else {"host": "127.0.0.1", "port": port}
         self.cookies = dict(cookies or {})
         self.query = ""
         self.tally = Tally()
@@ -185,6 +192,8 @@ class Visitor:
             compression=None,
             max_size=None,
             open_timeout=TIMEOUT,
+            proxy=None,
+            **self._at,
         )
         assert self._socket.response is not None
         for header in self._socket.response.headers.get_all("Set-Cookie"):

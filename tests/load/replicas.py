@@ -19,13 +19,14 @@ class Replica:
 
     def __init__(self, *, port: int = 0, **environment: str) -> None:
         self.port = port or free_port()
-        self.address = f"http://127.0.0.1:{self.port}"
+        base = environment.get("STREAMLIT_SERVER_BASE_URL_PATH", "")
+        self.address = f"http://127.0.0.1:{self.port}/{base}".rstrip("/")
         self.log = Path(tempfile.mkstemp(prefix="rotorcalc-", suffix=".log")[1])
         options = {"PORT": str(self.port), "ADDRESS": "127.0.0.1", "HEADLESS": "true"}
         settings = {f"STREAMLIT_SERVER_{key}": value for key, value in options.items()}
         with self.log.open("wb") as out:
             self.process = subprocess.Popen(
-                [sys.executable, "-m", "streamlit", "run", "app.py"],
+                [sys.executable, "-m", "streamlit", "run", "serve.py"],
                 cwd=ROOT,
                 env={**os.environ, **settings, **environment},
                 stdout=out,

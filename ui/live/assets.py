@@ -47,7 +47,12 @@ def _published(name: str, source: Path) -> str:
     return f"/{base}/app/static/{name}" if base else f"/app/static/{name}"
 
 
-if __name__ == "__main__":
+def publish() -> None:
+    """Put every script where Streamlit serves it."""
     plotly_bundle()
     for script in _HERE.glob("*.js"):
         module(script.stem)
+
+
+if __name__ == "__main__":
+    publish()

@@ -1,0 +1,138 @@
+"""Two replicas behind the real nginx, with the project's own configuration, on loopback."""
+
+import os
+import shutil
+import subprocess
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from http.client import HTTPConnection, HTTPResponse
+from pathlib import Path
+
+import pytest
+
+from tests.load.client import Visitor
+from tests.load.replicas import ROOT, Replica, free_port
+from ui import served
+
+HOST = "rotor.example.org"
+BASE = "rotorcalc"
+NAMES = ("1", "2")
+
+# What a distribution's own nginx.conf holds around ours.
+_AROUND = """
+daemon off;
+pid {folder}/nginx.pid;
+error_log {folder}/error.log;
+events {{ worker_connections 1024; }}
+http {{
+    include /etc/nginx/mime.types;
+    client_body_temp_path {folder}/body;
+    proxy_temp_path {folder}/proxy;
+    fastcgi_temp_path {folder}/fastcgi;
+    uwsgi_temp_path {folder}/uwsgi;
+    scgi_temp_path {folder}/scgi;
+    include {folder}/rotorcalc.conf;
+}}
+"""
+
+
+@dataclass
+class Site:
+    """nginx, the replicas behind it, and ways to visit them."""
+
+    port: int
+    folder: Path
+    replicas: dict[str, Replica]
+
+    @property
+    def address(self) -> str:
+        return f"http://{HOST}:{self.port}/{BASE}"
+
+    def visitor(self, **cookies: str) -> Visitor:
+        return Visitor(self.address, port=self.port, cookies=cookies)
+
+    def get(self, path: str, **headers: str) -> HTTPResponse:
+        """Ask for a path below the app's; underscores in a header's name stand for hyphens."""
+        connection = HTTPConnection("127.0.0.1", self.port, timeout=30)
+        named = {key.replace("_", "-"): value for key, value in headers.items()}
+        connection.request("GET", path, headers={"Host": HOST} | named)
+        answer = connection.getresponse()
+        answer.body = answer.read()  # type: ignore[attr-defined]
+        connection.close()
+        return answer
+
+    def start(self, name: str) -> None:
+        """Start a replica anew where it was."""
+        self.replicas[name] = _replica(name, self.replicas[name].port).wait()
+
+
+@pytest.fixture(scope="session")
+def nginx() -> str:
+    """Path of nginx; without one the tests are left out, but not in CI."""
+    found = shutil.which("nginx", path=f"{os.environ['PATH']}:/usr/sbin")
+    if found:
+        return found
+    if os.environ.get("CI"):
+        pytest.fail("nginx is not installed (Debian: apt install nginx-light)", pytrace=False)
+    pytest.skip("nginx is not installed (Debian: apt install nginx-light)")
+
+
+@pytest.fixture(scope="session")
+def site(nginx: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Site]:
+    """The site, as deploy/ describes it."""
+    folder = tmp_path_factory.mktemp("nginx")
+    served.publish(folder / "www", BASE)
+    replicas = {name: _replica(name, free_port()) for name in NAMES}
+    site = Site(free_port(), folder, replicas)
+    _configure(site)
+    command = [nginx, "-p", str(folder), "-c", str(folder / "nginx.conf")]
+    subprocess.run([*command, "-t", "-q"], check=True)
+    server = subprocess.Popen(command)
+    try:
+        for replica in replicas.values():
+            replica.wait()
+        _wait_for(site)
+        yield site
+    finally:
+        server.terminate()
+        server.wait()
+        for replica in site.replicas.values():
+            replica.stop()
+
+
+def _replica(name: str, port: int) -> Replica:
+    return Replica(
+        port=port,
+        ROTORCALC_REPLICA=name,
+        STREAMLIT_SERVER_BASE_URL_PATH=BASE,
+        STREAMLIT_SERVER_ALLOWED_HOSTS=HOST,
+        STREAMLIT_SERVER_COOKIE_SECRET="the same for both",  # noqa: S106 - a test's
+    )
+
+
+def _configure(site: Site) -> None:
+    """Write the project's configuration with this machine's ports and folders in it."""
+    ours = (ROOT / "deploy/nginx.conf").read_text()
+    changes = {
+        "listen 80": f"listen 127.0.0.1:{site.port}",
+        "/srv/rotorcalc/www": f"{site.folder}/www",
+        "/var/log/nginx/rotorcalc.log": f"{site.folder}/access.log",
+    }
+    changes |= {f"app{name}:8501": f"127.0.0.1:{site.replicas[name].port}" for name in NAMES}
+    for old, new in changes.items():
+        assert old in ours
+        ours = ours.replace(old, new)
+    (site.folder / "rotorcalc.conf").write_text(ours)
+    (site.folder / "nginx.conf").write_text(_AROUND.format(folder=site.folder))
+
+
+def _wait_for(site: Site) -> None:
+    end = time.monotonic() + 10
+    while time.monotonic() < end:
+        try:
+            if site.get(f"/{BASE}/_stcore/health").status == 200:
+                return
+        except OSError:
+            time.sleep(0.05)
+    pytest.fail((site.folder / "error.log").read_text(), pytrace=False)

@@ -1,0 +1,167 @@
+"""What nginx lets in, what it turns away, and what it says with each answer."""
+
+import asyncio
+import base64
+import gzip
+import hashlib
+import re
+import subprocess
+import sys
+from http.client import HTTPConnection
+from pathlib import Path
+from urllib.request import urlopen
+
+import pytest
+import streamlit
+from playwright.sync_api import Browser
+from websockets.exceptions import InvalidStatus
+
+from tests.browser.app_page import AppPage
+from tests.browser.conftest import CHROMIUM_ARGS, browser_type_launch_args, chromium
+from tests.deploy.conftest import HOST, Site
+from tests.load.client import Visitor
+from tests.load.replicas import ROOT
+
+__all__ = ["browser_type_launch_args", "chromium"]
+
+PAGES = ["/rotorcalc/", "/rotorcalc/Stability", "/rotorcalc/nothing-here", "/nothing-here"]
+HEADERS = {
+    "X-Content-Type-Options": "nosniff",
+    "X-Frame-Options": "SAMEORIGIN",
+    "Referrer-Policy": "same-origin",
+    "Cross-Origin-Opener-Policy": "same-origin",
+}
+
+
+@pytest.mark.parametrize("path", [*PAGES, "/rotorcalc/_stcore/health", "/rotorcalc/healthz"])
+def test_every_answer_has_the_security_headers(site: Site, path: str) -> None:
+    headers = site.get(path).headers
+    for name, value in HEADERS.items():
+        assert headers.get_all(name) == [value], name
+    policy = dict(
+        part.strip().split(" ", 1) for part in headers["Content-Security-Policy"].split(";")
+    )
+    assert policy["default-src"] == policy["connect-src"] == "'self'"
+    assert policy["frame-ancestors"] == "'self'"
+    assert "'unsafe-inline'" not in policy["script-src"]
+    assert "'unsafe-eval'" not in policy["script-src"]
+    assert headers["Server"] == "nginx"
+    assert headers["X-Rotorcalc-Replica"] is None
+
+
+def test_the_one_inline_script_that_the_policy_allows_is_streamlits() -> None:
+    page = (Path(streamlit.__file__).parent / "static/index.html").read_text()
+    digests = [
+        base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+        for script in re.findall(r"<script>(.*?)</script>", page, re.DOTALL)
+    ]
+    allowed = re.findall(r"'sha256-(.*?)'", (ROOT / "deploy/nginx.conf").read_text())
+    assert allowed == digests, "Streamlit has changed: put its script's hash into nginx.conf"
+
+
+@pytest.mark.parametrize("host", ["evil.example", "127.0.0.1", "rotor.example.org.evil.example"])
+def test_a_foreign_host_is_turned_away(site: Site, host: str) -> None:
+    assert site.get("/rotorcalc/", Host=host).status == 421
+
+
+def _opened(visitor: Visitor, **headers: str) -> None:
+    async def go() -> None:
+        async with visitor:
+            await visitor.open(**headers)
+
+    asyncio.run(go())
+
+
+@pytest.mark.parametrize(
+    "origin", ["https://evil.example", "http://rotor.example.org.evil.example"]
+)
+def test_another_sites_page_gets_no_websocket(site: Site, origin: str) -> None:
+    with pytest.raises(InvalidStatus) as refused:
+        _opened(site.visitor(), Origin=origin)
+    assert refused.value.response.status_code == 403
+    assert "Access-Control-Allow-Origin" not in site.get("/rotorcalc/", Origin=origin).headers
+
+
+@pytest.mark.parametrize("host", ["evil.example", "localhost"])
+def test_a_replica_itself_refuses_a_foreign_host(site: Site, host: str) -> None:
+    port = site.replicas["1"].port
+    with pytest.raises(InvalidStatus) as refused:
+        _opened(Visitor(f"http://{host}:{port}/rotorcalc", port=port))
+    assert refused.value.response.status_code == 403
+
+
+@pytest.mark.parametrize(
+    "path", ["healthz", "_stcore/metrics", "_stcore/script-health-check", "_stcore/agent/interact"]
+)
+def test_what_is_for_the_host_is_not_for_visitors(site: Site, path: str) -> None:
+    for spelling in (path, path.replace("_", "%5f"), f"x/../{path}", f"/{path}"):
+        answer = site.get(f"/rotorcalc/{spelling}")
+        assert answer.status == 404 or b"# TYPE" not in answer.body, spelling
+    assert site.get(f"/rotorcalc/{path}").status == 404
+
+
+def test_the_host_reads_metrics_and_health_at_the_replica(site: Site) -> None:
+    address = site.replicas["1"].address
+    with urlopen(f"{address}/_stcore/metrics") as answer:
+        assert b"active_sessions" in answer.read()
+    command = [sys.executable, "-m", "ui.health", f"{address}/healthz"]
+    assert subprocess.run(command, cwd=ROOT, check=False).returncode == 0
+    command[-1] = f"{address}/no-such-page-at-all"
+    assert subprocess.run(command, cwd=ROOT, check=False, capture_output=True).returncode == 1
+
+
+def test_files_come_compressed_from_the_disk_and_are_kept_for_a_year(site: Site) -> None:
+    bundle = next((site.folder / "www/rotorcalc/app/static").glob("plotly-*.min.js"))
+    answer = site.get(f"/rotorcalc/app/static/{bundle.name}", Accept_Encoding="gzip")
+    assert answer.headers["Content-Encoding"] == "gzip"
+    assert answer.headers["X-Content-Type-Options"] == "nosniff"
+    assert "max-age=31536000" in answer.headers["Cache-Control"]
+    assert len(answer.body) < 1.6e6
+    assert gzip.decompress(answer.body) == bundle.read_bytes()
+
+
+@pytest.mark.parametrize("path", ["../serve.py", "..%2f..%2fserve.py", "%2e%2e/%2e%2e/serve.py"])
+def test_no_file_beside_the_served_ones_is_sent(site: Site, path: str) -> None:
+    for folder in ("static", "app/static", "media"):
+        assert b"import streamlit" not in site.get(f"/rotorcalc/{folder}/{path}").body
+
+
+def test_too_much_is_not_taken(site: Site) -> None:
+    connection = HTTPConnection("127.0.0.1", site.port, timeout=30)
+    connection.request(
+        "PUT",
+        "/rotorcalc/_stcore/upload_file/a/b",
+        headers={"Host": HOST, "Content-Length": "9999999"},
+    )
+    assert connection.getresponse().status == 413
+    connection.close()
+
+
+def test_the_sub_path_is_found_without_its_slash_and_from_the_root(site: Site) -> None:
+    assert site.get("/rotorcalc?C=80").headers["Location"] == "/rotorcalc/?C=80"
+    assert site.get("/").headers["Location"] == "/rotorcalc/"
+
+
+def test_the_log_holds_no_machine(site: Site) -> None:
+    site.get("/rotorcalc/Stability?C=81.2345")
+    logs = [site.folder / "access.log", *(replica.log for replica in site.replicas.values())]
+    for log in logs:
+        assert "81.2345" not in log.read_text()
+
+
+@pytest.fixture
+def tab(browser: Browser, chromium: str, site: Site) -> AppPage:
+    mapped = f"--host-resolver-rules=MAP {HOST} 127.0.0.1"
+    real = browser.browser_type.launch(executable_path=chromium, args=[*CHROMIUM_ARGS, mapped])
+    yield AppPage(real.new_page(), site.address)
+    real.close()
+
+
+def test_a_browser_finds_nothing_missing_under_the_policy(tab: AppPage) -> None:
+    tab.open("Machine", C="80")
+    tab.press("Radial clearance", "ArrowRight")
+    assert tab.query()["C"] == "81"
+    tab.go("Stability")
+    tab.go("Notes")
+    foreign = f"http://{HOST}"
+    assert [fault for fault in tab.faults if foreign not in fault] == []

@@ -1,0 +1,104 @@
+"""Two replicas: visitors stay with theirs, and keep their machine when it goes."""
+
+import asyncio
+from collections.abc import Awaitable, Callable
+from functools import wraps
+from typing import ParamSpec
+
+import pytest
+
+from tests.deploy.conftest import NAMES, Site
+from tests.load.client import ServerError, Visitor
+
+P = ParamSpec("P")
+COOKIE = "rotorcalc_replica"
+
+
+def awaited(test: Callable[P, Awaitable[None]]) -> Callable[P, None]:
+    """Return a test that runs a coroutine to its end."""
+
+    @wraps(test)
+    def run(*args: P.args, **kwargs: P.kwargs) -> None:
+        asyncio.run(test(*args, **kwargs))  # type: ignore[arg-type]
+
+    return run
+
+
+async def _come_back(visitor: Visitor) -> None:
+    """Do as a browser whose connection is gone: try again until there is an answer."""
+    for _ in range(40):
+        try:
+            await visitor.reconnect()
+            return
+        except (ServerError, OSError):
+            await asyncio.sleep(0.25)
+    pytest.fail("the visitor found no replica")
+
+
+def _value(visitor: Visitor, label: str) -> float:
+    slider = visitor.live_slider(label)
+    assert slider is not None
+    from tests.load.client import slider_data
+
+    return slider_data(slider)["value"]
+
+
+@awaited
+async def test_new_visitors_are_shared_out_and_stay_with_their_replica(site: Site) -> None:
+    visitors = [site.visitor() for _ in range(4)]
+    for visitor in visitors:
+        await visitor.open()
+    assert sorted(visitor.cookies[COOKIE] for visitor in visitors) == ["1", "1", "2", "2"]
+    for visitor in visitors:
+        theirs = visitor.cookies[COOKIE]
+        for _ in range(3):
+            await visitor.reconnect()
+            assert visitor.cookies[COOKIE] == theirs
+        await visitor.close()
+
+
+def test_a_file_is_asked_of_the_visitors_own_replica(site: Site) -> None:
+    for name in NAMES:
+        for _ in range(4):
+            answer = site.get("/rotorcalc/", Cookie=f"{COOKIE}={name}")
+            assert f"{COOKIE}={name};" in answer.headers["Set-Cookie"]
+
+
+@awaited
+async def test_a_replica_killed_in_use_leaves_its_visitors_their_machine(site: Site) -> None:
+    async with site.visitor(**{COOKIE: "1"}) as visitor:
+        await visitor.open("Stability", "D=120&units=US")
+        await visitor.slide("Radial clearance", 3.0)
+        await visitor.open_tab("Figures of the notes")
+        before = visitor.query
+        assert "D=120" in before
+        site.replicas["1"].kill()
+        try:
+            await _come_back(visitor)
+            assert visitor.cookies[COOKIE] == "2"
+            assert visitor.query == before
+            assert _value(visitor, "Radial clearance") == pytest.approx(3.0)
+            assert _value(visitor, "Diameter") == pytest.approx(120 / 25.4)
+            await visitor.slide("Radial clearance", 4.0)
+            assert _value(visitor, "Radial clearance") == pytest.approx(4.0)
+        finally:
+            site.start("1")
+
+
+@awaited
+async def test_a_rolling_restart_loses_nobodys_inputs(site: Site) -> None:
+    visitors = [site.visitor(**{COOKIE: NAMES[i % 2]}) for i in range(4)]
+    for i, visitor in enumerate(visitors):
+        await visitor.open("", f"mass={300 + i}")
+        await visitor.slide("Radial clearance", 70 + i)
+    for name in NAMES:
+        site.replicas[name].stop()
+        lost = [visitor for visitor in visitors if visitor.cookies[COOKIE] == name]
+        await asyncio.gather(*(_come_back(visitor) for visitor in lost))
+        site.start(name)
+        await asyncio.sleep(5)  # nginx looks again for a replica that was gone: fail_timeout
+    for i, visitor in enumerate(visitors):
+        await visitor.slide("Length", 50)
+        assert _value(visitor, "Radial clearance") == 70 + i
+        assert _value(visitor, "Rotor mass") == 300 + i
+        await visitor.close()

@@ -1,0 +1,95 @@
+"""The server's log: a line of JSON an event, and never what a visitor entered.
+
+An exception's message can hold a visitor's numbers, so of an exception only its type and its places
+in the code are written. What failed for a visitor has an id, which the visitor's page shows too.
+"""
+
+import json
+import logging
+import secrets
+import traceback
+from datetime import UTC, datetime
+from types import TracebackType
+from typing import Any
+
+import streamlit as st
+import streamlit.logger
+from streamlit import config
+
+from ui import settings
+
+_LOGGER = logging.getLogger("rotorcalc")
+_UVICORN = ("uvicorn", "uvicorn.asgi", "uvicorn.error")
+# Its lines hold visitors' addresses and links, and every link is a machine.
+_SILENT = "uvicorn.access"
+# Streamlit's own line about an exception that `failed` reports with its id.
+_TOLD_TWICE = "Uncaught app execution"
+
+
+class Record(logging.LogRecord):
+    """A record whose message is a line of JSON, without an exception's own message."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        error = self.exc_info[1] if isinstance(self.exc_info, tuple) else None
+        self.fields = {} if error is None else described(error)
+        self.exc_info = None
+
+    def getMessage(self) -> str:
+        """Return the record as a line of JSON."""
+        fields = {
+            "time": datetime.fromtimestamp(self.created, UTC).isoformat(timespec="milliseconds"),
+            "level": self.levelname.lower(),
+            "logger": self.name,
+            "event": super().getMessage(),
+        }
+        return json.dumps(fields | self.fields | getattr(self, "more", {}), ensure_ascii=False)
+
+
+def begin() -> None:
+    """Let every logger of this process write JSON, where the host wants it."""
+    if settings.log() == "text":
+        return
+    logging.setLogRecordFactory(Record)
+    config.set_option("logger.messageFormat", "%(message)s")
+    streamlit.logger.get_logger(_LOGGER.name)  # with the handler that Streamlit's loggers have
+    streamlit.logger.update_formatter()
+    for name in _UVICORN:
+        logger = logging.getLogger(name)
+        own = getattr(logger, "streamlit_console_handler", None)
+        logger.handlers = [] if own is None else [own]
+        logger.propagate = False
+    logging.getLogger(_SILENT).handlers = []
+    error_log = logging.getLogger("streamlit.error_util")
+    error_log.addFilter(lambda record: record.msg != _TOLD_TWICE)
+
+
+def event(name: str, **fields: object) -> None:
+    """Write an event."""
+    if settings.log() == "text":
+        name = " ".join([name, *(f"{key}={value}" for key, value in fields.items())])
+    _LOGGER.info(name, extra={"more": fields})
+
+
+def failed(error: Exception) -> bool:
+    """Report what a page's script raised, in the log and to its visitor, under one id."""
+    number = secrets.token_hex(4)
+    fields = {"id": number, **described(error)}
+    _LOGGER.error("failed", extra={"more": fields})
+    st.error(
+        f"Tell whoever runs this server the number **{number}**, under which its log says what "
+        "happened. Your inputs stand in the address bar: reload the page to go on.",
+        title="Something went wrong here",
+    )
+    return True
+
+
+def described(error: BaseException) -> dict[str, object]:
+    """Return an exception's type and its places in the code, outermost first."""
+    return {"type": type(error).__name__, "places": _places(error.__traceback__)}
+
+
+def _places(trace: TracebackType | None) -> list[str]:
+    return [
+        f"{frame.filename}:{frame.lineno} {frame.name}" for frame in traceback.extract_tb(trace)
+    ]

@@ -1,0 +1,79 @@
+"""The app with what a server needs round it: its health, its log, and its name among others."""
+
+import asyncio
+import platform
+import time
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+
+import streamlit as st
+from starlette.middleware import Middleware
+from starlette.requests import Request
+from starlette.responses import JSONResponse
+from starlette.routing import Route
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+from streamlit.url_util import make_url_path
+
+from rotorcalc import __version__
+from ui import health, log, settings, version
+
+_HEADER = b"x-rotorcalc-replica"
+
+
+class NamedReplica:
+    """Tells by a header which replica answers, so that a proxy can keep a visitor with it."""
+
+    def __init__(self, app: ASGIApp, name: str) -> None:
+        self._app = app
+        self._header = (_HEADER, name.encode())
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer as the app does, with the header."""
+
+        async def named(message: Message) -> None:
+            if message["type"] in ("http.response.start", "websocket.accept"):
+                message["headers"] = [*message.get("headers", []), self._header]
+            await send(message)
+
+        await self._app(scope, receive, named)
+
+
+def routes() -> list[Route]:
+    """Return what is served beside the pages: the health of the core."""
+    base = st.get_option("server.baseUrlPath") or ""
+    return [Route(make_url_path(base, "healthz"), answer_health)]
+
+
+def middleware() -> list[Middleware]:
+    """Return what stands between the server and its visitors."""
+    name = settings.replica()
+    return [Middleware(NamedReplica, name=name)] if name else []
+
+
+async def answer_health(_: Request) -> JSONResponse:
+    """Answer whether the core computes right, and how long it took."""
+    start = time.perf_counter()
+    try:
+        await asyncio.wait_for(asyncio.to_thread(health.check), health.TIMEOUT)
+    except Exception as error:  # noqa: BLE001 - whatever it is, this server is not well
+        log.event("unhealthy", **log.described(error))
+        return JSONResponse({"status": "bad", "why": type(error).__name__}, status_code=503)
+    took = round((time.perf_counter() - start) * 1e3, 1)
+    return JSONResponse(
+        {"status": "good", "milliseconds": took, "version": __version__,
+         "commit": version.commit()},
+        headers={"Cache-Control": "no-store"},
+    )  # fmt: skip
+
+
+@asynccontextmanager
+async def life(_: st.App) -> AsyncIterator[None]:
+    """Write the log's first line and its last."""
+    log.begin()
+    log.event(
+        "start", version=__version__, commit=version.commit(), replica=settings.replica(),
+        python=platform.python_version(), streamlit=st.__version__, live=settings.live(),
+        heavy_jobs=settings.heavy_jobs(),
+    )  # fmt: skip
+    yield
+    log.event("stop")
