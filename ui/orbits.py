@@ -3,7 +3,6 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
 from typing import Literal, TypeVar
 
 import numpy as np
@@ -28,6 +27,7 @@ from rotorcalc.onset_check import measured_growth
 from rotorcalc.release import Release, release
 from rotorcalc.signals import waterfall
 from rotorcalc.typing import Array, ComplexArray
+from ui import jobs
 from ui.inputs import INPUTS, PRESET_VALUES
 from ui.page import Page
 from ui.results import digits, leading
@@ -167,7 +167,7 @@ def try_out(page: Page, ask: Ask) -> tuple[Page, Release]:
     return page, found
 
 
-@lru_cache(maxsize=48)  # half a megabyte each, four for the longest
+@jobs.heavy(entries=48, megabytes=64)  # half a megabyte each, four for the longest
 def _release(machine: Machine, speed: float, ask: Ask, report: _Report) -> Release:
     return release(
         machine,
@@ -307,7 +307,7 @@ def run_up_caption(view: View) -> str:
     )
 
 
-@lru_cache(maxsize=8)
+@jobs.heavy(entries=8, megabytes=16)
 def _run_up(machine: Machine, top_speed: float, report: _Report) -> RunUp:
     C = machine.bearing.radial_clearance
     imbalance = machine.rotor.imbalance or _STIR * C
@@ -372,7 +372,7 @@ def say_cycles(branch: Bifurcation, units: Units) -> None:
         )
 
 
-@lru_cache(maxsize=16)
+@jobs.heavy(entries=16, megabytes=16)
 def _cycles(machine: Machine, report: _Report) -> Bifurcation:
     return bifurcation(machine, progress=report.tell)
 
@@ -424,7 +424,7 @@ def say_onsets(found: Onsets, units: Units) -> None:
         st.error(f"They disagree by {found.spread:.1%} of the onset.")
 
 
-@lru_cache(maxsize=16)
+@jobs.heavy(entries=16, megabytes=4)
 def _three(machine: Machine) -> tuple[Onsets, GrowthCurve]:
     found = onsets(machine)
     speeds = np.linspace(0.8, 1.2, 81) * found.eigenvalues

@@ -6,10 +6,9 @@ from pathlib import Path
 
 import streamlit as st
 
-from rotorcalc import __version__
 from rotorcalc.figures import Chart, with_baseline
 from rotorcalc.figures.units import Units
-from ui import checks, compare, share, sidebar
+from ui import checks, compare, share, sidebar, version
 from ui.results import show_results
 from ui.state import state, write_address_bar
 from ui.view import View, view_of
@@ -17,7 +16,7 @@ from ui.widgets import show_chart
 
 _ICON = str(Path(__file__).with_name("icon.svg"))
 
-_ABOUT = f"rotorcalc {__version__}: rotors on fluid-film bearings, after San Andrés, Notes 5."
+_ABOUT = f"{version.label()}: rotors on fluid-film bearings, after San Andrés, Notes 5."
 # The answer first: Streamlit leaves six rem free above a page.
 # On a narrow screen results stand two in a row, equations break between their terms, tables are
 # tight and a wide one's rows run over several lines: nothing there scrolls sideways, which a
@@ -106,6 +105,7 @@ def begin(title: str, sentence: str) -> Page:
     with st.sidebar:
         share.draw(view, baseline, kept.units)
         checks.draw(view)
+        st.caption(version.label())
     compare.draw_differences(kept.units)
     return Page(view=view, baseline=baseline, units=kept.units)
 

@@ -17,6 +17,7 @@ from rotorcalc.figures.design import Quantity
 from rotorcalc.figures.stability import Crossing, Energies, FilmFigure
 from rotorcalc.figures.units import SI, Units
 from rotorcalc.typing import Array
+from ui import jobs
 from ui.inputs import INPUTS
 from ui.results import digits
 from ui.view import View
@@ -266,7 +267,7 @@ class _Report:
     tell: Callable[[float], object] = field(compare=False)
 
 
-@lru_cache(maxsize=32)
+@jobs.heavy(entries=32, megabytes=8)
 def _onset_map(
     machine: Machine,
     keys: tuple[str, ...],
@@ -281,12 +282,12 @@ def _onset_map(
     return design.onset_map(machine, x=x, xs=xs, y=y, ys=ys, progress=report.tell)
 
 
-@lru_cache(maxsize=64)
+@jobs.heavy(entries=64, megabytes=4)
 def _sensitivities(machine: Machine) -> design.Sensitivities:
     return design.sensitivities(machine)
 
 
-@lru_cache(maxsize=64)
+@jobs.heavy(entries=64, megabytes=4)
 def _solution(
     machine: Machine, name: str, target: float, low: float, high: float
 ) -> design.OnsetSolution:

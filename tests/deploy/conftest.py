@@ -22,6 +22,7 @@ NAMES = ("1", "2")
 # What a distribution's own nginx.conf holds around ours.
 _AROUND = """
 daemon off;
+{user}
 pid {folder}/nginx.pid;
 error_log {folder}/error.log;
 events {{ worker_connections 1024; }}
@@ -124,7 +125,9 @@ def _configure(site: Site) -> None:
         assert old in ours
         ours = ours.replace(old, new)
     (site.folder / "rotorcalc.conf").write_text(ours)
-    (site.folder / "nginx.conf").write_text(_AROUND.format(folder=site.folder))
+    # Started by root, nginx would read the test's folder as another user, who may not.
+    user = "user root;" if os.geteuid() == 0 else ""
+    (site.folder / "nginx.conf").write_text(_AROUND.format(folder=site.folder, user=user))
 
 
 def _wait_for(site: Site) -> None:
