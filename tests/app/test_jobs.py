@@ -1,4 +1,4 @@
-"""Heavy computations: their order, their number at once, what is kept of them, and the visitor's words."""
+"""Heavy computations: their order, their number at once, what is kept of them, what is said."""
 
 import threading
 import time
@@ -114,11 +114,11 @@ def test_two_who_ask_for_the_same_at_once_compute_it_once() -> None:
 
 
 def test_results_are_kept_up_to_a_number_and_a_size() -> None:
-    few = Kept(lambda n: np.zeros(n), entries=3, megabytes=100)
+    few = Kept(np.zeros, entries=3, megabytes=100)
     for n in range(1, 10):
         few(n)
     assert len(few) == 3
-    small = Kept(lambda n: np.zeros(n), entries=100, megabytes=0.1)
+    small = Kept(np.zeros, entries=100, megabytes=0.1)
     for n in range(1000, 1040):
         small(n)
     assert small.size <= 0.1e6

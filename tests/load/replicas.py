@@ -17,7 +17,9 @@ START_TIMEOUT = 60.0  # seconds
 class Replica:
     """One server process, from its start until `stop`; `log` is what it wrote."""
 
-    def __init__(self, *, port: int = 0, **environment: str) -> None:
+    def __init__(
+        self, *, port: int = 0, script: Path = ROOT / "serve.py", **environment: str
+    ) -> None:
         self.port = port or free_port()
         base = environment.get("STREAMLIT_SERVER_BASE_URL_PATH", "")
         self.address = f"http://127.0.0.1:{self.port}/{base}".rstrip("/")
@@ -26,7 +28,7 @@ class Replica:
         settings = {f"STREAMLIT_SERVER_{key}": value for key, value in options.items()}
         with self.log.open("wb") as out:
             self.process = subprocess.Popen(
-                [sys.executable, "-m", "streamlit", "run", "serve.py"],
+                [sys.executable, "-m", "streamlit", "run", str(script)],
                 cwd=ROOT,
                 env={**os.environ, **settings, **environment},
                 stdout=out,

@@ -1,0 +1,204 @@
+"""Links and files made to break the program: never a traceback, a hang, or markup."""
+
+import copy
+import json
+import re
+import sys
+import time
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, example, given, settings
+from hypothesis import strategies as st
+from streamlit.testing.v1 import AppTest
+
+from rotorcalc import PRESETS, Machine
+from tests.app.session import HOME, OTHERS, kept, open_part, visit
+from ui.inputs import INPUTS
+
+MARK = "zqx"  # in whatever is drawn, to find it again on the page
+MARKUP = [
+    f"<img src=x onerror={MARK}>", f"[{MARK}](javascript:{MARK})", f"![{MARK}](//evil/{MARK})",
+    f"`<b>{MARK}</b>`", f"``{MARK}`", f"$\\href{{javascript:{MARK}}}{{x}}$", f":red[{MARK}]",
+    f"\n\n# {MARK}", f"\u202e{MARK}", f"{MARK}\x00", f"&lt;{MARK}&gt;",
+    f"../../{MARK}", f"file:///{MARK}", f"{{{{{MARK}}}}}", f"%s{MARK}%n",
+]  # fmt: skip
+NUMBERS = [
+    "0", "-0", "1e308", "-1e308", "1e-320", "inf", "-inf", "nan", "9" * 5000, "0." + "0" * 5000,
+    "1_000", "0x1p3", "١٢", "1e999999999", "+", "", " 80 ", "weight", "rigid",
+]  # fmt: skip
+WORDS = st.sampled_from([*MARKUP, *NUMBERS]) | st.text(max_size=30).map(lambda text: MARK + text)
+KEYS = st.sampled_from([*INPUTS, "preset", "units"]) | st.sampled_from(MARKUP)
+IN_RANGE = st.sampled_from(list(INPUTS.values())).flatmap(
+    lambda item: st.tuples(
+        st.just(item.key),
+        st.sampled_from([item.low, item.high]).map(repr) | st.floats(item.low, item.high).map(repr),
+    )
+)
+LINKS = st.lists(st.tuples(KEYS, WORDS) | IN_RANGE, max_size=8).map(dict)
+UNHURRIED = settings(
+    max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+
+
+class Watch:
+    """Hears which files are opened while it listens."""
+
+    def __init__(self) -> None:
+        self.listening = False
+        self.written: list[str] = []
+        self.named: list[str] = []
+
+    def __call__(self, event: str, args: tuple[Any, ...]) -> None:
+        if not self.listening or event != "open":
+            return
+        path, mode, _ = args
+        if mode is not None and set(mode) & set("wax+"):
+            self.written.append(str(path))
+        if MARK in str(path):
+            self.named.append(str(path))
+
+
+WATCH = Watch()
+sys.addaudithook(WATCH)
+
+
+@pytest.fixture
+def watch() -> Iterator[Watch]:
+    WATCH.written.clear()
+    WATCH.named.clear()
+    WATCH.listening = True
+    yield WATCH
+    WATCH.listening = False
+
+
+def _without_code(text: str) -> str:
+    return re.sub(r"`[^`\n]*`", "", text)
+
+
+def _said(at: AppTest) -> list[str]:
+    """Return every text of the page that is shown as Markdown."""
+    kinds = ("markdown", "caption", "warning", "error", "info", "success", "header", "subheader")
+    return [str(element.value) for kind in kinds for element in at.get(kind)]
+
+
+def _unharmed(at: AppTest) -> None:
+    assert not at.exception
+    for text in _said(at):
+        assert MARK not in _without_code(text), text
+
+
+@pytest.mark.parametrize("path", [HOME, OTHERS[0], OTHERS[2], OTHERS[4]])
+@UNHURRIED
+@given(link=LINKS)
+@example(link=dict.fromkeys(MARKUP, "1"))
+@example(link={key: MARKUP[i % len(MARKUP)] for i, key in enumerate(INPUTS)})
+@example(link={"preset": MARKUP[0], "units": MARKUP[1]})
+def test_no_link_breaks_a_page_or_writes_on_it(
+    path: str, link: dict[str, str], watch: Watch
+) -> None:
+    at = visit(path, **link)
+    _unharmed(at)
+    assert watch.written == []
+    assert watch.named == []
+
+
+def _places(tree: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
+    for key, value in tree.items():
+        yield (*path, key)
+        if isinstance(value, dict):
+            yield from _places(value, (*path, key))
+
+
+GOOD = json.loads(PRESETS["sheet-1e8"].machine.to_json())
+JSON = st.recursive(
+    st.none() | st.booleans() | st.floats() | st.integers() | WORDS,
+    lambda inner: st.lists(inner, max_size=3) | st.dictionaries(WORDS, inner, max_size=3),
+    max_leaves=6,
+)
+
+
+@st.composite
+def _machines(draw: st.DrawFn) -> str:
+    """Draw a machine's file with some of its parts changed, taken out or added."""
+    tree = copy.deepcopy(GOOD)
+    for path in draw(st.lists(st.sampled_from(list(_places(GOOD))), min_size=1, max_size=3)):
+        part = tree
+        for key in path[:-1]:
+            part = part[key] if isinstance(part, dict) and key in part else {}
+        if not isinstance(part, dict):
+            continue
+        change = draw(st.sampled_from(["replace", "remove", "add"]))
+        if change == "remove":
+            part.pop(path[-1], None)
+        else:
+            part[path[-1] if change == "replace" else draw(WORDS)] = draw(JSON)
+    return json.dumps(tree)
+
+
+# A file as large as the server takes, of each kind that costs a reader most.
+MEGABYTE = 10**6
+MONSTERS = {
+    "digits": json.dumps(GOOD).replace('"temperature": 60.0', f'"temperature": {"9" * MEGABYTE}'),
+    "fraction": json.dumps(GOOD).replace("60.0", f"0.{'1' * MEGABYTE}"),
+    "exponent": json.dumps(GOOD).replace("60.0", f"1e{'9' * MEGABYTE}"),
+    "quoted digits": json.dumps(GOOD).replace("60.0", f'"{"9" * MEGABYTE}"'),
+    "depth": "[" * MEGABYTE,
+    "objects": '{"a":' * (MEGABYTE // 5),
+    "keys": "{" + ",".join(f'"{MARK}{i}":1' for i in range(70000)) + "}",
+    "key": json.dumps({MARK * (MEGABYTE // 3): 1}),
+    "spaces": " " * MEGABYTE,
+    "nothing": "",
+    "no text": "\x00" * MEGABYTE,
+    "surrogate": '{"\\ud800": 1}',
+    "no object": "[]",
+    "infinite": json.dumps(GOOD).replace("60.0", "Infinity"),
+}
+
+
+@settings(max_examples=300, deadline=None)
+@given(text=_machines() | st.text(max_size=60))
+def test_a_file_is_a_machine_or_a_reason_why_not(text: str) -> None:
+    try:
+        machine = Machine.from_json(text)
+    except ValueError as error:
+        said = str(error)
+    else:
+        said = ""
+        assert Machine.from_json(machine.to_json()) == machine
+    assert len(said.encode()) < 2000
+
+
+@pytest.mark.parametrize("kind", MONSTERS)
+def test_no_file_holds_the_server_up(kind: str) -> None:
+    start = time.process_time()
+    with pytest.raises(ValueError, match=r"."):
+        Machine.from_json(MONSTERS[kind])
+    assert time.process_time() - start < 2.0
+
+
+def test_a_fraction_of_a_million_digits_is_a_number_like_any_other() -> None:
+    text = json.dumps(GOOD).replace("60.0", f"60.{'1' * MEGABYTE}")
+    assert Machine.from_json(text).temperature == pytest.approx(60 + 1 / 9, rel=1e-15)
+
+
+@pytest.fixture(scope="module")
+def sharing() -> AppTest:
+    at = visit(HOME, C="80")
+    open_part(at, "share")
+    return at
+
+
+@UNHURRIED
+@given(text=_machines() | st.sampled_from(sorted(MONSTERS.values())), name=st.sampled_from(MARKUP))
+def test_no_upload_breaks_the_page_or_writes_on_it(
+    text: str, name: str, sharing: AppTest, watch: Watch
+) -> None:
+    content = text.encode("utf-8", "surrogatepass")
+    sharing.file_uploader(key="upload").upload(name, content).run()
+    _unharmed(sharing)
+    for key, item in INPUTS.items():
+        assert item.problem(kept(sharing).values[key]) == ""
+    assert watch.written == []
+    assert watch.named == []

@@ -1,0 +1,102 @@
+"""What a server writes and answers: its first line, failures with their id, its health."""
+
+import asyncio
+import json
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import rotorcalc
+from tests.load.client import Visitor
+from tests.load.replicas import ROOT, Replica
+from ui import health, settings, version
+
+ENTERED = "81.2345"  # stands for what a visitor entered
+
+# A server like ours whose page fails with a visitor's number in the exception.
+_FAILING = f"""
+import streamlit as st
+raise ValueError("radial_clearance = {ENTERED} m")
+"""
+
+
+@pytest.fixture
+def failing(tmp_path: Path) -> Iterator[Replica]:
+    page = tmp_path / "page.py"
+    page.write_text(_FAILING)
+    text = (ROOT / "serve.py").read_text()
+    script = tmp_path / "serve.py"
+    script.write_text(text.replace('Path(__file__).with_name("app.py")', f"{str(page)!r}"))
+    replica = Replica(script=script, PYTHONPATH=str(ROOT))
+    yield replica.wait()
+    replica.stop()
+
+
+def _lines(replica: Replica) -> list[dict[str, Any]]:
+    lines = replica.log.read_text().splitlines()
+    return [json.loads(line) for line in lines if line.startswith("{")]
+
+
+async def _visit(address: str) -> list[str]:
+    async with Visitor(address) as visitor:
+        await visitor.open(query=f"C={ENTERED}")
+        return visitor.texts()
+
+
+def test_what_fails_has_an_id_on_the_page_and_in_the_log_and_nothing_of_the_visitor(
+    failing: Replica,
+) -> None:
+    said = " ".join(asyncio.run(_visit(failing.address)))
+    numbers = re.findall(r"\*\*([0-9a-f]{8})\*\*", said)
+    assert len(numbers) == 1
+    (failure,) = [line for line in _lines(failing) if line["event"] == "failed"]
+    assert failure["id"] == numbers[0]
+    assert failure["level"] == "error"
+    assert failure["type"] == "ValueError"
+    assert any("page.py:3" in place for place in failure["places"])
+    assert ENTERED not in failing.log.read_text()
+    assert "Traceback" not in said
+    assert "page.py" not in said
+
+
+def test_the_log_begins_with_version_and_commit(failing: Replica) -> None:
+    start = next(line for line in _lines(failing) if line["event"] == "start")
+    assert start["version"] == rotorcalc.__version__
+    assert start["commit"] == version.commit()
+    assert {"time", "level", "python", "streamlit", "replica"} <= start.keys()
+
+
+def test_health_computes(monkeypatch: pytest.MonkeyPatch) -> None:
+    health.check()
+    monkeypatch.setitem(health._EXPECTED, "sommerfeld", 3.9)
+    with pytest.raises(health.WrongAnswerError, match=r"sommerfeld = 3\.91447: must be 3\.9"):
+        health.check()
+
+
+@pytest.mark.parametrize(
+    ("name", "word", "read"),
+    [
+        ("ROTORCALC_HEAVY_JOBS", "0", settings.heavy_jobs),
+        ("ROTORCALC_HEAVY_JOBS", "many", settings.heavy_jobs),
+        ("ROTORCALC_REPLICA", "a; Path=/", settings.replica),
+        ("ROTORCALC_LOG", "xml", settings.log),
+    ],
+)
+def test_a_setting_that_cannot_be_is_refused_by_name(
+    name: str, word: str, read: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv(name, word)
+    with pytest.raises(ValueError, match=re.escape(f"{name} = {word!r}: must be")):
+        read()
+
+
+def test_a_host_names_the_commit_where_there_is_no_checkout(monkeypatch) -> None:
+    version.commit.cache_clear()
+    monkeypatch.setenv("ROTORCALC_COMMIT", "0123456789abcdef")
+    try:
+        assert version.label() == f"rotorcalc {rotorcalc.__version__} · 0123456789ab"
+    finally:
+        version.commit.cache_clear()
