@@ -24,6 +24,7 @@ from google.protobuf.message import DecodeError
 from playwright.sync_api import Browser, Page, WebSocket, sync_playwright
 from streamlit.proto.ForwardMsg_pb2 import ForwardMsg
 
+from tests.browser.app_page import PATHS
 from tests.browser.conftest import CHROMIUM_ARGS
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -125,6 +126,7 @@ def main() -> None:
         tempfile.TemporaryDirectory() as folder,
         served(_beside_static(folder)) as (bare, _),
         served(ROOT / "app.py") as (app, server),
+        served(ROOT / "app.py", live="off") as (plain, _),
         sync_playwright() as playwright,
     ):
         browser = playwright.chromium.launch(
@@ -133,7 +135,7 @@ def main() -> None:
         )
         releases(browser, bare)
         drags(browser, bare, app)
-        sizes(browser, app)
+        sizes(browser, plain, app)
         crowd(browser, app)
         endurance(browser, app, server, minutes)
 
@@ -167,7 +169,8 @@ def drags(browser: Browser, bare: str, app: str) -> None:
     ]
     cases += [
         ("the app's home page", app, 4, "Radial clearance"),
-        ("the app's root locus", f"{app}/Root_locus", 2, "Running speed"),
+        ("the app's static equilibrium", f"{app}/Equilibrium", 2, "Running speed"),
+        ("the app's root locus", f"{app}/Root_locus", 1, "Running speed"),
     ]
     for name, url, charts, label in cases:
         page = _opened(browser, url, charts)
@@ -183,17 +186,24 @@ def drags(browser: Browser, bare: str, app: str) -> None:
         page.context.close()
 
 
-def sizes(browser: Browser, app: str) -> None:
-    """Bytes of one update."""
-    for path, label in (("", "Radial clearance"), ("Equilibrium", "Radial clearance")):
-        page = browser.new_page()
-        traffic = Traffic(page)
-        _open(page, f"{app}/{path}", 1)
-        before = traffic.received
-        page.get_by_role("slider", name=label).press("ArrowRight")
-        page.wait_for_timeout(2000)
-        _say(f"bytes an update, /{path}: {(traffic.received - before) / 1e3:.0f} kB")
-        page.context.close()
+def sizes(browser: Browser, plain: str, app: str) -> None:
+    """Bytes that the server sends for one step of a slider."""
+    for name in ("Machine", "Equilibrium", "Stability"):
+        path = PATHS[name]
+        before, after = (_size(browser, f"{address}/{path}") for address in (plain, app))
+        _say(f"bytes an update, {name}: {before / 1e3:.0f} kB before, {after / 1e3:.0f} kB live")
+
+
+def _size(browser: Browser, url: str) -> int:
+    page = browser.new_page()
+    traffic = Traffic(page)
+    _open(page, url, 1)
+    before = traffic.received
+    page.get_by_role("slider", name="Radial clearance").press("ArrowRight")
+    page.wait_for_timeout(2000)
+    received = traffic.received - before
+    page.context.close()
+    return received
 
 
 def crowd(browser: Browser, app: str) -> None:
@@ -277,14 +287,14 @@ def _open(page: Page, url: str, charts: int) -> None:
 
 
 @contextlib.contextmanager
-def served(script: Path) -> Iterator[tuple[str, int]]:
+def served(script: Path, live: str = "drag") -> Iterator[tuple[str, int]]:
     """Serve a script by Streamlit with the project's settings; give its address and process."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
     command = [sys.executable, "-m", "streamlit", "run", str(script), f"--server.port={port}",
                "--server.headless=true", "--server.address=127.0.0.1"]  # fmt: skip
-    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "ROTORCALC_LIVE": live}
     server = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, env=environment)
     try:
         _wait(lambda: urlopen(f"http://127.0.0.1:{port}/_stcore/health", timeout=5).status == 200)
