@@ -6,7 +6,6 @@ opens them in a real Chromium, and prints a table. Both sides of a ratio are mea
 
 import argparse
 import contextlib
-import json
 import os
 import shutil
 import socket
@@ -20,16 +19,13 @@ from pathlib import Path
 from urllib.error import URLError
 from urllib.request import urlopen
 
-from google.protobuf.message import DecodeError
-from playwright.sync_api import Browser, Page, WebSocket, sync_playwright
-from streamlit.proto.ForwardMsg_pb2 import ForwardMsg
+from playwright.sync_api import Browser, Page, sync_playwright
 
 from tests.browser.app_page import PATHS
 from tests.browser.conftest import CHROMIUM_ARGS
 
 ROOT = Path(__file__).resolve().parents[2]
 REPEATS = 30
-SESSIONS = 10
 
 # From letting go of the slider's thumb until the line of every chart is another.
 _REDRAWN = """(charts) => new Promise(resolve => {
@@ -92,29 +88,14 @@ _RANGE = "() => [...document.querySelectorAll('.live-chart')].at(-1).layout.xaxi
 
 
 class Traffic:
-    """What a tab's websocket carries: bytes received, and runs asked for and not yet ended."""
+    """What a tab's websocket has received [bytes]."""
 
     def __init__(self, page: Page) -> None:
         self.received = 0
-        self.running = 0
-        self.most_running = 0
-        page.on("websocket", self._connected)
-
-    def _connected(self, socket: WebSocket) -> None:
-        socket.on("framereceived", self._received)
-        socket.on("framesent", self._sent)
-
-    def _sent(self, _frame: bytes | str) -> None:
-        self.running += 1
-        self.most_running = max(self.most_running, self.running)
+        page.on("websocket", lambda socket: socket.on("framereceived", self._received))
 
     def _received(self, frame: bytes | str) -> None:
         self.received += len(frame)
-        with contextlib.suppress(DecodeError):
-            if isinstance(frame, bytes) and ForwardMsg.FromString(frame).HasField(
-                "script_finished"
-            ):
-                self.running = 0
 
 
 def main() -> None:
@@ -136,7 +117,6 @@ def main() -> None:
         releases(browser, bare)
         drags(browser, bare, app)
         sizes(browser, plain, app)
-        crowd(browser, app)
         endurance(browser, app, server, minutes)
 
 
@@ -204,27 +184,6 @@ def _size(browser: Browser, url: str) -> int:
     received = traffic.received - before
     page.context.close()
     return received
-
-
-def crowd(browser: Browser, app: str) -> None:
-    """Ten sessions that drag at once on one server."""
-    pages = [browser.new_page() for _ in range(SESSIONS)]
-    traffics = [Traffic(page) for page in pages]
-    for page in pages:
-        _open(page, f"{app}/Stability", 2)
-    for page in pages:
-        drag = json.dumps(["Radial clearance", 8000])
-        page.evaluate(f"() => {{ window.dragged = ({_DRAG})({drag}); }}")
-    found = [page.evaluate("() => window.dragged") for page in pages]
-    settled = max(one["settled"] for one in found)
-    rate = statistics.median(min(one["updates"]) / one["seconds"] for one in found)
-    most = max(traffic.most_running for traffic in traffics)
-    _say(
-        f"{SESSIONS} sessions dragging: last value drawn after at most {settled:.0f} ms; "
-        f"{rate:.1f} updates/s; at most {most} run(s) a session under way"
-    )
-    for page in pages:
-        page.context.close()
 
 
 def endurance(browser: Browser, app: str, server: int, minutes: float) -> None:
