@@ -8,6 +8,7 @@ page = frame.begin(
     "Nonlinear orbits",
     "Let the journal go and watch: its motion on the film's full force, the linear theory beside "
     "it.",
+    follows=False,
 )
 view, units = page.view, page.units
 answer = st.container()

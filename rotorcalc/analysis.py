@@ -4,6 +4,7 @@ Follows the calculation sheet of the notes, vectorised over running speed.
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -63,10 +64,6 @@ class Sweep:
     rigid_threshold, flexible_threshold : array, (n,)
         Ω_s and Ω_sf [rad/s] (Eqs. 5.45 to 5.50) at this speed's equilibrium; the machine is
         unstable where its speed lies above. Without midspan damping and journal mass.
-    rigid_eigenvalues : complex array, (n, 4)
-        λ of the rigid rotor [1/s].
-    flexible_eigenvalues : complex array, (n, 6)
-        λ of the flexible rotor [1/s]; 8 with journal mass; the rigid ones for a rigid shaft.
     disk_response, journal_response : complex array, (n, 2)
         Phasors of X and Y due to imbalance [m].
     """
@@ -90,10 +87,22 @@ class Sweep:
     critical_mass: Array
     rigid_threshold: Array
     flexible_threshold: Array
-    rigid_eigenvalues: ComplexArray
-    flexible_eigenvalues: ComplexArray
     disk_response: ComplexArray
     journal_response: ComplexArray
+
+    @cached_property
+    def rigid_eigenvalues(self) -> ComplexArray:
+        """λ of the rigid rotor [1/s], (n, 4); computed when first asked for."""
+        rotor = self.machine.rotor
+        return modes.eigenvalues(rotor, self.stiffness, self.damping, flexible=False)
+
+    @cached_property
+    def flexible_eigenvalues(self) -> ComplexArray:
+        """λ of the flexible rotor [1/s], (n, 6); 8 with journal mass; a rigid shaft's as above."""
+        rotor = self.machine.rotor
+        if rotor.is_rigid:
+            return self.rigid_eigenvalues
+        return modes.eigenvalues(rotor, self.stiffness, self.damping)
 
 
 def analyse(machine: Machine, speed: ArrayLike) -> Sweep:
@@ -123,7 +132,6 @@ def analyse(machine: Machine, speed: ArrayLike) -> Sweep:
     onset = whirl_onset(K, C * state.speed[..., None, None])
     K_eq = onset.equivalent_stiffness
     rigid_threshold = onset.threshold_speed / np.sqrt(rotor.half_mass)
-    rigid_eigenvalues = modes.eigenvalues(rotor, K, C, flexible=False)
     disk, journal = synchronous_response(rotor, K, C, state.speed)
     return Sweep(
         machine=machine,
@@ -145,10 +153,6 @@ def analyse(machine: Machine, speed: ArrayLike) -> Sweep:
         critical_mass=onset.critical_mass / state.speed**2,
         rigid_threshold=rigid_threshold,
         flexible_threshold=flexible_threshold(rigid_threshold, K_eq, 1.0 / rotor.shaft_stiffness),
-        rigid_eigenvalues=rigid_eigenvalues,
-        flexible_eigenvalues=rigid_eigenvalues
-        if rotor.is_rigid
-        else modes.eigenvalues(rotor, K, C),
         disk_response=disk,
         journal_response=journal,
     )

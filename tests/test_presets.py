@@ -21,6 +21,7 @@ def test_a_preset_can_be_analysed_over_its_whole_range(name):
         values = getattr(sweep, field.name)
         if field.name != "machine" and field.name not in infinite:
             assert np.all(np.isfinite(values)), field.name
+    assert np.all(np.isfinite(sweep.flexible_eigenvalues))
     assert np.all(np.diff(sweep.eccentricity_ratio) < 0)
 
 

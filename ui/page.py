@@ -3,16 +3,17 @@
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import streamlit as st
 
 from rotorcalc.figures import Chart, with_baseline
 from rotorcalc.figures.units import Units
 from ui import checks, compare, share, sidebar, version
-from ui.results import show_results
+from ui.results import RESULTS, row_key, show_results
 from ui.state import state, write_address_bar
 from ui.view import View, view_of
-from ui.widgets import show_chart
+from ui.widgets import chart_key, on_page, show_chart, show_feed
 
 _ICON = str(Path(__file__).with_name("icon.svg"))
 
@@ -59,10 +60,8 @@ class Page:
 
     def chart(self, draw: Callable[[View], Chart], key: str, *, alt: str, caption: str) -> None:
         """Show a chart of the live machine, the pinned one thin and grey behind it."""
-        chart = draw(self.view)
-        if self.baseline is not None:
-            chart = with_baseline(chart, draw(self.baseline))
-        show_chart(chart, key=key, alt=alt)
+        show_chart(_drawn(draw, self.view, self.baseline), key=key, alt=alt)
+        state().charts[chart_key(key)] = draw
         st.caption(caption)
 
     def alone(self) -> "Page":
@@ -72,10 +71,20 @@ class Page:
     def results(self, *keys: str) -> None:
         """Show results in a row, each with its equation and its change from the pinned machine."""
         show_results(self.view, self.baseline, self.units, *keys)
+        state().rows.append(keys)
 
 
-def begin(title: str, sentence: str) -> Page:
-    """Draw a page's frame and return its machine; stop where the inputs make none."""
+def _drawn(draw: Callable[[View], Chart], view: View, baseline: View | None) -> Chart:
+    chart = draw(view)
+    return chart if baseline is None else with_baseline(chart, draw(baseline))
+
+
+def begin(title: str, sentence: str, *, follows: bool = True) -> Page:
+    """Draw a page's frame and return its machine; stop where the inputs make none.
+
+    Its charts and results follow a held thumb by themselves, unless `follows` is false: then the
+    whole page does, for charts that take long and show their progress.
+    """
     st.set_page_config(
         page_title=f"{title} · rotorcalc",
         page_icon=_ICON,
@@ -85,6 +94,8 @@ def begin(title: str, sentence: str) -> Page:
     st.html(_STYLE)
     kept = state()
     kept.arriving = kept.page != title
+    kept.charts.clear()
+    kept.rows.clear()
     with st.sidebar:
         sidebar.draw_presets()
         compare.draw_buttons()
@@ -106,8 +117,24 @@ def begin(title: str, sentence: str) -> Page:
         share.draw(view, baseline, kept.units)
         checks.draw(view)
         st.caption(version.label())
+        if follows:
+            show_feed(_follow)
     compare.draw_differences(kept.units)
     return Page(view=view, baseline=baseline, units=kept.units)
+
+
+def _follow() -> dict[str, Any]:
+    """Return the page's charts and rows of results, of the machine as it is now."""
+    kept = state()
+    view = view_of(kept.values)
+    baseline = None if kept.baseline is None else view_of(kept.baseline)
+    return {
+        "charts": {key: on_page(_drawn(draw, view, baseline)) for key, draw in kept.charts.items()},
+        "rows": {
+            row_key(keys): [RESULTS[key].shown(view, kept.units) for key in keys]
+            for keys in kept.rows
+        },
+    }
 
 
 def _navigation() -> None:

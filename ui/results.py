@@ -60,9 +60,14 @@ class Result:
         return f"{'+' if change >= 0.0 else '−'}{digits(abs(change))} % vs A"
 
 
+def row_key(keys: tuple[str, ...]) -> str:
+    """Return the key of a row of results."""
+    return f"results_{keys[0]}"
+
+
 def show_results(view: View, baseline: View | None, units: Units, *keys: str) -> None:
     """Show results in a row, each with a popover that explains it."""
-    with st.container(key=f"results_{keys[0]}"):
+    with st.container(key=row_key(keys)):
         columns = st.columns(len(keys))
     for column, key in zip(columns, keys, strict=True):
         result = RESULTS[key]

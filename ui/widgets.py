@@ -5,6 +5,7 @@ How an input sends and how a chart is drawn are decided here and nowhere else.
 
 import importlib
 import math
+from collections.abc import Callable
 from types import ModuleType
 from typing import Any
 
@@ -15,7 +16,7 @@ from plotly.basedatatypes import BaseFigure
 from rotorcalc.figures import Chart, themed
 from rotorcalc.figures.units import Units
 from ui import settings
-from ui.inputs import Input
+from ui.inputs import INPUTS, Input
 from ui.link import quoted
 from ui.state import mirror, state
 
@@ -42,11 +43,35 @@ def show_chart(chart: Chart, *, key: str, alt: str) -> None:
         "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d"],
         "toImageButtonOptions": {"format": state().image_format, "filename": key, "scale": 2},
     }
-    drawn = themed(chart, dark=st.context.theme.type == "dark")
+    drawn = on_page(chart)
     if settings.live() == "off":
-        st.plotly_chart(_Checked(drawn), key=f"chart_{key}", theme=None, config=config, alt=alt)
+        st.plotly_chart(_Checked(drawn), key=chart_key(key), theme=None, config=config, alt=alt)
     else:
-        _live().show_chart(drawn, key=f"chart_{key}", config=config, alt=alt)
+        _live().show_chart(drawn, key=chart_key(key), config=config, alt=alt)
+
+
+def show_feed(follow: Callable[[], dict[str, Any]]) -> None:
+    """Let a held slider's charts and numbers follow it: `follow` returns them.
+
+    It runs in a fragment, so that nothing else of the page does.
+    """
+    if settings.live() == "drag":
+        st.fragment(_live().show_feed)(follow, on_move=_followed)
+
+
+def chart_key(key: str) -> str:
+    """Return the key under which a chart is known to the feed."""
+    return f"chart_{key}"
+
+
+def on_page(chart: Chart) -> Chart:
+    """Return a chart in the page's light or dark."""
+    return themed(chart, dark=st.context.theme.type == "dark")
+
+
+def _followed(name: str, value: object) -> None:
+    if name in INPUTS:
+        _moved(INPUTS[name], state().units, value, held=True)
 
 
 def show_input(item: Input, *, disabled: bool = False) -> None:
@@ -85,7 +110,7 @@ def _live_slider(item: Input, shown: float, units: Units) -> None:
     _live().show_slider(
         item.name(units), shown, (low, high, step), log=item.log, beyond=item.infinite,
         key=f"input_{item.key}_{units.name}_live", help=item.help,
-        while_held=settings.live() == "drag",
+        name=item.key, while_held=settings.live() == "drag",
         on_move=lambda value, held: _moved(item, units, value, held=held),
     )  # fmt: skip
 

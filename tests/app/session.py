@@ -15,7 +15,7 @@ from ui.state import State
 ROOT = Path(__file__).resolve().parents[2]
 TIMEOUT = 60  # seconds; a run takes 0.05, but the machine may be busy
 HOME, *OTHERS = PAGES
-NOTES = OTHERS[-1]
+*_, ORBITS, NOTES = OTHERS
 
 # A number that is none, as Python writes it, where a reader should find a word.
 _NO_NUMBER = re.compile(r"(?<![\w\\])(nan|NaN|None|-?inf|Infinity)(?![\w:])")

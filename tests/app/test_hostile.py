@@ -38,7 +38,7 @@ IN_RANGE = st.sampled_from(list(INPUTS.values())).flatmap(
 )
 LINKS = st.lists(st.tuples(KEYS, WORDS) | IN_RANGE, max_size=8).map(dict)
 UNHURRIED = settings(
-    max_examples=25, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+    max_examples=10, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
 
 
@@ -46,31 +46,29 @@ class Watch:
     """Hears which files are opened while it listens."""
 
     def __init__(self) -> None:
-        self.listening = False
+        self._listening = False
         self.written: list[str] = []
         self.named: list[str] = []
 
     def __call__(self, event: str, args: tuple[Any, ...]) -> None:
-        if not self.listening or event != "open":
+        # A file's number instead of its path is one that is open already.
+        if not self._listening or event != "open" or isinstance(args[0], int):
             return
-        path, mode, _ = args
-        if mode is not None and set(mode) & set("wax+"):
-            self.written.append(str(path))
-        if MARK in str(path):
-            self.named.append(str(path))
+        path, mode = str(args[0]), str(args[1] or "")
+        if set(mode) & set("wax+"):
+            self.written.append(path)
+        if MARK in path:
+            self.named.append(path)
+
+    def __enter__(self) -> None:
+        self._listening = True
+
+    def __exit__(self, *_: object) -> None:
+        self._listening = False
 
 
 WATCH = Watch()
 sys.addaudithook(WATCH)
-
-
-@pytest.fixture
-def watch() -> Iterator[Watch]:
-    WATCH.written.clear()
-    WATCH.named.clear()
-    WATCH.listening = True
-    yield WATCH
-    WATCH.listening = False
 
 
 def _without_code(text: str) -> str:
@@ -85,23 +83,22 @@ def _said(at: AppTest) -> list[str]:
 
 def _unharmed(at: AppTest) -> None:
     assert not at.exception
+    assert WATCH.written == []
+    assert WATCH.named == []
     for text in _said(at):
         assert MARK not in _without_code(text), text
 
 
-@pytest.mark.parametrize("path", [HOME, OTHERS[0], OTHERS[2], OTHERS[4]])
+@pytest.mark.parametrize("path", [HOME, OTHERS[2]])
 @UNHURRIED
 @given(link=LINKS)
 @example(link=dict.fromkeys(MARKUP, "1"))
 @example(link={key: MARKUP[i % len(MARKUP)] for i, key in enumerate(INPUTS)})
 @example(link={"preset": MARKUP[0], "units": MARKUP[1]})
-def test_no_link_breaks_a_page_or_writes_on_it(
-    path: str, link: dict[str, str], watch: Watch
-) -> None:
-    at = visit(path, **link)
+def test_no_link_breaks_a_page_or_writes_on_it(path: str, link: dict[str, str]) -> None:
+    with WATCH:
+        at = visit(path, **link)
     _unharmed(at)
-    assert watch.written == []
-    assert watch.named == []
 
 
 def _places(tree: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
@@ -141,7 +138,6 @@ def _machines(draw: st.DrawFn) -> str:
 MEGABYTE = 10**6
 MONSTERS = {
     "digits": json.dumps(GOOD).replace('"temperature": 60.0', f'"temperature": {"9" * MEGABYTE}'),
-    "fraction": json.dumps(GOOD).replace("60.0", f"0.{'1' * MEGABYTE}"),
     "exponent": json.dumps(GOOD).replace("60.0", f"1e{'9' * MEGABYTE}"),
     "quoted digits": json.dumps(GOOD).replace("60.0", f'"{"9" * MEGABYTE}"'),
     "depth": "[" * MEGABYTE,
@@ -192,13 +188,10 @@ def sharing() -> AppTest:
 
 @UNHURRIED
 @given(text=_machines() | st.sampled_from(sorted(MONSTERS.values())), name=st.sampled_from(MARKUP))
-def test_no_upload_breaks_the_page_or_writes_on_it(
-    text: str, name: str, sharing: AppTest, watch: Watch
-) -> None:
+def test_no_upload_breaks_the_page_or_writes_on_it(text: str, name: str, sharing: AppTest) -> None:
     content = text.encode("utf-8", "surrogatepass")
-    sharing.file_uploader(key="upload").upload(name, content).run()
+    with WATCH:
+        sharing.file_uploader(key="upload").upload(name, content).run()
     _unharmed(sharing)
     for key, item in INPUTS.items():
         assert item.problem(kept(sharing).values[key]) == ""
-    assert watch.written == []
-    assert watch.named == []

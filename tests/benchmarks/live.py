@@ -6,7 +6,6 @@ opens them in a real Chromium, and prints a table. Both sides of a ratio are mea
 
 import argparse
 import contextlib
-import json
 import os
 import shutil
 import socket
@@ -20,15 +19,13 @@ from pathlib import Path
 from urllib.error import URLError
 from urllib.request import urlopen
 
-from google.protobuf.message import DecodeError
-from playwright.sync_api import Browser, Page, WebSocket, sync_playwright
-from streamlit.proto.ForwardMsg_pb2 import ForwardMsg
+from playwright.sync_api import Browser, Page, sync_playwright
 
+from tests.browser.app_page import PATHS
 from tests.browser.conftest import CHROMIUM_ARGS
 
 ROOT = Path(__file__).resolve().parents[2]
 REPEATS = 30
-SESSIONS = 10
 
 # From letting go of the slider's thumb until the line of every chart is another.
 _REDRAWN = """(charts) => new Promise(resolve => {
@@ -91,29 +88,14 @@ _RANGE = "() => [...document.querySelectorAll('.live-chart')].at(-1).layout.xaxi
 
 
 class Traffic:
-    """What a tab's websocket carries: bytes received, and runs asked for and not yet ended."""
+    """What a tab's websocket has received [bytes]."""
 
     def __init__(self, page: Page) -> None:
         self.received = 0
-        self.running = 0
-        self.most_running = 0
-        page.on("websocket", self._connected)
-
-    def _connected(self, socket: WebSocket) -> None:
-        socket.on("framereceived", self._received)
-        socket.on("framesent", self._sent)
-
-    def _sent(self, _frame: bytes | str) -> None:
-        self.running += 1
-        self.most_running = max(self.most_running, self.running)
+        page.on("websocket", lambda socket: socket.on("framereceived", self._received))
 
     def _received(self, frame: bytes | str) -> None:
         self.received += len(frame)
-        with contextlib.suppress(DecodeError):
-            if isinstance(frame, bytes) and ForwardMsg.FromString(frame).HasField(
-                "script_finished"
-            ):
-                self.running = 0
 
 
 def main() -> None:
@@ -125,6 +107,7 @@ def main() -> None:
         tempfile.TemporaryDirectory() as folder,
         served(_beside_static(folder)) as (bare, _),
         served(ROOT / "app.py") as (app, server),
+        served(ROOT / "app.py", live="off") as (plain, _),
         sync_playwright() as playwright,
     ):
         browser = playwright.chromium.launch(
@@ -133,8 +116,7 @@ def main() -> None:
         )
         releases(browser, bare)
         drags(browser, bare, app)
-        sizes(browser, app)
-        crowd(browser, app)
+        sizes(browser, plain, app)
         endurance(browser, app, server, minutes)
 
 
@@ -167,7 +149,8 @@ def drags(browser: Browser, bare: str, app: str) -> None:
     ]
     cases += [
         ("the app's home page", app, 4, "Radial clearance"),
-        ("the app's root locus", f"{app}/Root_locus", 2, "Running speed"),
+        ("the app's static equilibrium", f"{app}/Equilibrium", 2, "Running speed"),
+        ("the app's root locus", f"{app}/Root_locus", 1, "Running speed"),
     ]
     for name, url, charts, label in cases:
         page = _opened(browser, url, charts)
@@ -183,38 +166,24 @@ def drags(browser: Browser, bare: str, app: str) -> None:
         page.context.close()
 
 
-def sizes(browser: Browser, app: str) -> None:
-    """Bytes of one update."""
-    for path, label in (("", "Radial clearance"), ("Equilibrium", "Radial clearance")):
-        page = browser.new_page()
-        traffic = Traffic(page)
-        _open(page, f"{app}/{path}", 1)
-        before = traffic.received
-        page.get_by_role("slider", name=label).press("ArrowRight")
-        page.wait_for_timeout(2000)
-        _say(f"bytes an update, /{path}: {(traffic.received - before) / 1e3:.0f} kB")
-        page.context.close()
+def sizes(browser: Browser, plain: str, app: str) -> None:
+    """Bytes that the server sends for one step of a slider."""
+    for name in ("Machine", "Equilibrium", "Stability"):
+        path = PATHS[name]
+        before, after = (_size(browser, f"{address}/{path}") for address in (plain, app))
+        _say(f"bytes an update, {name}: {before / 1e3:.0f} kB before, {after / 1e3:.0f} kB live")
 
 
-def crowd(browser: Browser, app: str) -> None:
-    """Ten sessions that drag at once on one server."""
-    pages = [browser.new_page() for _ in range(SESSIONS)]
-    traffics = [Traffic(page) for page in pages]
-    for page in pages:
-        _open(page, f"{app}/Stability", 2)
-    for page in pages:
-        drag = json.dumps(["Radial clearance", 8000])
-        page.evaluate(f"() => {{ window.dragged = ({_DRAG})({drag}); }}")
-    found = [page.evaluate("() => window.dragged") for page in pages]
-    settled = max(one["settled"] for one in found)
-    rate = statistics.median(min(one["updates"]) / one["seconds"] for one in found)
-    most = max(traffic.most_running for traffic in traffics)
-    _say(
-        f"{SESSIONS} sessions dragging: last value drawn after at most {settled:.0f} ms; "
-        f"{rate:.1f} updates/s; at most {most} run(s) a session under way"
-    )
-    for page in pages:
-        page.context.close()
+def _size(browser: Browser, url: str) -> int:
+    page = browser.new_page()
+    traffic = Traffic(page)
+    _open(page, url, 1)
+    before = traffic.received
+    page.get_by_role("slider", name="Radial clearance").press("ArrowRight")
+    page.wait_for_timeout(2000)
+    received = traffic.received - before
+    page.context.close()
+    return received
 
 
 def endurance(browser: Browser, app: str, server: int, minutes: float) -> None:
@@ -277,14 +246,14 @@ def _open(page: Page, url: str, charts: int) -> None:
 
 
 @contextlib.contextmanager
-def served(script: Path) -> Iterator[tuple[str, int]]:
+def served(script: Path, live: str = "drag") -> Iterator[tuple[str, int]]:
     """Serve a script by Streamlit with the project's settings; give its address and process."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
     command = [sys.executable, "-m", "streamlit", "run", str(script), f"--server.port={port}",
                "--server.headless=true", "--server.address=127.0.0.1"]  # fmt: skip
-    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "ROTORCALC_LIVE": live}
     server = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, env=environment)
     try:
         _wait(lambda: urlopen(f"http://127.0.0.1:{port}/_stcore/health", timeout=5).status == 200)

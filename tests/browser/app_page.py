@@ -34,7 +34,7 @@ _AT_REST = """() => {
       '[data-stale="true"], [data-testid="stSkeleton"], .live-slider[data-busy]')
     && !window.rotorcalcDrawing
     && [...document.querySelectorAll('.stBidiComponent')].every(
-      component => component.querySelector('.live-slider, .live-chart'))
+      component => component.querySelector('.live-slider, .live-chart, .live-feed'))
     && [...document.querySelectorAll('[data-testid="stPlotlyChart"], .live-chart')].every(
       chart => chart.offsetParent === null
         || chart.querySelector('.overplot path, .shapelayer path, .annotation'));

@@ -8,8 +8,8 @@ from playwright.sync_api import Locator, expect
 from tests.browser.app_page import AppPage
 
 
-def _held(app: AppPage, label: str, share: float) -> None:
-    """Press a slider's thumb and move it by a share of the slider's length, without letting go."""
+def _held(app: AppPage, label: str, share: float) -> tuple[float, float]:
+    """Press a slider's thumb, move it by a share of its length and hold it; return where it was."""
     slider = app.slider(label)
     slider.scroll_into_view_if_needed()
     box = slider.bounding_box()
@@ -22,6 +22,7 @@ def _held(app: AppPage, label: str, share: float) -> None:
     app.page.mouse.move(start, height)
     app.page.mouse.down()
     app.page.mouse.move(start + share * box["width"], height, steps=8)
+    return start, height
 
 
 def _zoom(app: AppPage, chart: Locator) -> list[float]:
@@ -50,6 +51,25 @@ def test_chart_and_numbers_follow_the_held_thumb_and_the_address_its_release(app
     with app.run():
         app.page.mouse.up()
     assert float(app.query()["C"]) > 100
+
+
+def test_a_thumb_dragged_back_leaves_the_page_as_it_was(app: AppPage) -> None:
+    """Streamlit sends nothing anew then: the charts and numbers that followed must find back."""
+    app.open("Stability")
+    numbers, lines = app.metrics(), _lines(app)
+    start = _held(app, "Radial clearance", 0.2)
+    assert app.changes(app.metrics, numbers)
+    assert app.changes(lambda: _lines(app), lines)
+    app.page.mouse.move(*start, steps=4)
+    with app.run():
+        app.page.mouse.up()
+    assert app.query() == {}
+    assert app.metrics() == numbers
+    assert _lines(app) == lines
+
+
+def _lines(app: AppPage) -> list[str]:
+    return app.charts().evaluate_all("charts => charts.map(gd => JSON.stringify(gd.data))")
 
 
 @pytest.mark.parametrize(("page", "charts"), [("Stability", 2), ("Root locus", 1)])

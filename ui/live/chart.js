@@ -1,10 +1,12 @@
 // A chart: Plotly redraws it in the same element, so that zoom and hidden lines stay.
 //
-// `data` is JSON in UTF-8: chart (data, layout, frames), config, alt, and the address of Plotly's script.
+// `data` is JSON in UTF-8: key, chart (data, layout, frames), config, alt, and Plotly's address.
 
 const FAILED = "This chart could not be drawn: Plotly's script did not load. Reload the page.";
 // How many charts are being drawn: sliders wait for them.
 window.rotorcalcDrawing ??= 0;
+// Charts by key, for the feed.
+window.rotorcalcCharts ??= new Map();
 
 let loading; // one script a page
 function plotly(address) {
@@ -31,6 +33,17 @@ function made(parent) {
   element.setAttribute("role", "figure");
   parent.replaceChildren(element);
   const chart = { element, wanted: null, busy: false };
+  chart.follow = (figure) => {
+    chart.followed = true;
+    chart.wanted = { ...JSON.parse(chart.given), chart: figure };
+    draw(chart);
+  };
+  chart.settle = () => {
+    if (!chart.followed) return;
+    chart.followed = false;
+    chart.wanted = JSON.parse(chart.given);
+    draw(chart);
+  };
   chart.resizing = new ResizeObserver(() => {
     if (element.data && element.offsetParent) window.Plotly.Plots.resize(element);
   });
@@ -87,11 +100,16 @@ async function draw(chart) {
 
 export default function ({ data, parentElement }) {
   const chart = charts.get(parentElement) ?? made(parentElement);
-  chart.wanted = JSON.parse(new TextDecoder().decode(data));
-  chart.element.setAttribute("aria-label", chart.wanted.alt);
-  chart.element.style.height = `${chart.wanted.chart.layout.height}px`;
+  // As text: Plotly writes into what it is given, and would take its own writing for ours.
+  chart.given = new TextDecoder().decode(data);
+  chart.wanted = JSON.parse(chart.given);
+  const { key, alt, chart: figure } = chart.wanted;
+  window.rotorcalcCharts.set(key, chart);
+  chart.element.setAttribute("aria-label", alt);
+  chart.element.style.height = `${figure.layout.height}px`;
   draw(chart);
   return () => {
+    if (window.rotorcalcCharts.get(key) === chart) window.rotorcalcCharts.delete(key);
     chart.resizing.disconnect();
     charts.delete(parentElement);
     window.Plotly?.purge(chart.element);

@@ -117,16 +117,20 @@ class Slider {
 
   go() {
     const number = performance.now();
-    this.send("moved", { ...this.waiting, number });
+    const message = { ...this.waiting, number };
+    this.feed = message.held && this.data.follow ? window.rotorcalcFeed : undefined;
+    if (this.feed) this.feed.send({ ...message, name: this.data.name });
+    else this.send("moved", message);
+    this.final = !message.held;
     this.waiting = null;
     this.sent = number;
-    this.left = performance.now();
+    this.left = number;
     requestAnimationFrame(() => this.wait());
   }
 
   // Until what went out is drawn; at most ten seconds, for an answer can be lost with its connection.
   wait() {
-    const answered = this.data.echo === this.sent && resting();
+    const answered = (this.feed ?? this.data).echo === this.sent && resting();
     if (!answered && performance.now() - this.left < 10000) {
       requestAnimationFrame(() => this.wait());
       return;
@@ -136,6 +140,7 @@ class Slider {
       this.go();
       return;
     }
+    if (this.final) window.rotorcalcFeed?.settle();
     delete this.root.dataset.busy;
     if (!this.grasped) this.show(this.data.value);
   }

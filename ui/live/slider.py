@@ -21,13 +21,15 @@ def show(  # noqa: PLR0913 - what a slider shows, and where it sends
     key: str,
     help: str,  # noqa: A002 - as Streamlit calls it
     on_move: Callable[[object, bool], None],
+    name: str = "",
     while_held: bool = True,
 ) -> None:
     """Show a slider.
 
     `bounds` are the lowest and the highest value and the step between, or the number of steps a
     decade where `log`; `beyond` is the word for one more place above them. `on_move` gets what was
-    sent, which may be anything, and whether the thumb is still held.
+    sent, which may be anything, and whether the thumb is still held; with a `name` what is sent
+    while held goes through the page's feed under it, if there is one.
     """
     low, high, step = bounds
 
@@ -41,7 +43,7 @@ def show(  # noqa: PLR0913 - what a slider shows, and where it sends
         key=key,
         data={
             "label": label, "help": help, "low": low, "high": high, "step": step, "log": log,
-            "beyond": beyond, "whileHeld": while_held,
+            "beyond": beyond, "whileHeld": while_held, "name": name, "follow": name != "",
             "value": beyond if math.isinf(value) else value,
             "echo": st.session_state.get(f"{key}_echo"),
         },
