@@ -23,7 +23,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 
 TIMEOUT = 30.0  # seconds for a run; one takes a few hundredths
-SLIDER = "rotorcalc.slider"
+SLIDER, FEED = "rotorcalc.slider", "rotorcalc.feed"
 # As streamlit/components/v2/bidi_component/main.py names the widget of a component's triggers.
 _TRIGGERS = "$$STREAMLIT_INTERNAL_KEY_{}__events"
 _ENDED_WELL = (ForwardMsg.FINISHED_SUCCESSFULLY, ForwardMsg.FINISHED_FRAGMENT_RUN_SUCCESSFULLY)
@@ -66,6 +66,7 @@ class Visitor:
         self._widgets: dict[str, WidgetState] = {}
         self._shown: dict[tuple[int, ...], Any] = {}
         self._touched: set[tuple[int, ...]] = set()
+        self._fragments: dict[str, str] = {}  # by component's id
         self._socket: ClientConnection | None = None
         self._reading: asyncio.Task[None] | None = None
         self._finished = asyncio.Event()
@@ -107,12 +108,19 @@ class Visitor:
         await self._run()
 
     async def slide(self, label: str, value: float | str, *, held: bool = False) -> None:
-        """Send a value by a slider, live or Streamlit's own, and wait until its run has ended."""
+        """Send a value by a slider, live or Streamlit's own, and wait until its run has ended.
+
+        While a live one is held, its value goes by the page's feed, where there is one.
+        """
         if (found := self.live_slider(label)) is not None:
-            number = time.perf_counter() * 1e3
-            await self._trigger(found, {"value": value, "held": held, "number": number})
-            answer = self.live_slider(label)
-            if answer is None or slider_data(answer).get("echo") != number:
+            data, number = slider_data(found), time.perf_counter() * 1e3
+            feed = next(iter(self._components(FEED)), None)
+            if held and feed is not None and data.get("follow"):
+                sent = {"name": data["name"], "value": value, "number": number}
+                await self._trigger(feed, sent, self._fragments[feed.id])
+            else:
+                await self._trigger(found, {"value": value, "held": held, "number": number})
+            if number != self._echo(label, held=held):
                 raise self._failed(f"{label}: the answer is to something else")
             return
         own = next(e.slider for e in self.elements("slider") if e.slider.label.startswith(label))
@@ -149,8 +157,7 @@ class Visitor:
 
     def live_sliders(self) -> list[BidiComponent]:
         """Return the page's live sliders."""
-        components = (element.bidi_component for element in self.elements("bidi_component"))
-        return [component for component in components if component.component_name == SLIDER]
+        return self._components(SLIDER)
 
     def tab_rows(self) -> list[tuple[str, list[str]]]:
         """Return the page's rows of tabs: the id of each and its labels."""
@@ -168,6 +175,18 @@ class Visitor:
         said += [element.alert.body for element in self.elements("alert")]
         said += [f"{e.metric.label} {e.metric.body}" for e in self.elements("metric")]
         return said
+
+    def _components(self, name: str) -> list[BidiComponent]:
+        components = (element.bidi_component for element in self.elements("bidi_component"))
+        return [component for component in components if component.component_name == name]
+
+    def _echo(self, label: str, *, held: bool) -> float | None:
+        """Return the number that the server has answered: the feed's while a thumb is held."""
+        for feed in self._components(FEED) if held else []:
+            if (number := json.loads(feed.bytes).get("number")) is not None:
+                return number
+        slider = self.live_slider(label)
+        return None if slider is None else slider_data(slider).get("echo")
 
     def _labels(self, row: tuple[int, ...]) -> list[str]:
         return [
@@ -200,19 +219,21 @@ class Visitor:
             self.cookies |= {key: morsel.value for key, morsel in SimpleCookie(header).items()}
         self._reading = asyncio.create_task(self._read(self._socket))
 
-    async def _trigger(self, component: BidiComponent, value: dict[str, Any]) -> None:
+    async def _trigger(
+        self, component: BidiComponent, value: dict[str, Any], fragment: str = ""
+    ) -> None:
         key = _TRIGGERS.format(component.id)
         sent = json.dumps([{"event": "moved", "value": value}])
-        await self._run(WidgetState(id=key, json_trigger_value=sent))
+        await self._run(WidgetState(id=key, json_trigger_value=sent), fragment=fragment)
 
-    async def _run(self, *triggers: WidgetState) -> None:
-        """Ask for a run, and wait until it has ended."""
+    async def _run(self, *triggers: WidgetState, fragment: str = "") -> None:
+        """Ask for a run of the page, or of a fragment of it, and wait until it has ended."""
         if self._socket is None:
             raise self._failed("not connected")
         message = BackMsg()
         asked = message.rerun_script
         asked.query_string, asked.page_script_hash = self.query, self._page_hash
-        asked.page_name = self._page_name
+        asked.page_name, asked.fragment_id = self._page_name, fragment
         asked.widget_states.CopyFrom(WidgetStates(widgets=[*self._widgets.values(), *triggers]))
         asked.context_info.url = f"{self.address}/{self._page_name}"
         asked.context_info.color_scheme = "light"
@@ -263,6 +284,7 @@ class Visitor:
             self._shown[path] = delta.add_block
         elif delta.WhichOneof("type") == "new_element":
             self._shown[path] = delta.new_element
+            self._fragments[delta.new_element.bidi_component.id] = delta.fragment_id
             if delta.new_element.WhichOneof("type") == "exception":
                 self._failed(f"exception: {delta.new_element.exception.message}")
         self._touched.add(path)
@@ -273,8 +295,9 @@ class Visitor:
             return
         if status not in _ENDED_WELL:
             self._failed(f"run ended with {ForwardMsg.ScriptFinishedStatus.Name(status)}")
-        for path in self._shown.keys() - self._touched:
-            del self._shown[path]
+        if status != ForwardMsg.FINISHED_FRAGMENT_RUN_SUCCESSFULLY:
+            for path in self._shown.keys() - self._touched:
+                del self._shown[path]
         self.tally.runs += 1
         self.tally.under_way = 0
         self._finished.set()
