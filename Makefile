@@ -17,7 +17,7 @@ run: $(RUNTIME)
 	$(VENV) -m streamlit run app.py
 
 test: $(RUNTIME)
-	$(VENV) -m pytest -n auto
+	$(VENV) -m pytest -n auto --dist worksteal
 
 lint: $(TOOLS)
 	$(VENV) -m ruff check

@@ -8,7 +8,7 @@ from tests.browser.app_page import AppPage
 
 _NOW = """() => {
   const chart = document.querySelector('.js-plotly-plot');
-  const now = chart.data[chart.data.length - 1];
+  const now = chart._fullData.at(-1);  // its arrays decoded
   return [now.x[0], now.y[0], chart.layout.sliders[0].active];
 }"""
 _FRAMES = "() => document.querySelector('.js-plotly-plot')._transitionData._frames.length"
@@ -38,7 +38,7 @@ def test_the_orbit_plays_stops_and_is_scrubbed(app: AppPage) -> None:
     app.open("Orbits")
     page = app.page
     assert page.evaluate(_FRAMES) > 100
-    chart = page.get_by_test_id("stPlotlyChart").first
+    chart = app.charts().first
     last = page.evaluate(_NOW)
     assert last[2] == page.evaluate(_FRAMES) - 1
     # Pull the slider to its beginning: the journal is where it was let go.
@@ -75,9 +75,9 @@ def test_long_work_shows_progress_and_can_be_cancelled(app: AppPage) -> None:
     app.page.get_by_role("button", name="Cancel", exact=True).click()
     expect(app.page.get_by_role("button", name="Run up to the top speed")).to_be_enabled()
     app.rest()
-    expect(app.page.get_by_test_id("stPlotlyChart")).to_have_count(0)
+    expect(app.charts()).to_have_count(0)
     press(app, "Run up to the top speed")
-    expect(app.page.get_by_test_id("stPlotlyChart")).to_have_count(1)
+    expect(app.charts()).to_have_count(1)
     expect(app.page.get_by_role("button", name="Cancel", exact=True)).to_have_count(0)
 
 
