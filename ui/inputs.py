@@ -5,6 +5,7 @@ its key there. `machine_of` and `values_of` lead from such values to the core's 
 """
 
 import math
+import reprlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -55,6 +56,20 @@ class Input:
         """Return label, symbol and unit, as beside a slider."""
         unit = self.unit(units).name
         return f"{self.label} {self.symbol}" + ("" if unit == "-" else f" [{unit}]")
+
+    def taken(self, sent: object, units: Units) -> float:
+        """Return what a slider sent, in a visitor's unit, as it is kept.
+
+        Raises ValueError in words where it is no number or lies outside the range.
+        """
+        try:
+            reading = math.inf if self.infinite and sent == self.infinite else float(str(sent))
+        except ValueError:
+            raise ValueError(f"{self.label}: {quoted(sent)} is no number") from None
+        value = self.kept(reading, units)
+        if problem := self.problem(value):
+            raise ValueError(f"{self.name(units)} = {reading:g} {problem}")
+        return value
 
     def problem(self, value: float | None) -> str:
         """Return what is wrong with a value, in words, or nothing."""
@@ -210,3 +225,9 @@ def speeds_of(values: Mapping[str, float | None]) -> tuple[float, float]:
     """Return the running speed and the top speed of the charts [rad/s]."""
     speed, top = (INPUTS[key].unit(SI).to_si(_number(values, key)) for key in ("rpm", "rpm_max"))
     return speed, max(speed, top)
+
+
+def quoted(word: object) -> str:
+    """Return what a visitor typed, short, and with nothing that a page could take for markup."""
+    text = reprlib.repr(word).replace("`", "'")
+    return f"`{text}`"

@@ -64,6 +64,8 @@ class Turns:
             if not full:
                 self._line.append(ticket)
         if full:
+            if _nobody_looks():  # a held thumb: it asks again
+                raise ValueError(BUSY)
             st.warning(BUSY)
             st.stop()
 
@@ -78,7 +80,7 @@ class Turns:
             ahead = self.ahead(ticket)
         if not ahead:
             return
-        place = None if get_script_run_ctx(suppress_warning=True) is None else st.empty()
+        place = None if _nobody_looks() else st.empty()
         while ahead:
             if place is not None:  # where a visitor has gone on meanwhile, this ends the run
                 place.info(_words(ahead))
@@ -155,6 +157,11 @@ def size_of(result: object) -> int:
     if isinstance(result, tuple | list):
         return sum(size_of(item) for item in cast("list[object]", result))
     return 64
+
+
+def _nobody_looks() -> bool:
+    """Return whether there is no page to write on."""
+    return get_script_run_ctx(suppress_warning=True) is None
 
 
 def _words(ahead: int) -> str:

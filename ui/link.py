@@ -4,12 +4,11 @@ A link holds the preset and every value that differs from it, always in SI as en
 it means the same whatever units are shown.
 """
 
-import reprlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from rotorcalc.figures.units import SYSTEMS
-from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, Values, machine_of
+from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, Values, machine_of, quoted
 
 
 @dataclass
@@ -94,12 +93,6 @@ def _kept(key: str, preset: str) -> str:
     value = PRESET_VALUES[preset][key]
     shown = "half the rotor's weight" if value is None else f"{value:g}"
     return f"the preset's {shown} is used."
-
-
-def quoted(word: object) -> str:
-    """Return what a visitor typed, short, and with nothing that a page could take for markup."""
-    text = reprlib.repr(word).replace("`", "'")
-    return f"`{text}`"
 
 
 def _long(value: float) -> bool:

@@ -1,19 +1,17 @@
 """The frame of every page: title, navigation, sidebar, and means to show a machine's results."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import streamlit as st
 
-from rotorcalc.figures import Chart, with_baseline
 from rotorcalc.figures.units import Units
 from ui import checks, compare, share, sidebar, version
-from ui.results import RESULTS, row_key, show_results
+from ui.follow import Draw, Drawn, drawn
+from ui.results import show_results
 from ui.state import state, write_address_bar
 from ui.view import View, view_of
-from ui.widgets import chart_key, on_page, show_chart, show_feed
+from ui.widgets import chart_key, is_dark, show_chart, show_feed
 
 _ICON = str(Path(__file__).with_name("icon.svg"))
 
@@ -57,11 +55,12 @@ class Page:
     view: View
     baseline: View | None
     units: Units
+    follows: Drawn
 
-    def chart(self, draw: Callable[[View], Chart], key: str, *, alt: str, caption: str) -> None:
+    def chart(self, draw: Draw, key: str, *, alt: str, caption: str) -> None:
         """Show a chart of the live machine, the pinned one thin and grey behind it."""
-        show_chart(_drawn(draw, self.view, self.baseline), key=key, alt=alt)
-        state().charts[chart_key(key)] = draw
+        show_chart(drawn(draw, self.view, self.baseline), key=key, alt=alt)
+        self.follows.charts[chart_key(key)] = draw
         st.caption(caption)
 
     def alone(self) -> "Page":
@@ -71,12 +70,7 @@ class Page:
     def results(self, *keys: str) -> None:
         """Show results in a row, each with its equation and its change from the pinned machine."""
         show_results(self.view, self.baseline, self.units, *keys)
-        state().rows.append(keys)
-
-
-def _drawn(draw: Callable[[View], Chart], view: View, baseline: View | None) -> Chart:
-    chart = draw(view)
-    return chart if baseline is None else with_baseline(chart, draw(baseline))
+        self.follows.rows.append(keys)
 
 
 def begin(title: str, sentence: str, *, follows: bool = True) -> Page:
@@ -94,8 +88,6 @@ def begin(title: str, sentence: str, *, follows: bool = True) -> Page:
     st.html(_STYLE)
     kept = state()
     kept.arriving = kept.page != title
-    kept.charts.clear()
-    kept.rows.clear()
     with st.sidebar:
         sidebar.draw_presets()
         compare.draw_buttons()
@@ -113,28 +105,15 @@ def begin(title: str, sentence: str, *, follows: bool = True) -> Page:
     except ValueError as error:
         st.error(f"{error}", title="These inputs make no machine")
         st.stop()
+    kept.drawn = Drawn(dict(kept.values), baseline, kept.units, dark=is_dark())
     with st.sidebar:
         share.draw(view, baseline, kept.units)
         checks.draw(view)
         st.caption(version.label())
         if follows:
-            show_feed(_follow)
+            show_feed(kept.drawn)
     compare.draw_differences(kept.units)
-    return Page(view=view, baseline=baseline, units=kept.units)
-
-
-def _follow() -> dict[str, Any]:
-    """Return the page's charts and rows of results, of the machine as it is now."""
-    kept = state()
-    view = view_of(kept.values)
-    baseline = None if kept.baseline is None else view_of(kept.baseline)
-    return {
-        "charts": {key: on_page(_drawn(draw, view, baseline)) for key, draw in kept.charts.items()},
-        "rows": {
-            row_key(keys): [RESULTS[key].shown(view, kept.units) for key in keys]
-            for keys in kept.rows
-        },
-    }
+    return Page(view=view, baseline=baseline, units=kept.units, follows=kept.drawn)
 
 
 def _navigation() -> None:

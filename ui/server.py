@@ -45,9 +45,13 @@ class NamedReplica:
 
 
 def routes() -> list[Route]:
-    """Return what is served beside the pages: the health of the core."""
+    """Return what is served beside the pages: the core's health, and what follows a held thumb."""
     base = st.get_option("server.baseUrlPath") or ""
-    return [Route(make_url_path(base, "healthz"), answer_health)]
+    health_route = Route(make_url_path(base, "healthz"), answer_health)
+    if settings.live() != "drag":
+        return [health_route]
+    feed = importlib.import_module("ui.live.feed")
+    return [health_route, Route(feed.path(), feed.answer)]
 
 
 def middleware() -> list[Middleware]:

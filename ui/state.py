@@ -4,15 +4,14 @@ Widgets read from here and write to here, and the address bar is written from he
 survives a change of page, whether it was moved or came with a link.
 """
 
-from collections.abc import Callable
+import secrets
 from dataclasses import dataclass, field
-from typing import Any
 
 import streamlit as st
 
-from rotorcalc.figures import Chart
 from rotorcalc.figures.units import SYSTEMS, Units
 from ui import link
+from ui.follow import Drawn
 from ui.inputs import PRESET_VALUES, Values
 
 _KEY = "rotorcalc"
@@ -31,9 +30,9 @@ class State:
     image_format: str = "png"
     # Whether a live slider's thumb is held: the address bar waits until it is let go.
     held: bool = False
-    # What the page shows that follows a held thumb: its charts by key, its rows of results.
-    charts: dict[str, Callable[[Any], Chart]] = field(default_factory=dict)
-    rows: list[tuple[str, ...]] = field(default_factory=list)
+    # The page as it was last drawn, for what follows a held thumb, and the secret to ask for it.
+    drawn: Drawn | None = None
+    token: str = field(default_factory=secrets.token_urlsafe)
     # The page whose sidebar was drawn last, and whether the visitor has just come to another.
     page: str = ""
     arriving: bool = True

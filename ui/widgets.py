@@ -5,7 +5,6 @@ How an input sends and how a chart is drawn are decided here and nowhere else.
 
 import importlib
 import math
-from collections.abc import Callable
 from types import ModuleType
 from typing import Any
 
@@ -16,8 +15,8 @@ from plotly.basedatatypes import BaseFigure
 from rotorcalc.figures import Chart, themed
 from rotorcalc.figures.units import Units
 from ui import settings
-from ui.inputs import INPUTS, Input
-from ui.link import quoted
+from ui.follow import Drawn
+from ui.inputs import Input
 from ui.state import mirror, state
 
 
@@ -43,20 +42,17 @@ def show_chart(chart: Chart, *, key: str, alt: str) -> None:
         "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d"],
         "toImageButtonOptions": {"format": state().image_format, "filename": key, "scale": 2},
     }
-    drawn = on_page(chart)
+    drawn = themed(chart, dark=is_dark())
     if settings.live() == "off":
         st.plotly_chart(_Checked(drawn), key=chart_key(key), theme=None, config=config, alt=alt)
     else:
         _live().show_chart(drawn, key=chart_key(key), config=config, alt=alt)
 
 
-def show_feed(follow: Callable[[], dict[str, Any]]) -> None:
-    """Let a held slider's charts and numbers follow it: `follow` returns them.
-
-    It runs in a fragment, so that nothing else of the page does.
-    """
+def show_feed(page: Drawn) -> None:
+    """Let a page's charts and results follow its sliders while they are held."""
     if settings.live() == "drag":
-        st.fragment(_live().show_feed)(follow, on_move=_followed)
+        _live().show_feed(page, state().token)
 
 
 def chart_key(key: str) -> str:
@@ -64,14 +60,9 @@ def chart_key(key: str) -> str:
     return f"chart_{key}"
 
 
-def on_page(chart: Chart) -> Chart:
-    """Return a chart in the page's light or dark."""
-    return themed(chart, dark=st.context.theme.type == "dark")
-
-
-def _followed(name: str, value: object) -> None:
-    if name in INPUTS:
-        _moved(INPUTS[name], state().units, value, held=True)
+def is_dark() -> bool:
+    """Return whether the visitor's page is dark."""
+    return st.context.theme.type == "dark"
 
 
 def show_input(item: Input, *, disabled: bool = False) -> None:
@@ -120,14 +111,9 @@ def _moved(item: Input, units: Units, value: object, *, held: bool) -> None:
     kept = state()
     kept.held = held
     try:
-        reading = math.inf if item.infinite and value == item.infinite else float(str(value))
-    except ValueError:
-        kept.problems[:] = [f"{item.label}: {quoted(value)} is no number; it was left as it is."]
-        return
-    if problem := item.problem(item.kept(reading, units)):
-        kept.problems[:] = [f"{item.name(units)} = {reading:g} {problem}; it was left as it is."]
-        return
-    kept.set_value(item.key, item.kept(reading, units))
+        kept.set_value(item.key, item.taken(value, units))
+    except ValueError as error:
+        kept.problems[:] = [f"{error}; it was left as it is."]
 
 
 def _slider(item: Input, shown: float, units: Units, common: dict[str, Any]) -> None:

@@ -24,13 +24,17 @@ def plotly_bundle() -> str:
 
 
 @cache
-def module(name: str) -> str:
-    """Return a component's JavaScript, which comes with every message: it loads the script here."""
+def script(name: str) -> str:
+    """Return the address of a script of ours."""
     source = _HERE / f"{name}.js"
     digest = hashlib.sha256(source.read_bytes()).hexdigest()[:12]
-    address = _published(f"{name}-{digest}.js", source)
+    return _published(f"{name}-{digest}.js", source)
+
+
+def module(name: str) -> str:
+    """Return a component's JavaScript, which comes with every message: it loads the script here."""
     return (
-        f'const script = await import(location.origin + "{address}");\n'
+        f'const script = await import(location.origin + "{script(name)}");\n'
         "export default script.default;\n"
     )
 
@@ -50,8 +54,8 @@ def _published(name: str, source: Path) -> str:
 def publish() -> None:
     """Put every script where Streamlit serves it."""
     plotly_bundle()
-    for script in _HERE.glob("*.js"):
-        module(script.stem)
+    for source in _HERE.glob("*.js"):
+        script(source.stem)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 // A chart: Plotly redraws it in the same element, so that zoom and hidden lines stay.
 //
-// `data` is JSON in UTF-8: key, chart (data, layout, frames), config, alt, and Plotly's address.
+// `data` is JSON in UTF-8: key, chart (data, layout, frames), config, alt, and the
+// addresses of Plotly and of move.js.
 
 const FAILED = "This chart could not be drawn: Plotly's script did not load. Reload the page.";
 // How many charts are being drawn: sliders wait for them.
@@ -32,16 +33,16 @@ function made(parent) {
   element.className = "live-chart";
   element.setAttribute("role", "figure");
   parent.replaceChildren(element);
-  const chart = { element, wanted: null, busy: false };
+  const chart = { element, wanted: null, drawing: null, ranges: [] };
   chart.follow = (figure) => {
     chart.followed = true;
-    chart.wanted = { ...JSON.parse(chart.given), chart: figure };
-    draw(chart);
+    chart.wanted = { ...chart.given, chart: figure };
+    return draw(chart);
   };
   chart.settle = () => {
     if (!chart.followed) return;
     chart.followed = false;
-    chart.wanted = JSON.parse(chart.given);
+    chart.wanted = chart.given;
     draw(chart);
   };
   chart.resizing = new ResizeObserver(() => {
@@ -52,58 +53,58 @@ function made(parent) {
   return chart;
 }
 
-// Everything of a figure but its lines' and points' places.
-function frameOf({ data, layout, frames }, config) {
-  if (frames || data.some((trace) => trace.type !== "scatter" || trace.fill?.startsWith("ton"))) return null;
-  return JSON.stringify([layout, config, data.map(({ x, y, ...rest }) => rest)]);
+// Plotly keeps a zoom only where it is given the range that stood before.
+function keepZoom(chart, { layout }) {
+  for (const [name, range] of chart.ranges) {
+    const zoomed = JSON.stringify(chart.element.layout[name]?.range) !== JSON.stringify(range);
+    if (zoomed && layout[name]) layout[name].range = [...range];
+  }
+  const axes = Object.entries(layout).filter(([, axis]) => axis?.range);
+  chart.ranges = axes.map(([name, { range }]) => [name, [...range]]);
 }
 
-const AT_ONCE = { mode: "immediate", frame: { duration: 0, redraw: false }, transition: { duration: 0 } };
-
-// Moves lines and points where nothing else has changed, a third of the work of a new drawing.
-async function redraw(Plotly, chart, figure, config) {
-  const frame = frameOf(figure, config);
-  const places = figure.data.map(({ x, y }) => JSON.stringify([x, y]));
-  if (frame && frame === chart.frame) {
-    const traces = places.flatMap((place, i) => (place === chart.places[i] ? [] : [i]));
-    if (traces.length > 0) {
-      const data = traces.map((i) => ({ x: figure.data[i].x, y: figure.data[i].y }));
-      await Plotly.animate(chart.element, { data, traces }, AT_ONCE);
-    }
-  } else {
-    await Plotly.react(chart.element, { ...figure, config });
+// While it follows a held thumb a picture is moved, where it can be.
+async function redraw(Plotly, chart, figure, { config, mover }) {
+  const { move } = await import(location.origin + mover);
+  const moved = chart.followed && chart.shown && move(chart.element, chart.shown, figure);
+  if (!moved) {
+    const copy = structuredClone(figure); // Plotly writes into what it is given
+    keepZoom(chart, copy);
+    await Plotly.react(chart.element, { ...copy, config });
   }
-  Object.assign(chart, { frame, places });
+  chart.shown = figure;
 }
 
 // Draws what is wanted last; what came while it drew is drawn next, and what lies between never.
-async function draw(chart) {
-  if (chart.busy) return;
-  chart.busy = true;
+function draw(chart) {
+  chart.drawing ??= drawn(chart).finally(() => {
+    chart.drawing = null;
+  });
+  return chart.drawing;
+}
+
+async function drawn(chart) {
   window.rotorcalcDrawing += 1;
   try {
     while (chart.wanted) {
-      const { chart: figure, config, plotly: address } = chart.wanted;
+      const { chart: figure, ...settings } = chart.wanted;
       chart.wanted = null;
-      const Plotly = await plotly(address);
-      await redraw(Plotly, chart, figure, config);
+      await redraw(await plotly(settings.plotly), chart, figure, settings);
       chart.element.dataset.drawn = Number(chart.element.dataset.drawn ?? 0) + 1;
     }
   } catch (error) {
     chart.element.setAttribute("role", "alert");
     chart.element.textContent = error.message;
   } finally {
-    chart.busy = false;
     window.rotorcalcDrawing -= 1;
   }
 }
 
 export default function ({ data, parentElement }) {
   const chart = charts.get(parentElement) ?? made(parentElement);
-  // As text: Plotly writes into what it is given, and would take its own writing for ours.
-  chart.given = new TextDecoder().decode(data);
-  chart.wanted = JSON.parse(chart.given);
-  const { key, alt, chart: figure } = chart.wanted;
+  chart.given = JSON.parse(new TextDecoder().decode(data));
+  chart.wanted = chart.given;
+  const { key, alt, chart: figure } = chart.given;
   window.rotorcalcCharts.set(key, chart);
   chart.element.setAttribute("aria-label", alt);
   chart.element.style.height = `${figure.layout.height}px`;

@@ -16,7 +16,8 @@ _component = component("rotorcalc.chart", js=assets.module("chart"), isolate_sty
 def show(chart: Chart, *, key: str, alt: str, config: dict[str, Any]) -> None:
     """Show a chart; `alt` says in words what is to be seen, `config` is Plotly's."""
     message = {
-        "key": key, "chart": chart, "config": config, "alt": alt, "plotly": assets.plotly_bundle(),
+        "key": key, "chart": chart, "config": config, "alt": alt,
+        "plotly": assets.plotly_bundle(), "mover": assets.script("move"),
     }  # fmt: skip
     _component(key=key, data=encoded(message), height=chart["layout"]["height"])
 

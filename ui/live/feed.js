@@ -1,8 +1,8 @@
-// The feed: what follows a held thumb, in one message, past Streamlit's other elements.
+// The feed: what follows a held thumb, past Streamlit's running and drawing of the whole page.
 //
-// A held slider sends through it {name, value, number}; back comes {number, charts, rows}. Charts are
-// redrawn and numbers overwritten where they stand; all that does not follow is dimmed. When the thumb
-// has been let go and the whole page has run, what the page says holds again.
+// A held slider asks the server what a value would give: charts, redrawn, and numbers, overwritten
+// where they stand; all that does not follow is dimmed. When the thumb has been let go and the whole
+// page has run, what the page says holds again.
 
 const STYLE = `
 .rotorcalc-held :is([data-testid=stAlert], [data-testid=stMetricDelta], .katex-display, [data-testid=stTable]) {
@@ -16,26 +16,33 @@ function textOf(element) {
 
 class Feed {
   constructor() {
-    this.echo = null;
     this.written = new Map(); // text nodes: what the page said, and what is written over it
   }
 
-  send(message) {
-    this.trigger("moved", message);
-  }
-
-  apply({ number, charts, rows }) {
+  // Ends when the answer is drawn; false where there is none to be had.
+  async follow(name, value) {
+    const asked = new URLSearchParams({ name, value });
+    let answer;
+    try {
+      answer = await fetch(`${this.address}?${asked}`, { headers: { "X-Rotorcalc-Page": this.token } });
+    } catch {
+      return false;
+    }
+    if (answer.status === 422) return true; // the page says why, when the thumb is let go
+    if (!answer.ok) return false;
+    const { charts, rows } = await answer.json();
     document.body.classList.add("rotorcalc-held");
-    for (const [key, figure] of Object.entries(charts ?? {})) window.rotorcalcCharts?.get(key)?.follow(figure);
-    for (const [key, texts] of Object.entries(rows ?? {})) {
+    for (const [key, texts] of Object.entries(rows)) {
       const values = document.querySelectorAll(`.st-key-${key} [data-testid="stMetricValue"]`);
       texts.forEach((text, i) => this.write(values[i] && textOf(values[i]), text));
     }
-    this.echo = number;
+    const drawings = Object.entries(charts).map(([key, figure]) => window.rotorcalcCharts?.get(key)?.follow(figure));
+    await Promise.all(drawings);
+    return true;
   }
 
   write(node, text) {
-    if (!node) return;
+    if (!node || node.nodeValue === text) return;
     const said = this.written.get(node)?.said ?? node.nodeValue;
     node.nodeValue = text;
     this.written.set(node, { said, text });
@@ -52,7 +59,7 @@ class Feed {
 
 const feeds = new WeakMap();
 
-export default function ({ data, parentElement, setTriggerValue }) {
+export default function ({ data, parentElement }) {
   if (!document.getElementById("live-feed-style")) {
     const style = Object.assign(document.createElement("style"), { id: "live-feed-style" });
     style.textContent = STYLE;
@@ -63,11 +70,8 @@ export default function ({ data, parentElement, setTriggerValue }) {
     const place = Object.assign(document.createElement("div"), { className: "live-feed", hidden: true });
     parentElement.replaceChildren(place);
   }
-  const feed = feeds.get(parentElement);
-  feed.trigger = setTriggerValue;
+  const feed = Object.assign(feeds.get(parentElement), data);
   window.rotorcalcFeed = feed;
-  const message = JSON.parse(new TextDecoder().decode(data));
-  if (message.number !== undefined) feed.apply(message);
   return () => {
     if (window.rotorcalcFeed === feed) window.rotorcalcFeed = undefined;
   };

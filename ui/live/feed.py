@@ -1,33 +1,64 @@
-"""What follows a held thumb: charts and numbers, in one message and past all other elements."""
+"""What follows a held thumb: charts and numbers, past all of Streamlit's own running and drawing.
 
-from collections.abc import Callable
-from typing import Any
+While a thumb is held the browser asks the server at `PATH` for what a value would give, with the
+token of the page's session, and draws the answer. Nothing of it is kept: when the thumb is let go
+its value comes through Streamlit, as any other.
+"""
+
+import asyncio
+from typing import Any, Protocol
+from weakref import WeakValueDictionary
 
 import streamlit as st
+from starlette.requests import Request
+from starlette.responses import Response
 from streamlit.components.v2 import component
+from streamlit.url_util import make_url_path
 
 from ui.live import assets
 from ui.live.chart import encoded
 
+_TOKEN = "x-rotorcalc-page"  # noqa: S105 - a header's name
 _KEY = "live_feed"
 _component = component("rotorcalc.feed", js=assets.module("feed"), isolate_styles=False)
 
 
-def show(follow: Callable[[], dict[str, Any]], *, on_move: Callable[[str, object], None]) -> None:
-    """Take what live sliders send while they are held, and send what `follow` returns.
+class Page(Protocol):
+    """A visitor's page as it was last drawn."""
 
-    That is {"charts": {key: chart}, "rows": {key: numbers as text}}. `on_move` gets the slider's
-    name and what it sent, which may be anything. To be called in a fragment: then nothing else of
-    the page is run or sent.
-    """
+    def follow(self, name: str, value: str) -> dict[str, Any]:
+        """Return {"charts": {key: chart}, "rows": {key: numbers as text}} with one value moved.
 
-    def moved() -> None:
-        sent = st.session_state[_KEY]["moved"]
-        if isinstance(sent, dict):
-            st.session_state[f"{_KEY}_number"] = sent.get("number")
-            on_move(str(sent.get("name")), sent.get("value"))
+        Raises ValueError where the value is none, lies outside its range or makes no machine.
+        """
+        ...
 
-    number = st.session_state.get(f"{_KEY}_number")
-    message = {} if number is None else {"number": number, **follow()}
-    st.session_state[f"{_KEY}_number"] = None  # a page's whole run sends no more than an empty one
-    _component(key=_KEY, data=encoded(message), on_moved_change=moved)
+
+# Every page drawn last in its session, as long as the session keeps it.
+_pages: WeakValueDictionary[str, Page] = WeakValueDictionary()
+
+
+def show(page: Page, token: str) -> None:
+    """Let a page's charts and numbers follow its sliders; the token is its session's secret."""
+    _pages[token] = page
+    _component(key=_KEY, data={"address": path(), "token": token})
+
+
+def path() -> str:
+    """Return where the server answers."""
+    return make_url_path(st.get_option("server.baseUrlPath") or "", "follow")
+
+
+async def answer(request: Request) -> Response:
+    """Answer a held thumb, in a thread of its own: the server goes on with others meanwhile."""
+    page = _pages.get(request.headers.get(_TOKEN, ""))
+    if page is None:
+        return Response(status_code=404)
+    name, value = (request.query_params.get(key, "") for key in ("name", "value"))
+    try:
+        content = await asyncio.to_thread(lambda: encoded(page.follow(name, value)))
+    except ValueError:  # said in words when the thumb is let go
+        return Response(status_code=422)
+    # "identity": Streamlit would compress it at its slowest; a proxy may, for those far away.
+    headers = {"Cache-Control": "no-store", "Content-Encoding": "identity"}
+    return Response(content, media_type="application/json", headers=headers)

@@ -1,8 +1,9 @@
 // A slider that sends while it moves, and a field to type its value in.
 //
-// It sends {value, held, number}; the server answers with `number` as `echo`. The next value goes out
-// only when that answer is there, the script has ended and every chart is drawn: a slow server makes
-// fewer updates, never a queue. The last value always goes out, with held = false.
+// While the thumb is held its values go to the page's feed, where there is one. Else, and when it is let
+// go, it sends {value, held, number}, and the server answers with `number` as `echo`. The next value goes
+// out only when the last one's answer is drawn: a slow server makes fewer updates, never a queue. The last
+// value always goes out, with held = false.
 
 const STYLE = `
 .live-slider {display: grid; grid-template-columns: 1fr 4.6rem; gap: 0.2rem 0.6rem; align-items: center;
@@ -65,8 +66,7 @@ class Slider {
     this.range.addEventListener("change", () => this.moved(false));
     this.field.addEventListener("change", () => this.typed());
     this.waiting = null; // what goes out next
-    this.sent = null; // the number of what went out and is not drawn yet
-    this.left = 0;
+    this.out = false; // whether something is on its way, or being drawn
   }
 
   update(data, send) {
@@ -81,8 +81,7 @@ class Slider {
     this.range.ariaLabel = data.label;
     this.range.ariaDescription = data.help;
     this.field.ariaLabel = `${data.label}, typed`;
-    const held = this.waiting !== null || (this.sent !== null && data.echo !== this.sent);
-    if (!held && !this.grasped) this.show(data.value);
+    if (!this.out && !this.grasped) this.show(data.value);
   }
 
   show(value) {
@@ -112,37 +111,36 @@ class Slider {
   want(message) {
     this.waiting = message;
     this.root.dataset.busy = "";
-    if (this.sent === null) this.go();
+    if (!this.out) this.go();
   }
 
-  go() {
-    const number = performance.now();
-    const message = { ...this.waiting, number };
-    this.feed = message.held && this.data.follow ? window.rotorcalcFeed : undefined;
-    if (this.feed) this.feed.send({ ...message, name: this.data.name });
-    else this.send("moved", message);
-    this.final = !message.held;
-    this.waiting = null;
-    this.sent = number;
-    this.left = number;
-    requestAnimationFrame(() => this.wait());
-  }
-
-  // Until what went out is drawn; at most ten seconds, for an answer can be lost with its connection.
-  wait() {
-    const answered = (this.feed ?? this.data).echo === this.sent && resting();
-    if (!answered && performance.now() - this.left < 10000) {
-      requestAnimationFrame(() => this.wait());
-      return;
+  // One at a time: while a value is out, what comes in waits, and only the last of it goes next.
+  async go() {
+    while (this.waiting !== null) {
+      const message = this.waiting;
+      this.waiting = null;
+      this.out = true;
+      const feed = message.held && this.data.follow ? window.rotorcalcFeed : undefined;
+      if (!(await feed?.follow(this.data.name, message.value))) await this.ask(message);
+      this.out = false;
+      if (!message.held && this.waiting === null) window.rotorcalcFeed?.settle();
     }
-    this.sent = null;
-    if (this.waiting !== null) {
-      this.go();
-      return;
-    }
-    if (this.final) window.rotorcalcFeed?.settle();
     delete this.root.dataset.busy;
     if (!this.grasped) this.show(this.data.value);
+  }
+
+  // Ends when Streamlit's answer is drawn, or after ten seconds: it can be lost with its connection.
+  ask(message) {
+    const number = performance.now();
+    this.send("moved", { ...message, number });
+    return new Promise((resolve) => {
+      const look = () => {
+        const answered = this.data.echo === number && resting();
+        if (answered || performance.now() - number > 10000) resolve();
+        else requestAnimationFrame(look);
+      };
+      requestAnimationFrame(look);
+    });
   }
 }
 
