@@ -1,6 +1,6 @@
 """Whether this server computes, and computes right: python -m ui.health [ADDRESS]
 
-`check` solves the calculation sheet's machine and compares. `serve.py` answers with it at /healthz,
+`check` solves the calculation sheet's machine and compares. The app answers with it at /healthz,
 where Streamlit's own /_stcore/health tells only that a web server runs: a process whose core is
 broken, or whose interpreter is held by something, fails here. Run as a program it asks such an
 address, and exits with an error where the answer is not good or not there in five seconds.

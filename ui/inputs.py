@@ -12,6 +12,9 @@ from dataclasses import dataclass
 from rotorcalc import PRESETS, JournalBearing, Machine, Oil, Preset, Rotor
 from rotorcalc.figures.units import SI, Unit, Units
 
+# The least of a positive value: below it what is divided by it has no room.
+_LEAST = 1e-290
+
 # None for a load that follows the rotor's weight.
 Values = dict[str, float | None]
 
@@ -77,6 +80,8 @@ class Input:
             return "" if self.key == "load" else "is missing"
         if self.infinite and value == math.inf:
             return ""
+        if 0.0 < value < _LEAST:
+            return f"lies between 0 and {_LEAST:g}, where numbers lose their digits"
         if self.low <= value <= self.high:
             return ""
         unit = self.unit(SI).name

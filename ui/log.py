@@ -20,8 +20,8 @@ from ui import settings
 
 _LOGGER = logging.getLogger("rotorcalc")
 _UVICORN = ("uvicorn", "uvicorn.asgi", "uvicorn.error")
-# Its lines hold visitors' addresses and links, and every link is a machine.
-_SILENT = "uvicorn.access"
+# Their lines hold visitors' addresses and links, and every link is a machine.
+_VISITS = ("uvicorn.access", "uvicorn.error")
 # Streamlit's own line about an exception that `failed` reports with its id.
 _TOLD_TWICE = "Uncaught app execution"
 
@@ -47,7 +47,9 @@ class Record(logging.LogRecord):
 
 
 def begin() -> None:
-    """Let every logger of this process write JSON, where the host wants it."""
+    """Let no visit be written, and every logger write JSON where the host wants it."""
+    for name in _VISITS:
+        logging.getLogger(name).setLevel(logging.WARNING)
     if settings.log() == "text":
         return
     logging.setLogRecordFactory(Record)
@@ -59,7 +61,6 @@ def begin() -> None:
         own = getattr(logger, "streamlit_console_handler", None)
         logger.handlers = [] if own is None else [own]
         logger.propagate = False
-    logging.getLogger(_SILENT).handlers = []
     error_log = logging.getLogger("streamlit.error_util")
     error_log.addFilter(lambda record: record.msg != _TOLD_TWICE)
 

@@ -21,7 +21,7 @@ STREAMLIT_SERVER_DISCONNECTED_SESSION_TTL
 import os
 
 _LIVE = ("drag", "release", "off")
-_LOG = ("json", "text")
+_LOG = ("text", "json")
 
 
 def live() -> str:
@@ -58,7 +58,7 @@ def commit() -> str:
 
 
 def log() -> str:
-    """Return how `serve.py` writes its log, ROTORCALC_LOG: "json", a line an event, or "text"."""
+    """Return how the log is written, ROTORCALC_LOG: "text", or "json", a line an event."""
     return _word("ROTORCALC_LOG", _LOG)
 
 

@@ -17,7 +17,7 @@ from rotorcalc.typing import Array, ComplexArray
 _STEPS = 40
 # From slow to fast, apart from each other to colour-blind eyes, and 3 : 1 on light and dark.
 _SLOW_TO_FAST = ((43, 123, 186), (176, 86, 159), (214, 128, 10))
-_PIECES = 20
+_PIECES = 12
 # A mode more damped than this hardly swings, and lies far left of the others.
 HARDLY_SWINGS = 0.7
 _RAYS = (0.05, 0.1, 0.2, 0.4)

@@ -76,6 +76,7 @@ def test_who_would_wait_too_long_is_told_and_not_kept_waiting(monkeypatch) -> No
         raise StoppedError
 
     monkeypatch.setattr(jobs.st, "stop", stop)
+    monkeypatch.setattr(jobs, "_nobody_looks", lambda: False)
     turns = Turns(1, longest=0)
     with turns.turn():
         found: list[type] = []

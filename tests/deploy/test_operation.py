@@ -27,10 +27,11 @@ raise ValueError("radial_clearance = {ENTERED} m")
 def failing(tmp_path: Path) -> Iterator[Replica]:
     page = tmp_path / "page.py"
     page.write_text(_FAILING)
-    text = (ROOT / "serve.py").read_text()
-    script = tmp_path / "serve.py"
-    script.write_text(text.replace('Path(__file__).with_name("app.py")', f"{str(page)!r}"))
-    replica = Replica(script=script, PYTHONPATH=str(ROOT))
+    text = (ROOT / "app.py").read_text()
+    script = tmp_path / "app.py"
+    assert text.count("__file__") == 1
+    script.write_text(text.replace("__file__", f"{str(page)!r}"))
+    replica = Replica(script=script, PYTHONPATH=str(ROOT), ROTORCALC_LOG="json")
     yield replica.wait()
     replica.stop()
 

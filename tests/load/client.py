@@ -6,13 +6,15 @@ bytes and the time from each action until its run has ended.
 """
 
 import asyncio
+import gzip
 import json
 import time
 from contextlib import suppress
 from dataclasses import dataclass, field
+from http.client import HTTPConnection
 from http.cookies import SimpleCookie
 from typing import Any, Self
-from urllib.parse import urlsplit, urlunsplit
+from urllib.parse import urlencode, urlsplit, urlunsplit
 
 from streamlit.proto.BackMsg_pb2 import BackMsg
 from streamlit.proto.BidiComponent_pb2 import BidiComponent
@@ -26,7 +28,6 @@ TIMEOUT = 30.0  # seconds for a run; one takes a few hundredths
 SLIDER, FEED = "rotorcalc.slider", "rotorcalc.feed"
 # As streamlit/components/v2/bidi_component/main.py names the widget of a component's triggers.
 _TRIGGERS = "$$STREAMLIT_INTERNAL_KEY_{}__events"
-_ENDED_WELL = (ForwardMsg.FINISHED_SUCCESSFULLY, ForwardMsg.FINISHED_FRAGMENT_RUN_SUCCESSFULLY)
 
 
 class ServerError(Exception):
@@ -43,6 +44,7 @@ class Tally:
     received: int = 0  # bytes
     under_way: int = 0
     most_under_way: int = 0
+    followed: int = 0  # answers to a held thumb
 
 
 class Visitor:
@@ -66,7 +68,7 @@ class Visitor:
         self._widgets: dict[str, WidgetState] = {}
         self._shown: dict[tuple[int, ...], Any] = {}
         self._touched: set[tuple[int, ...]] = set()
-        self._fragments: dict[str, str] = {}  # by component's id
+        self._answers: HTTPConnection | None = None
         self._socket: ClientConnection | None = None
         self._reading: asyncio.Task[None] | None = None
         self._finished = asyncio.Event()
@@ -94,6 +96,9 @@ class Visitor:
 
     async def close(self) -> None:
         """Close the tab."""
+        if self._answers is not None:
+            self._answers.close()
+            self._answers = None
         if self._socket is not None:
             await self._socket.close()
         if self._reading is not None:
@@ -108,25 +113,49 @@ class Visitor:
         await self._run()
 
     async def slide(self, label: str, value: float | str, *, held: bool = False) -> None:
-        """Send a value by a slider, live or Streamlit's own, and wait until its run has ended.
-
-        While a live one is held, its value goes by the page's feed, where there is one.
-        """
+        """Send a value by a slider, live or Streamlit's own, and wait until its run has ended."""
         if (found := self.live_slider(label)) is not None:
-            data, number = slider_data(found), time.perf_counter() * 1e3
-            feed = next(iter(self._components(FEED)), None)
-            if held and feed is not None and data.get("follow"):
-                sent = {"name": data["name"], "value": value, "number": number}
-                await self._trigger(feed, sent, self._fragments[feed.id])
-            else:
-                await self._trigger(found, {"value": value, "held": held, "number": number})
-            if number != self._echo(label, held=held):
+            number = time.perf_counter() * 1e3
+            await self._trigger(found, {"value": value, "held": held, "number": number})
+            found = self.live_slider(label)
+            if found is None or number != slider_data(found).get("echo"):
                 raise self._failed(f"{label}: the answer is to something else")
             return
         own = next(e.slider for e in self.elements("slider") if e.slider.label.startswith(label))
         state = self._widgets.setdefault(own.id, WidgetState(id=own.id))
         state.double_array_value.data[:] = [float(value)]
         await self._run()
+
+    async def follow(self, label: str, value: float | str) -> dict[str, Any]:
+        """Ask what a held slider's value would give, and return the answer."""
+        found = self.live_slider(label)
+        assert found is not None
+        start = time.perf_counter()
+        status, body = await asyncio.to_thread(self.ask, slider_data(found)["name"], value)
+        self.tally.latencies.append(time.perf_counter() - start)
+        self.tally.received += len(body)
+        if status != 200:
+            raise self._failed(f"{label} = {value}, held: answered with {status}")
+        self.tally.followed += 1
+        return json.loads(body)
+
+    def ask(self, name: str, value: float | str, token: str = "") -> tuple[int, bytes]:
+        """Ask the page's feed, with its token or another; return status and body."""
+        feed = json.loads(self._components(FEED)[0].json)
+        if self._answers is None:
+            parts = urlsplit(self.address)
+            host, port = self._at.get("host", parts.hostname), self._at.get("port", parts.port)
+            self._answers = HTTPConnection(host, port, timeout=TIMEOUT)
+        headers = {
+            "Host": urlsplit(self.address).netloc,
+            "Cookie": "; ".join(f"{key}={value}" for key, value in self.cookies.items()),
+            "X-Rotorcalc-Page": token or feed["token"],
+        }
+        path = f"{feed['address']}?{urlencode({'name': name, 'value': value})}"
+        self._answers.request("GET", path, headers=headers)
+        answer = self._answers.getresponse()
+        body = answer.read()
+        return answer.status, gzip.decompress(body) if answer.status == 200 else body
 
     async def open_tab(self, label: str) -> None:
         """Open one of the page's tabs."""
@@ -180,14 +209,6 @@ class Visitor:
         components = (element.bidi_component for element in self.elements("bidi_component"))
         return [component for component in components if component.component_name == name]
 
-    def _echo(self, label: str, *, held: bool) -> float | None:
-        """Return the number that the server has answered: the feed's while a thumb is held."""
-        for feed in self._components(FEED) if held else []:
-            if (number := json.loads(feed.bytes).get("number")) is not None:
-                return number
-        slider = self.live_slider(label)
-        return None if slider is None else slider_data(slider).get("echo")
-
     def _labels(self, row: tuple[int, ...]) -> list[str]:
         return [
             block.tab.label
@@ -219,21 +240,19 @@ class Visitor:
             self.cookies |= {key: morsel.value for key, morsel in SimpleCookie(header).items()}
         self._reading = asyncio.create_task(self._read(self._socket))
 
-    async def _trigger(
-        self, component: BidiComponent, value: dict[str, Any], fragment: str = ""
-    ) -> None:
+    async def _trigger(self, component: BidiComponent, value: dict[str, Any]) -> None:
         key = _TRIGGERS.format(component.id)
         sent = json.dumps([{"event": "moved", "value": value}])
-        await self._run(WidgetState(id=key, json_trigger_value=sent), fragment=fragment)
+        await self._run(WidgetState(id=key, json_trigger_value=sent))
 
-    async def _run(self, *triggers: WidgetState, fragment: str = "") -> None:
-        """Ask for a run of the page, or of a fragment of it, and wait until it has ended."""
+    async def _run(self, *triggers: WidgetState) -> None:
+        """Ask for a run of the page, and wait until it has ended."""
         if self._socket is None:
             raise self._failed("not connected")
         message = BackMsg()
         asked = message.rerun_script
         asked.query_string, asked.page_script_hash = self.query, self._page_hash
-        asked.page_name, asked.fragment_id = self._page_name, fragment
+        asked.page_name = self._page_name
         asked.widget_states.CopyFrom(WidgetStates(widgets=[*self._widgets.values(), *triggers]))
         asked.context_info.url = f"{self.address}/{self._page_name}"
         asked.context_info.color_scheme = "light"
@@ -284,7 +303,6 @@ class Visitor:
             self._shown[path] = delta.add_block
         elif delta.WhichOneof("type") == "new_element":
             self._shown[path] = delta.new_element
-            self._fragments[delta.new_element.bidi_component.id] = delta.fragment_id
             if delta.new_element.WhichOneof("type") == "exception":
                 self._failed(f"exception: {delta.new_element.exception.message}")
         self._touched.add(path)
@@ -293,11 +311,10 @@ class Visitor:
         """Forget what the run has not drawn again, and let the next action begin."""
         if status == ForwardMsg.FINISHED_EARLY_FOR_RERUN:
             return
-        if status not in _ENDED_WELL:
+        if status != ForwardMsg.FINISHED_SUCCESSFULLY:
             self._failed(f"run ended with {ForwardMsg.ScriptFinishedStatus.Name(status)}")
-        if status != ForwardMsg.FINISHED_FRAGMENT_RUN_SUCCESSFULLY:
-            for path in self._shown.keys() - self._touched:
-                del self._shown[path]
+        for path in self._shown.keys() - self._touched:
+            del self._shown[path]
         self.tally.runs += 1
         self.tally.under_way = 0
         self._finished.set()

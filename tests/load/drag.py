@@ -1,6 +1,6 @@
 """Sessions that drag a slider at once: python -m tests.load.drag ADDRESS [--sessions 10]
 
-Each sends as the app's slider does: the next value when the last one's run has ended, and the last
+Each sends as the app's slider does: the next value when the last one is answered, and the last
 value when the thumb is let go. Printed are the longest time from letting go until the last run has
 ended, and the most runs that one session had under way.
 """
@@ -28,7 +28,7 @@ async def drag(visitor: Visitor, seconds: float) -> float:
         if value == shown:
             await asyncio.sleep(0.016)  # the thumb has not moved since, a frame of a screen ago
         else:
-            await visitor.slide(SLIDER, value, held=True)
+            await visitor.follow(SLIDER, value)
             shown = value
     await visitor.slide(SLIDER, _thumb(seconds), held=False)
     return time.perf_counter() - released
@@ -66,13 +66,13 @@ def main() -> None:
         )
     except (ServerError, OSError) as error:
         sys.exit(f"{error}")
-    rate = statistics.median((tally.runs - 1) / asked.seconds for tally in tallies)
+    rate = statistics.median(tally.followed / asked.seconds for tally in tallies)
     print(  # noqa: T201 - what this script is for
         f"{asked.sessions} sessions dragging for {asked.seconds:g} s: last value's run ended at "
         f"most {max(settled) * 1e3:.0f} ms after letting go (median "
         f"{statistics.median(settled) * 1e3:.0f} ms); at most "
         f"{max(tally.most_under_way for tally in tallies)} run(s) of a session under way; "
-        f"{rate:.1f} runs/s a session"
+        f"{rate:.1f} answers/s a session"
     )
 
 

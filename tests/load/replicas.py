@@ -18,7 +18,7 @@ class Replica:
     """One server process, from its start until `stop`; `log` is what it wrote."""
 
     def __init__(
-        self, *, port: int = 0, script: Path = ROOT / "serve.py", **environment: str
+        self, *, port: int = 0, script: Path = ROOT / "app.py", **environment: str
     ) -> None:
         self.port = port or free_port()
         base = environment.get("STREAMLIT_SERVER_BASE_URL_PATH", "")

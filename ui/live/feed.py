@@ -6,6 +6,7 @@ its value comes through Streamlit, as any other.
 """
 
 import asyncio
+import gzip
 from typing import Any, Protocol
 from weakref import WeakValueDictionary
 
@@ -56,9 +57,13 @@ async def answer(request: Request) -> Response:
         return Response(status_code=404)
     name, value = (request.query_params.get(key, "") for key in ("name", "value"))
     try:
-        content = await asyncio.to_thread(lambda: encoded(page.follow(name, value)))
+        content = await asyncio.to_thread(_packed, page, name, value)
     except ValueError:  # said in words when the thumb is let go
         return Response(status_code=422)
-    # "identity": Streamlit would compress it at its slowest; a proxy may, for those far away.
-    headers = {"Cache-Control": "no-store", "Content-Encoding": "identity"}
+    headers = {"Cache-Control": "no-store", "Content-Encoding": "gzip"}
     return Response(content, media_type="application/json", headers=headers)
+
+
+def _packed(page: Page, name: str, value: str) -> bytes:
+    # Packed at its fastest, where Streamlit would at its smallest and ten times slower.
+    return gzip.compress(encoded(page.follow(name, value)), compresslevel=1, mtime=0)
