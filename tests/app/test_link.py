@@ -15,7 +15,9 @@ from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, Input, Values, mach
 
 def _number(item: Input) -> st.SearchStrategy[float | None]:
     """Draw what a slider, a typed field or a file can give."""
-    numbers: st.SearchStrategy[float | None] = st.floats(item.low, item.high)
+    numbers: st.SearchStrategy[float | None] = st.floats(item.low, item.high).filter(
+        lambda value: not item.problem(value)
+    )
     if item.infinite:
         numbers |= st.just(math.inf)
     return numbers | st.none() if item.key == "load" else numbers

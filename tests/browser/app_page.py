@@ -49,7 +49,7 @@ _DRAWN = """() => [...document.querySelectorAll('.js-plotly-plot .overplot path'
 _METRICS = """() => Object.fromEntries(
   [...document.querySelectorAll('[data-testid="stMetric"]')].map(metric =>
     ['stMetricLabel', 'stMetricValue'].map(
-      part => metric.querySelector(`[data-testid="${part}"]`).innerText.trim())))"""
+      part => metric.querySelector(`[data-testid="${part}"]`).innerText.replaceAll('\u200b', '').trim())))"""
 
 _TRACES = """() => [...document.querySelectorAll('.js-plotly-plot')].map(
   chart => chart.data.map(trace => trace.name || ''))"""

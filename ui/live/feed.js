@@ -9,6 +9,8 @@ const STYLE = `
   opacity: 0.35;}
 `;
 
+const MARK = "\u200b"; // takes no room
+
 function textOf(element) {
   const walker = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
   return walker.nextNode();
@@ -28,8 +30,10 @@ class Feed {
     } catch {
       return false;
     }
-    if (answer.status === 422) return true; // the page says why, when the thumb is let go
-    if (!answer.ok) return false;
+    if (answer.status !== 200) {
+      window.rotorcalcFeed = undefined; // until the page has run, for it is not known there
+      return false;
+    }
     const { charts, rows } = await answer.json();
     document.body.classList.add("rotorcalc-held");
     for (const [key, texts] of Object.entries(rows)) {
@@ -41,7 +45,9 @@ class Feed {
     return true;
   }
 
-  write(node, text) {
+  // Marked as ours: the page may come to say the same itself.
+  write(node, words) {
+    const text = `${words}${MARK}`;
     if (!node || node.nodeValue === text) return;
     const said = this.written.get(node)?.said ?? node.nodeValue;
     node.nodeValue = text;

@@ -64,6 +64,9 @@ class Slider {
     this.range.addEventListener("pointerdown", () => { this.keyed = false; });
     this.range.addEventListener("input", () => this.keyed || this.moved(true));
     this.range.addEventListener("change", () => this.moved(false));
+    // A thumb that is let go where it was taken up changes nothing, to the browser.
+    for (const end of ["pointerup", "pointercancel"])
+      this.range.addEventListener(end, () => setTimeout(() => this.grasped && this.moved(false)));
     this.field.addEventListener("change", () => this.typed());
     this.waiting = null; // what goes out next
     this.out = false; // whether something is on its way, or being drawn
