@@ -6,7 +6,7 @@ from typing import Any
 
 from rotorcalc.figures import Chart, themed, with_baseline
 from rotorcalc.figures.units import Units
-from ui.inputs import INPUTS, Values
+from ui.inputs import Values, input_named
 from ui.results import RESULTS, row_key
 from ui.view import View, view_of
 
@@ -29,10 +29,7 @@ class Drawn:
 
         Raises ValueError where there is no such input, or the value makes no machine.
         """
-        if name not in INPUTS:
-            raise ValueError(f"{name!r} is no input")
-        moved = INPUTS[name].taken(value, self.units)
-        view = view_of(self.values | {name: moved})
+        view = view_of(self.values | {name: input_named(name).taken(value, self.units)})
         return {
             "charts": {key: self._moving(draw, view) for key, draw in self.charts.items()},
             "rows": {

@@ -232,6 +232,13 @@ def speeds_of(values: Mapping[str, float | None]) -> tuple[float, float]:
     return speed, max(speed, top)
 
 
+def input_named(name: str) -> Input:
+    """Return an input by its key, or raise ValueError in words."""
+    if name not in INPUTS:
+        raise ValueError(f"{quoted(name)} is no input")
+    return INPUTS[name]
+
+
 def quoted(word: object) -> str:
     """Return what a visitor typed, short, and with nothing that a page could take for markup."""
     text = reprlib.repr(word).replace("`", "'")

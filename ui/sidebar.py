@@ -7,16 +7,15 @@ from rotorcalc.figures.units import SI, SYSTEMS
 from rotorcalc.oils import ISO_VG, fitted_oil, iso_oil
 from ui.inputs import GROUPS, INPUTS, OPEN_GROUPS, machine_of
 from ui.state import mirror, state
-from ui.widgets import show_input
+from ui.widgets import show_inputs
 
 
 def draw_inputs() -> None:
     """Draw the inputs in their groups, and how all of it is shown."""
     for group in GROUPS:
         with st.expander(group, expanded=group in OPEN_GROUPS):
-            for item in INPUTS.values():
-                if item.group == group and item.key != "load":
-                    show_input(item)
+            items = [i for i in INPUTS.values() if i.group == group and i.key != "load"]
+            show_inputs(group, items)
             if group == "Load":
                 _load()
             if group == "Oil":
@@ -43,7 +42,7 @@ def _load() -> None:
     mirror("load_follows", follows)
     st.toggle("Load is half the rotor's weight", key="load_follows", on_change=_toggle_load)
     if not follows:
-        show_input(INPUTS["load"])
+        show_inputs("Static load", [INPUTS["load"]])
 
 
 def _toggle_load() -> None:

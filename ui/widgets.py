@@ -5,6 +5,7 @@ How an input sends and how a chart is drawn are decided here and nowhere else.
 
 import importlib
 import math
+from collections.abc import Sequence
 from types import ModuleType
 from typing import Any
 
@@ -16,7 +17,7 @@ from rotorcalc.figures import Chart, themed
 from rotorcalc.figures.units import Units
 from ui import settings
 from ui.follow import Drawn
-from ui.inputs import Input
+from ui.inputs import Input, input_named
 from ui.state import mirror, state
 
 
@@ -65,25 +66,36 @@ def is_dark() -> bool:
     return st.context.theme.type == "dark"
 
 
-def show_input(item: Input, *, disabled: bool = False) -> None:
-    """Show a slider, or a field to type in, that reads and writes the session's state."""
+def show_inputs(group: str, items: Sequence[Input]) -> None:
+    """Show sliders, or fields to type in, that read and write the session's state."""
+    if settings.live() == "off" or state().typed:
+        for item in items:
+            _own(item)
+    else:
+        _live_sliders(group, items)
+
+
+def _own(item: Input) -> None:
+    """Show one of Streamlit's own sliders or fields."""
     kept = state()
     units = kept.units
-    value = kept.values[item.key]
-    shown = item.shown(value, units) if value is not None else item.low
+    shown = _shown(item)
     key = f"input_{item.key}_{units.name}_{'typed' if kept.typed else 'slider'}"
     common: dict[str, Any] = {
-        "label": item.name(units), "key": key, "help": item.help, "disabled": disabled,
-        "on_change": _keep, "args": (item, key, units),
+        "label": item.name(units), "key": key, "help": item.help, "on_change": _keep,
+        "args": (item, key, units),
     }  # fmt: skip
     if kept.typed:
         _typed(item, shown, units, common)
-    elif settings.live() != "off":
-        _live_slider(item, shown, units)
     elif item.log:
         _log_slider(item, shown, units, common)
     else:
         _slider(item, shown, units, common)
+
+
+def _shown(item: Input) -> float:
+    value = state().values[item.key]
+    return item.low if value is None else item.shown(value, state().units)
 
 
 def _keep(item: Input, key: str, units: Units) -> None:
@@ -95,22 +107,32 @@ def _live() -> ModuleType:
     return importlib.import_module("ui.live")
 
 
-def _live_slider(item: Input, shown: float, units: Units) -> None:
-    low, high = item.shown(item.low, units), item.shown(item.high, units)
-    step = item.step if item.log else _round_step(item.shown(item.low + item.step, units) - low)
-    _live().show_slider(
-        item.name(units), shown, (low, high, step), log=item.log, beyond=item.infinite,
-        key=f"input_{item.key}_{units.name}_live", help=item.help,
-        name=item.key, while_held=settings.live() == "drag",
-        on_move=lambda value, held: _moved(item, units, value, held=held),
-    )  # fmt: skip
+def _live_sliders(group: str, items: Sequence[Input]) -> None:
+    live, units = _live(), state().units
+
+    def slider(item: Input) -> object:
+        low, high = item.shown(item.low, units), item.shown(item.high, units)
+        step = item.step if item.log else _round_step(item.shown(item.low + item.step, units) - low)
+        return live.Slider(
+            item.key, item.name(units), item.help, _shown(item), low, high, step, item.log,
+            item.infinite,
+        )  # fmt: skip
+
+    live.show_sliders(
+        [slider(item) for item in items],
+        key=f"inputs_{group}_{units.name}",
+        on_move=lambda name, value, held: _moved(name, units, value, held=held),
+        while_held=settings.live() == "drag",
+        follow=True,
+    )
 
 
-def _moved(item: Input, units: Units, value: object, *, held: bool) -> None:
+def _moved(name: str, units: Units, value: object, *, held: bool) -> None:
     """Keep what a live slider sent, or report why not."""
     kept = state()
     kept.held = held
     try:
+        item = input_named(name)
         kept.set_value(item.key, item.taken(value, units))
     except ValueError as error:
         kept.problems[:] = [f"{error}; it was left as it is."]

@@ -13,10 +13,12 @@ params = st.query_params
 way, number = params.get("chart", "streamlit"), int(params.get("charts", "4"))
 
 if params.get("slider", "streamlit") == "live":
-    live.show_slider(
-        "Value", st.session_state.get("value", 50.0), (0.0, 100.0, 1.0), log=False, beyond="",
-        key="slider", help="", on_move=lambda value, _: st.session_state.update(value=value),
-    )  # fmt: skip
+    now = st.session_state.get("value", 50.0)
+    live.show_sliders(
+        [live.Slider("value", "Value", "", now, 0.0, 100.0, 1.0, log=False)],
+        key="slider",
+        on_move=lambda name, value, _: st.session_state.update({name: value}),
+    )
     value = st.session_state.get("value", 50.0)
 else:
     value = st.slider("Value", 0.0, 100.0, 50.0, 1.0)

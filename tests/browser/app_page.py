@@ -31,7 +31,8 @@ _AT_REST = """() => {
     && app.dataset.testConnectionState === 'CONNECTED'
     && document.querySelector('[data-testid="stHeading"]')
     && !document.querySelector(
-      '[data-stale="true"], [data-testid="stSkeleton"], .live-slider[data-busy]')
+      '[data-stale="true"], [data-testid="stSkeleton"], '
+      + '.live-slider[data-busy], .live-chart[data-moved]')
     && !window.rotorcalcDrawing
     && [...document.querySelectorAll('.stBidiComponent')].every(
       component => component.querySelector('.live-slider, .live-chart, .live-feed'))
@@ -49,7 +50,8 @@ _DRAWN = """() => [...document.querySelectorAll('.js-plotly-plot .overplot path'
 _METRICS = """() => Object.fromEntries(
   [...document.querySelectorAll('[data-testid="stMetric"]')].map(metric =>
     ['stMetricLabel', 'stMetricValue'].map(
-      part => metric.querySelector(`[data-testid="${part}"]`).innerText.replaceAll('\u200b', '').trim())))"""
+      part => metric.querySelector(`[data-testid="${part}"]`).innerText
+        .replaceAll('\u200b', '').trim())))"""
 
 _TRACES = """() => [...document.querySelectorAll('.js-plotly-plot')].map(
   chart => chart.data.map(trace => trace.name || ''))"""

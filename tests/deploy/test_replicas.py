@@ -38,9 +38,8 @@ async def _come_back(visitor: Visitor) -> None:
 def _value(visitor: Visitor, label: str) -> float:
     slider = visitor.live_slider(label)
     assert slider is not None
-    from tests.load.client import slider_data
 
-    return slider_data(slider)["value"]
+    return slider["value"]
 
 
 @awaited

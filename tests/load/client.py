@@ -25,7 +25,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 
 TIMEOUT = 30.0  # seconds for a run; one takes a few hundredths
-SLIDER, FEED = "rotorcalc.slider", "rotorcalc.feed"
+SLIDERS, FEED = "rotorcalc.sliders", "rotorcalc.feed"
 # As streamlit/components/v2/bidi_component/main.py names the widget of a component's triggers.
 _TRIGGERS = "$$STREAMLIT_INTERNAL_KEY_{}__events"
 
@@ -116,9 +116,10 @@ class Visitor:
         """Send a value by a slider, live or Streamlit's own, and wait until its run has ended."""
         if (found := self.live_slider(label)) is not None:
             number = time.perf_counter() * 1e3
-            await self._trigger(found, {"value": value, "held": held, "number": number})
+            sent = {"name": found["name"], "value": value, "held": held, "number": number}
+            await self._trigger(found["group"], sent)
             found = self.live_slider(label)
-            if found is None or number != slider_data(found).get("echo"):
+            if found is None or number != found["echo"]:
                 raise self._failed(f"{label}: the answer is to something else")
             return
         own = next(e.slider for e in self.elements("slider") if e.slider.label.startswith(label))
@@ -131,7 +132,7 @@ class Visitor:
         found = self.live_slider(label)
         assert found is not None
         start = time.perf_counter()
-        status, body = await asyncio.to_thread(self.ask, slider_data(found)["name"], value)
+        status, body = await asyncio.to_thread(self.ask, found["name"], value)
         self.tally.latencies.append(time.perf_counter() - start)
         self.tally.received += len(body)
         if status != 200:
@@ -177,16 +178,19 @@ class Visitor:
             if isinstance(item, Element) and item.WhichOneof("type") == kind
         ]
 
-    def live_slider(self, label: str) -> BidiComponent | None:
-        """Return a live slider by the first words of its label."""
-        for component in self.live_sliders():
-            if slider_data(component)["label"].startswith(label):
-                return component
-        return None
+    def live_slider(self, label: str) -> dict[str, Any] | None:
+        """Return what a live slider shows, by the first words of its label."""
+        sliders = self.live_sliders()
+        return next((item for item in sliders if item["label"].startswith(label)), None)
 
-    def live_sliders(self) -> list[BidiComponent]:
-        """Return the page's live sliders."""
-        return self._components(SLIDER)
+    def live_sliders(self) -> list[dict[str, Any]]:
+        """Return what every live slider shows, with the group that holds it."""
+        groups = [(group, json.loads(group.json)) for group in self._components(SLIDERS)]
+        return [
+            item | {"group": group, "echo": data.get("echo")}
+            for group, data in groups
+            for item in data["sliders"]
+        ]
 
     def tab_rows(self) -> list[tuple[str, list[str]]]:
         """Return the page's rows of tabs: the id of each and its labels."""
@@ -322,8 +326,3 @@ class Visitor:
     def _failed(self, words: str) -> ServerError:
         self.tally.errors.append(words)
         return ServerError(words)
-
-
-def slider_data(component: BidiComponent) -> dict[str, Any]:
-    """Return what a live slider was given."""
-    return json.loads(component.json)

@@ -4,7 +4,7 @@ import asyncio
 import random
 import time
 
-from tests.load.client import ServerError, Visitor, slider_data
+from tests.load.client import ServerError, Visitor
 from ui.page import PAGES
 
 EVERY = 3.0  # seconds from one action to the next
@@ -36,7 +36,7 @@ async def act(visitor: Visitor, dice: random.Random) -> None:
     chance = dice.random()
     rows = visitor.tab_rows()
     if chance < SLIDES:
-        data = slider_data(dice.choice(visitor.live_sliders()))
+        data = dice.choice(visitor.live_sliders())
         await visitor.slide(data["label"], place(data, dice.random()))
     elif chance < SLIDES + TABS and rows:
         await visitor.open_tab(dice.choice(dice.choice(rows)[1]))

@@ -7,6 +7,7 @@ ROTORCALC_LIVE=off nothing here is used, and pages have Streamlit's own charts a
 
 from ui.live.chart import show as show_chart
 from ui.live.feed import show as show_feed
-from ui.live.slider import show as show_slider
+from ui.live.slider import Slider
+from ui.live.slider import show as show_sliders
 
-__all__ = ["show_chart", "show_feed", "show_slider"]
+__all__ = ["Slider", "show_chart", "show_feed", "show_sliders"]

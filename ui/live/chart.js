@@ -4,6 +4,8 @@
 // addresses of Plotly and of move.js.
 
 const FAILED = "This chart could not be drawn: Plotly's script did not load. Reload the page.";
+// Milliseconds that a moved picture rests before Plotly draws it.
+const WHILE = 300;
 // How many charts are being drawn: sliders wait for them.
 window.rotorcalcDrawing ??= 0;
 // Charts by key, for the feed.
@@ -33,18 +35,9 @@ function made(parent) {
   element.className = "live-chart";
   element.setAttribute("role", "figure");
   parent.replaceChildren(element);
-  const chart = { element, wanted: null, drawing: null, ranges: [] };
-  chart.follow = (figure) => {
-    chart.followed = true;
-    chart.wanted = { ...chart.given, chart: figure };
-    return draw(chart);
-  };
-  chart.settle = () => {
-    if (!chart.followed) return;
-    chart.followed = false;
-    chart.wanted = chart.given;
-    draw(chart);
-  };
+  const chart = { element, wanted: null, shown: null, drawing: null, ranges: [] };
+  chart.follow = (figure) => draw(chart, { ...chart.given, chart: figure });
+  chart.settle = () => chart.shown !== chart.given && draw(chart, chart.given);
   chart.resizing = new ResizeObserver(() => {
     if (element.data && element.offsetParent) window.Plotly.Plots.resize(element);
   });
@@ -53,30 +46,44 @@ function made(parent) {
   return chart;
 }
 
+function differ(a, b) {
+  return JSON.stringify(a) !== JSON.stringify(b);
+}
+
 // Plotly keeps a zoom only where it is given the range that stood before.
 function keepZoom(chart, { layout }) {
   for (const [name, range] of chart.ranges) {
-    const zoomed = JSON.stringify(chart.element.layout[name]?.range) !== JSON.stringify(range);
-    if (zoomed && layout[name]) layout[name].range = [...range];
+    if (layout[name] && differ(chart.element.layout[name]?.range, range)) layout[name].range = [...range];
   }
   const axes = Object.entries(layout).filter(([, axis]) => axis?.range);
   chart.ranges = axes.map(([name, { range }]) => [name, [...range]]);
 }
 
-// While it follows a held thumb a picture is moved, where it can be.
-async function redraw(Plotly, chart, figure, { config, mover }) {
-  const { move } = await import(location.origin + mover);
-  const moved = chart.followed && chart.shown && move(chart.element, chart.shown, figure);
-  if (!moved) {
-    const copy = structuredClone(figure); // Plotly writes into what it is given
-    keepZoom(chart, copy);
-    await Plotly.react(chart.element, { ...copy, config });
+async function redrawn(Plotly, chart, { chart: figure, config }) {
+  const copy = structuredClone(figure); // Plotly writes into what it is given
+  keepZoom(chart, copy);
+  await Plotly.react(chart.element, { ...copy, config });
+  delete chart.element.dataset.moved;
+}
+
+// Moves the picture where that will do, and lets Plotly draw it when nothing has come for a while:
+// what is hovered, zoomed or saved is Plotly's own.
+async function redraw(chart, wanted) {
+  const { shown } = chart;
+  clearTimeout(chart.due);
+  const [Plotly, { move }] = await Promise.all([plotly(wanted.plotly), import(location.origin + wanted.mover)]);
+  chart.shown = wanted;
+  if (wanted === shown || !shown || differ(shown.config, wanted.config) || !move(chart.element, shown.chart, wanted.chart)) {
+    await redrawn(Plotly, chart, wanted);
+  } else {
+    chart.element.dataset.moved = "";
+    chart.due = setTimeout(() => draw(chart, chart.shown), WHILE);
   }
-  chart.shown = figure;
 }
 
 // Draws what is wanted last; what came while it drew is drawn next, and what lies between never.
-function draw(chart) {
+function draw(chart, wanted) {
+  chart.wanted = wanted;
   chart.drawing ??= drawn(chart).finally(() => {
     chart.drawing = null;
   });
@@ -87,10 +94,10 @@ async function drawn(chart) {
   window.rotorcalcDrawing += 1;
   try {
     while (chart.wanted) {
-      const { chart: figure, ...settings } = chart.wanted;
+      const { wanted, shown } = chart;
       chart.wanted = null;
-      await redraw(await plotly(settings.plotly), chart, figure, settings);
-      chart.element.dataset.drawn = Number(chart.element.dataset.drawn ?? 0) + 1;
+      await redraw(chart, wanted);
+      if (wanted !== shown) chart.element.dataset.drawn = Number(chart.element.dataset.drawn ?? 0) + 1;
     }
   } catch (error) {
     chart.element.setAttribute("role", "alert");
@@ -103,13 +110,13 @@ async function drawn(chart) {
 export default function ({ data, parentElement }) {
   const chart = charts.get(parentElement) ?? made(parentElement);
   chart.given = JSON.parse(new TextDecoder().decode(data));
-  chart.wanted = chart.given;
   const { key, alt, chart: figure } = chart.given;
   window.rotorcalcCharts.set(key, chart);
   chart.element.setAttribute("aria-label", alt);
   chart.element.style.height = `${figure.layout.height}px`;
-  draw(chart);
+  draw(chart, chart.given);
   return () => {
+    clearTimeout(chart.due);
     if (window.rotorcalcCharts.get(key) === chart) window.rotorcalcCharts.delete(key);
     chart.resizing.disconnect();
     charts.delete(parentElement);

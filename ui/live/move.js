@@ -1,10 +1,9 @@
 // Moves a drawn chart to another machine's, in a tenth of the time that Plotly needs to draw it anew.
 //
-// While a thumb is held, lines, points, notes and shapes go to their new places in the picture as it
-// stands. Where that cannot be done, Plotly draws; when the thumb is let go it draws in any case, so
-// what is hovered, zoomed or exported is always its own.
+// Lines, points, notes and shapes go to their new places in the picture as it stands. Where that cannot
+// be done Plotly draws at once, and elsewhere when nothing has moved for a while.
 
-// Seen only under a pointer, and that is on the thumb.
+// Seen only under a pointer, and that is on a thumb.
 const HOVERED = new Set(["customdata", "hovertemplate"]);
 const TRACE = new Set(["x", "y", "text", "name", ...HOVERED]);
 const NOTE = new Set(["x", "y", "ax", "ay", "text"]);

@@ -1,13 +1,14 @@
-// A slider that sends while it moves, and a field to type its value in.
+// Sliders that send while they move, each with a field to type its value in.
 //
 // While the thumb is held its values go to the page's feed, where there is one. Else, and when it is let
-// go, it sends {value, held, number}, and the server answers with `number` as `echo`. The next value goes
+// go, it sends {name, value, held, number}, and the server answers with `number` as `echo`. The next value goes
 // out only when the last one's answer is drawn: a slow server makes fewer updates, never a queue. The last
 // value always goes out, with held = false.
 
 const STYLE = `
 .live-slider {display: grid; grid-template-columns: 1fr 4.6rem; gap: 0.2rem 0.6rem; align-items: center;
   font-family: var(--st-font); font-size: 0.875rem; color: var(--st-text-color);}
+.live-slider + .live-slider {margin-top: 1rem;}
 .live-slider label {grid-column: 1 / -1;}
 .live-slider input[type=text] {width: 100%; padding: 0.1rem 0.35rem; text-align: right; font: inherit;
   color: inherit; background: var(--st-background-color); border: 1px solid var(--st-border-color);
@@ -49,7 +50,7 @@ function resting() {
 }
 
 class Slider {
-  constructor(parent) {
+  constructor() {
     const id = `live-slider-${crypto.randomUUID?.() ?? Math.random()}`;
     this.root = document.createElement("div");
     this.root.className = "live-slider";
@@ -58,7 +59,6 @@ class Slider {
       { type: "text", inputMode: "decimal", autocomplete: "off" });
     this.range = Object.assign(document.createElement("input"), { type: "range", id });
     this.root.append(this.label, this.range, this.field);
-    parent.replaceChildren(this.root);
     // A key's step is an input and a change at once: the change alone will do.
     this.range.addEventListener("keydown", () => { this.keyed = true; });
     this.range.addEventListener("pointerdown", () => { this.keyed = false; });
@@ -135,7 +135,7 @@ class Slider {
   // Ends when Streamlit's answer is drawn, or after ten seconds: it can be lost with its connection.
   ask(message) {
     const number = performance.now();
-    this.send("moved", { ...message, number });
+    this.send("moved", { ...message, name: this.data.name, number });
     return new Promise((resolve) => {
       const look = () => {
         const answered = this.data.echo === number && resting();
@@ -147,7 +147,7 @@ class Slider {
   }
 }
 
-const sliders = new WeakMap();
+const groups = new WeakMap();
 
 export default function ({ data, parentElement, setTriggerValue }) {
   if (!document.getElementById("live-slider-style")) {
@@ -155,6 +155,12 @@ export default function ({ data, parentElement, setTriggerValue }) {
     style.textContent = STYLE;
     document.head.append(style);
   }
-  if (!sliders.has(parentElement)) sliders.set(parentElement, new Slider(parentElement));
-  sliders.get(parentElement).update(data, setTriggerValue);
+  const { sliders, ...common } = data;
+  const known = groups.get(parentElement) ?? new Map();
+  const group = new Map(sliders.map(({ name }) => [name, known.get(name) ?? new Slider()]));
+  for (const slider of sliders) group.get(slider.name).update({ ...slider, ...common }, setTriggerValue);
+  const roots = [...group.values()].map(({ root }) => root);
+  // Left in its place, a slider keeps the keyboard.
+  if (roots.some((root, i) => root !== parentElement.children[i])) parentElement.replaceChildren(...roots);
+  groups.set(parentElement, group);
 }

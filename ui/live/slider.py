@@ -1,51 +1,67 @@
-"""A slider that sends while it moves, with a field to type its value in."""
+"""Sliders that send while they move, each with a field to type its value in."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
 
 import streamlit as st
 from streamlit.components.v2 import component
 
 from ui.live import assets
 
-_component = component("rotorcalc.slider", js=assets.module("slider"), isolate_styles=False)
+_component = component("rotorcalc.sliders", js=assets.module("slider"), isolate_styles=False)
 
 
-def show(  # noqa: PLR0913 - what a slider shows, and where it sends
-    label: str,
-    value: float,
-    bounds: tuple[float, float, float],
-    *,
-    log: bool,
-    beyond: str,
-    key: str,
-    help: str,  # noqa: A002 - as Streamlit calls it
-    on_move: Callable[[object, bool], None],
-    name: str = "",
-    while_held: bool = True,
-) -> None:
-    """Show a slider.
+@dataclass(frozen=True)
+class Slider:
+    """A slider as it is shown.
 
-    `bounds` are the lowest and the highest value and the step between, or the number of steps a
-    decade where `log`; `beyond` is the word for one more place above them. `on_move` gets what was
-    sent, which may be anything, and whether the thumb is still held; with a `name` what is sent
-    while held goes through the page's feed under it, if there is one.
+    `step` lies between two places, or is the number of places a decade where `log`; `beyond` is the
+    word for one more place above `high`.
     """
-    low, high, step = bounds
+
+    name: str
+    label: str
+    help: str
+    value: float
+    low: float
+    high: float
+    step: float
+    log: bool
+    beyond: str = ""
+
+
+def show(
+    sliders: Sequence[Slider],
+    *,
+    key: str,
+    on_move: Callable[[str, object, bool], None],
+    while_held: bool = True,
+    follow: bool = False,
+) -> None:
+    """Show some sliders below each other, one element of the page.
+
+    `on_move` gets a slider's name, what it sent, which may be anything, and whether the thumb is
+    still held; where they `follow`, what is sent while held goes to the page's feed, if it has one.
+    """
 
     def moved() -> None:
         sent = st.session_state[key]["moved"]
         if isinstance(sent, dict):
             st.session_state[f"{key}_echo"] = sent.get("number")
-            on_move(sent.get("value"), bool(sent.get("held")))
+            on_move(str(sent.get("name")), sent.get("value"), bool(sent.get("held")))
 
     _component(
         key=key,
         data={
-            "label": label, "help": help, "low": low, "high": high, "step": step, "log": log,
-            "beyond": beyond, "whileHeld": while_held, "name": name, "follow": name != "",
-            "value": beyond if math.isinf(value) else value,
+            "sliders": [_sent(slider) for slider in sliders],
+            "whileHeld": while_held, "follow": follow,
             "echo": st.session_state.get(f"{key}_echo"),
         },
         on_moved_change=moved,
     )  # fmt: skip
+
+
+def _sent(slider: Slider) -> dict[str, Any]:
+    return vars(slider) | ({"value": slider.beyond} if math.isinf(slider.value) else {})
