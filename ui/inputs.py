@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from rotorcalc import PRESETS, JournalBearing, Machine, Oil, Preset, Rotor
+from rotorcalc.figures import style
 from rotorcalc.figures.units import SI, Unit, Units
 
 # The least of a positive value: below it what is divided by it has no room.
@@ -227,9 +228,13 @@ def machine_of(values: Mapping[str, float | None]) -> Machine:
 
 
 def speeds_of(values: Mapping[str, float | None]) -> tuple[float, float]:
-    """Return the running speed and the top speed of the charts [rad/s]."""
-    speed, top = (INPUTS[key].unit(SI).to_si(_number(values, key)) for key in ("rpm", "rpm_max"))
-    return speed, max(speed, top)
+    """Return the running speed and the top speed of the charts [rad/s].
+
+    A running speed above the top speed takes the charts to the next round number, not along.
+    """
+    speed, top = (_number(values, key) for key in ("rpm", "rpm_max"))
+    top = max(top, style.ceiling(speed)) if speed > top else top
+    return SI.speed.to_si(speed), SI.speed.to_si(top)
 
 
 def input_named(name: str) -> Input:

@@ -93,6 +93,8 @@ def test_a_missing_value_is_named() -> None:
         machine_of(PRESET_VALUES["sheet-1e8"] | {"C": None})
 
 
-def test_the_charts_run_at_least_to_the_running_speed() -> None:
-    speed, top = speeds_of(PRESET_VALUES["sheet-1e8"] | {"rpm": 20000.0})
-    assert speed == top == pytest.approx(20000 * math.pi / 30)
+@pytest.mark.parametrize(("rpm", "top_rpm"), [(12000, 12000), (20000, 20000), (20010, 25000)])
+def test_the_charts_run_to_a_round_number_above_the_running_speed(rpm: int, top_rpm: int) -> None:
+    speed, top = speeds_of(PRESET_VALUES["sheet-1e8"] | {"rpm": rpm})
+    assert speed == pytest.approx(rpm * math.pi / 30)
+    assert top == pytest.approx(top_rpm * math.pi / 30)

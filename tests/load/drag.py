@@ -1,8 +1,8 @@
 """Sessions that drag a slider at once: python -m tests.load.drag ADDRESS [--sessions 10]
 
 Each sends as the app's slider does: the next value when the last one is answered, and the last
-value when the thumb is let go. Printed are the longest time from letting go until the last run has
-ended, and the most runs that one session had under way.
+value when the thumb is let go. Printed are the longest times from letting go until charts and page
+show it, and the most runs that one session had under way.
 """
 
 import argparse
@@ -18,8 +18,11 @@ SLIDER, LOW, HIGH = "Radial clearance", 60, 140
 PERIOD = 4.0  # seconds for the thumb to go there and back
 
 
-async def drag(visitor: Visitor, seconds: float) -> float:
-    """Drag a slider there and back by whole micrometres; return how long the last value took."""
+async def drag(visitor: Visitor, seconds: float) -> tuple[float, float]:
+    """Drag a slider there and back by whole micrometres.
+
+    Return how long after letting go the charts of the last value and the whole page were there.
+    """
     start = time.perf_counter()
     released = start + seconds
     shown = 0
@@ -30,8 +33,11 @@ async def drag(visitor: Visitor, seconds: float) -> float:
         else:
             await visitor.follow(SLIDER, value)
             shown = value
+    if shown != _thumb(seconds):
+        await visitor.follow(SLIDER, _thumb(seconds))
+    charts = time.perf_counter() - released
     await visitor.slide(SLIDER, _thumb(seconds), held=False)
-    return time.perf_counter() - released
+    return charts, time.perf_counter() - released
 
 
 def _thumb(seconds: float) -> int:
@@ -40,7 +46,7 @@ def _thumb(seconds: float) -> int:
 
 async def crowd(
     address: str, *, sessions: int, seconds: float, page: str = ""
-) -> tuple[list[float], list[Tally]]:
+) -> tuple[list[tuple[float, float]], list[Tally]]:
     """Let sessions drag at once; return how long each one's last value took, and their tallies."""
     visitors = [Visitor(address) for _ in range(sessions)]
     try:
@@ -67,12 +73,12 @@ def main() -> None:
     except (ServerError, OSError) as error:
         sys.exit(f"{error}")
     rate = statistics.median(tally.followed / asked.seconds for tally in tallies)
+    charts, pages = (max(taken) * 1e3 for taken in zip(*settled, strict=True))
+    most = max(tally.most_under_way for tally in tallies)
     print(  # noqa: T201 - what this script is for
-        f"{asked.sessions} sessions dragging for {asked.seconds:g} s: last value's run ended at "
-        f"most {max(settled) * 1e3:.0f} ms after letting go (median "
-        f"{statistics.median(settled) * 1e3:.0f} ms); at most "
-        f"{max(tally.most_under_way for tally in tallies)} run(s) of a session under way; "
-        f"{rate:.1f} answers/s a session"
+        f"{asked.sessions} sessions dragging for {asked.seconds:g} s: {rate:.1f} answers/s a "
+        f"session; after letting go the last value's charts were there in at most {charts:.0f} ms, "
+        f"the whole page in {pages:.0f} ms; at most {most} run(s) of a session under way"
     )
 
 

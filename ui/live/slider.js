@@ -69,6 +69,7 @@ class Slider {
       this.range.addEventListener(end, () => setTimeout(() => this.grasped && this.moved(false)));
     this.field.addEventListener("change", () => this.typed());
     this.waiting = null; // what goes out next
+    this.followed = null; // the held value that was drawn last
     this.out = false; // whether something is on its way, or being drawn
   }
 
@@ -123,13 +124,22 @@ class Slider {
       const message = this.waiting;
       this.waiting = null;
       this.out = true;
-      const feed = message.held && this.data.follow ? window.rotorcalcFeed : undefined;
-      if (!(await feed?.follow(this.data.name, message.value))) await this.ask(message);
+      const followed = await this.follow(message);
+      if (!followed || !message.held) await this.ask(message);
       this.out = false;
       if (!message.held && this.waiting === null) window.rotorcalcFeed?.settle();
     }
     delete this.root.dataset.busy;
     if (!this.grasped) this.show(this.data.value);
+  }
+
+  // While the thumb is held, and for the value at which it is let go where that is one more.
+  async follow({ value, held }) {
+    const feed = this.data.follow ? window.rotorcalcFeed : undefined;
+    const due = held || (this.followed !== null && this.followed !== value);
+    const followed = due && feed !== undefined && (await feed.follow(this.data.name, value));
+    this.followed = held && followed ? value : null;
+    return followed;
   }
 
   // Ends when Streamlit's answer is drawn, or after ten seconds: it can be lost with its connection.
