@@ -205,7 +205,12 @@ def response_peaks(machine: Machine, speed: ArrayLike, *, at: str = "disk") -> R
     return disk if at == "disk" else journal
 
 
-def both_peaks(machine: Machine, speed: ArrayLike) -> tuple[ResponsePeaks, ResponsePeaks]:
+def both_peaks(
+    machine: Machine,
+    speed: ArrayLike,
+    *,
+    responses: tuple[ComplexArray, ComplexArray] | None = None,
+) -> tuple[ResponsePeaks, ResponsePeaks]:
     """Return the peaks of the disk's response and of the journals', found in one search.
 
     Parameters
@@ -214,6 +219,8 @@ def both_peaks(machine: Machine, speed: ArrayLike) -> tuple[ResponsePeaks, Respo
         The machine.
     speed : array_like, (n,)
         Rising speeds, Ω [rad/s], dense enough to show each peak. A peak lies within them.
+    responses : pair of complex arrays, (n, 2), or None
+        The responses of disk and journal at these speeds [m], where they are known already.
 
     Returns
     -------
@@ -226,7 +233,7 @@ def both_peaks(machine: Machine, speed: ArrayLike) -> tuple[ResponsePeaks, Respo
         Where a speed is not positive and finite.
     """
     speeds = checked_speed(speed)
-    size = _orbit_sizes(machine, speeds)
+    size = _orbit_sizes(machine, speeds) if responses is None else _sizes(responses)
     is_peak = (size[:, 1:-1] > size[:, :-2]) & (size[:, 1:-1] >= size[:, 2:])
     body, place = np.nonzero(is_peak)
     if not len(body):
@@ -244,7 +251,11 @@ def _orbit_sizes(machine: Machine, speed: ArrayLike) -> Array:
     """Return the semi-major axes of the disk's orbit and the journal's, shape (2, ...)."""
     state = equilibrium(machine, speed)
     pair = synchronous_response(machine.rotor, state.stiffness, state.damping, state.speed)
-    orbits = np.stack(pair)
+    return _sizes(pair)
+
+
+def _sizes(responses: tuple[ComplexArray, ComplexArray]) -> Array:
+    orbits = np.stack(responses)
     return orbit_ellipse(orbits[..., 0], orbits[..., 1]).semi_major
 
 

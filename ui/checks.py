@@ -19,8 +19,7 @@ def draw(view: View) -> None:
         "The model holds" if not strained else f"The model is {_WORDS[worst.level]}: {worst.name}"
     )
     with st.expander(headline, expanded=False, key="validity", icon=_icon(worst)):
-        for check in checks:
-            st.markdown(_line(check))
+        st.markdown("\n\n".join(_line(check) for check in checks))
         st.caption("Film: short, laminar, isoviscous, aligned, rigid walls. Orbits: small.")
 
 

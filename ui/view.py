@@ -276,7 +276,9 @@ def _onset(machine: Machine, flexible: bool) -> Onset:
 
 @lru_cache(maxsize=64)
 def _peaks(machine: Machine, top_speed: float) -> tuple[ResponsePeaks, ResponsePeaks]:
-    return both_peaks(machine, speeds(top_speed))
+    sweep = _sweep(machine, top_speed)
+    known = sweep.disk_response, sweep.journal_response
+    return both_peaks(machine, sweep.speed, responses=known)
 
 
 @lru_cache(maxsize=32)
