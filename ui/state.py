@@ -5,6 +5,7 @@ survives a change of page, whether it was moved or came with a link.
 """
 
 import secrets
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 import streamlit as st
@@ -68,15 +69,13 @@ class State:
 
 def state() -> State:
     """Return this session's state; a new session's comes from the address bar."""
-    if _KEY not in st.session_state:
-        given = link.read(st.query_params.to_dict())
-        st.session_state[_KEY] = State(
-            preset=given.preset,
-            values=given.values,
-            units_name=given.units,
-            problems=given.problems,
-        )
-    return st.session_state[_KEY]
+    with suppress(KeyError):
+        return st.session_state[_KEY]
+    given = link.read(st.query_params.to_dict())
+    st.session_state[_KEY] = kept = State(
+        preset=given.preset, values=given.values, units_name=given.units, problems=given.problems
+    )
+    return kept
 
 
 def write_address_bar() -> None:

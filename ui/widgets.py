@@ -17,7 +17,7 @@ from rotorcalc.figures import Chart, themed
 from rotorcalc.figures.units import Units
 from ui import settings
 from ui.follow import Drawn
-from ui.inputs import Input, input_named
+from ui.inputs import Input, Values, input_named
 from ui.state import mirror, state
 
 
@@ -79,7 +79,7 @@ def _own(item: Input) -> None:
     """Show one of Streamlit's own sliders or fields."""
     kept = state()
     units = kept.units
-    shown = _shown(item)
+    shown = _shown(item, kept.values, units)
     key = f"input_{item.key}_{units.name}_{'typed' if kept.typed else 'slider'}"
     common: dict[str, Any] = {
         "label": item.name(units), "key": key, "help": item.help, "on_change": _keep,
@@ -93,9 +93,9 @@ def _own(item: Input) -> None:
         _slider(item, shown, units, common)
 
 
-def _shown(item: Input) -> float:
-    value = state().values[item.key]
-    return item.low if value is None else item.shown(value, state().units)
+def _shown(item: Input, values: Values, units: Units) -> float:
+    value = values[item.key]
+    return item.low if value is None else item.shown(value, units)
 
 
 def _keep(item: Input, key: str, units: Units) -> None:
@@ -108,14 +108,14 @@ def _live() -> ModuleType:
 
 
 def _live_sliders(group: str, items: Sequence[Input]) -> None:
-    live, units = _live(), state().units
+    live, values, units = _live(), state().values, state().units
 
     def slider(item: Input) -> object:
         low, high = item.shown(item.low, units), item.shown(item.high, units)
         step = item.step if item.log else _round_step(item.shown(item.low + item.step, units) - low)
         return live.Slider(
-            item.key, item.name(units), item.help, _shown(item), low, high, step, item.log,
-            item.infinite,
+            item.key, item.name(units), item.help, _shown(item, values, units),
+            low, high, step, item.log, item.infinite,
         )  # fmt: skip
 
     live.show_sliders(

@@ -74,13 +74,17 @@ def test_a_value_is_kept_in_the_links_unit_and_the_last_word_is_a_rigid_shaft(mo
 
 
 def test_arrays_travel_in_single_precision_and_keep_their_shape() -> None:
-    values = np.array([[1.0, np.nan, 1e300], [0.1, 2.0, 3.0]])
-    sent = json.loads(encoded({"line": values[1], "map": values, "words": np.array(["a"])}))
+    values = np.tile([[1.0, np.nan, 1e300], [0.1, 2.0, 3.0]], 3)
+    few = np.array([0.1, np.nan])
+    sent = json.loads(
+        encoded({"line": values[1], "map": values, "words": np.array(["a"]), "few": few})
+    )
     assert sent["words"] == ["a"]
+    assert sent["few"] == [0.1, None]
     line = np.frombuffer(base64.b64decode(sent["line"]["bdata"]), sent["line"]["dtype"])
     np.testing.assert_array_equal(line, values[1].astype(np.float32))
     # What single precision cannot hold stays double.
     assert sent["map"]["dtype"] == "f8"
-    assert sent["map"]["shape"] == "2,3"
+    assert sent["map"]["shape"] == "2,9"
     with pytest.raises(TypeError, match="set"):
         encoded({"odd": {1}})

@@ -10,6 +10,8 @@ from streamlit.components.v2 import component
 from rotorcalc.figures import Chart
 from ui.live import assets
 
+# So few numbers are sooner written than packed.
+_FEW = 8
 _component = component("rotorcalc.chart", js=assets.module("chart"), isolate_styles=False)
 
 
@@ -35,7 +37,7 @@ def _array(value: Any) -> Any:
         return value.item()
     if not isinstance(value, np.ndarray):
         raise TypeError(f"{type(value).__name__} in a chart")
-    if value.dtype.kind != "f":
+    if value.dtype.kind != "f" or value.size <= _FEW:
         return value.tolist()
     with np.errstate(over="ignore"):
         single = value.astype(np.float32)
