@@ -151,6 +151,7 @@ def drags(browser: Browser, bare: str, app: str) -> None:
         ("the app's home page", app, 4, "Radial clearance"),
         ("the app's static equilibrium", f"{app}/Equilibrium", 2, "Running speed"),
         ("the app's root locus", f"{app}/Root_locus", 1, "Running speed"),
+        ("the app's root locus, clearance", f"{app}/Root_locus", 1, "Radial clearance"),
     ]
     for name, url, charts, label in cases:
         page = _opened(browser, url, charts)
@@ -171,7 +172,11 @@ def sizes(browser: Browser, plain: str, app: str) -> None:
     for name in ("Machine", "Equilibrium", "Stability"):
         path = PATHS[name]
         before, after = (_size(browser, f"{address}/{path}") for address in (plain, app))
-        _say(f"bytes an update, {name}: {before / 1e3:.0f} kB before, {after / 1e3:.0f} kB live")
+        held = _size_held(browser, f"{app}/{path}")
+        _say(
+            f"bytes an update, {name}: {before / 1e3:.0f} kB before, {after / 1e3:.0f} kB live, "
+            f"{held / 1e3:.0f} kB while held"
+        )
 
 
 def _size(browser: Browser, url: str) -> int:
@@ -184,6 +189,22 @@ def _size(browser: Browser, url: str) -> int:
     received = traffic.received - before
     page.context.close()
     return received
+
+
+def _size_held(browser: Browser, url: str) -> float:
+    """Return the bytes of an answer to a held thumb, as they travel."""
+    page = browser.new_page()
+    sizes: list[int] = []
+    page.on(
+        "requestfinished",
+        lambda request: (
+            "/follow?" in request.url and sizes.append(request.sizes()["responseBodySize"])
+        ),
+    )
+    _open(page, url, 1)
+    page.evaluate(_DRAG, ["Radial clearance", 1500])
+    page.context.close()
+    return statistics.median(sizes)
 
 
 def endurance(browser: Browser, app: str, server: int, minutes: float) -> None:

@@ -37,6 +37,8 @@ class Page(Protocol):
 
 # Every page drawn last in its session, as long as the session keeps it.
 _pages: WeakValueDictionary[str, Page] = WeakValueDictionary()
+# A page asks one thing at a time.
+_asking: set[str] = set()
 
 
 def show(page: Page, token: str) -> None:
@@ -52,11 +54,18 @@ def path() -> str:
 
 async def answer(request: Request) -> Response:
     """Answer a held thumb, in a thread of its own: the server goes on with others meanwhile."""
-    page = _pages.get(request.headers.get(_TOKEN, ""))
+    token = request.headers.get(_TOKEN, "")
+    page = _pages.get(token)
     if page is None:
         return Response(status_code=204)
+    if token in _asking:
+        return Response(status_code=429)
     name, value = (request.query_params.get(key, "") for key in ("name", "value"))
-    content = await asyncio.to_thread(_packed, page, name, value)
+    _asking.add(token)
+    try:
+        content = await asyncio.to_thread(_packed, page, name, value)
+    finally:
+        _asking.discard(token)
     headers = {"Cache-Control": "no-store", "Content-Encoding": "gzip"}
     return Response(content, media_type="application/json", headers=headers)
 

@@ -1,0 +1,99 @@
+"""What a held slider asks the server, straight and through the proxy."""
+
+import asyncio
+import json
+from collections.abc import Iterator
+from contextlib import closing
+from http.client import HTTPConnection
+from urllib.parse import urlsplit
+
+import pytest
+
+from tests.deploy.conftest import Site
+from tests.deploy.test_replicas import awaited
+from tests.load.client import FEED, Visitor
+from tests.load.replicas import Replica
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[Replica]:
+    replica = Replica()
+    yield replica.wait()
+    replica.stop()
+
+
+@awaited
+async def test_a_held_value_gives_charts_and_numbers_and_is_kept_by_nobody(server: Replica) -> None:
+    async with Visitor(server.address) as visitor:
+        await visitor.open("Stability")
+        said = visitor.texts()
+        answer = await visitor.follow("Radial clearance", 83)
+        assert {"chart_threshold", "chart_whirl_frequency"} <= answer["charts"].keys()
+        (numbers,) = answer["rows"].values()
+        assert not any(number in " ".join(said) for number in numbers[:3])
+        await visitor.rerun()
+        assert visitor.texts() == said
+        assert visitor.query == ""
+        await visitor.slide("Radial clearance", 83)
+        shown = [element.metric.body for element in visitor.elements("metric")]
+        assert shown == numbers
+
+
+@pytest.mark.parametrize("page", ["", "Equilibrium", "Coefficients", "Root_locus", "Response"])
+def test_every_page_follows(server: Replica, page: str) -> None:
+    async def charts() -> tuple[int, int]:
+        async with Visitor(server.address) as visitor:
+            await visitor.open(page)
+            answer = await visitor.follow("Film temperature", 71.5)
+            return len(answer["charts"]), len(answer["rows"])
+
+    found, rows = asyncio.run(charts())
+    assert found >= 1
+    assert rows >= 1
+
+
+@awaited
+async def test_a_stranger_is_told_nothing(server: Replica) -> None:
+    async with Visitor(server.address) as visitor:
+        await visitor.open()
+        for token in ("0", "x" * 2000, "../etc"):
+            assert visitor.ask("C", 83, token) == (204, b"")
+
+
+@awaited
+async def test_what_is_no_value_moves_nothing(server: Replica) -> None:
+    async with Visitor(server.address) as visitor:
+        await visitor.open()
+        for name, value in [
+            ("C", "much"), ("C", 1e9), ("C", ""), ("C", "nan"), ("C", "9" * 5000), ("C", "rigid"),
+            ("C", "5e-324"), ("nothing", 1), ("__class__", 1), ("", ""), ("load", "None"),
+        ]:  # fmt: skip
+            status, body = visitor.ask(name, value)
+            assert (status, json.loads(body)) == (200, {"charts": {}, "rows": {}}), (name, value)
+
+
+@awaited
+async def test_a_page_asks_one_thing_at_a_time(server: Replica) -> None:
+    async with Visitor(server.address) as visitor:
+        await visitor.open()
+        feed = json.loads(visitor._components(FEED)[0].json)
+        port = urlsplit(server.address).port
+
+        def ask(value: int) -> int:
+            with closing(HTTPConnection("127.0.0.1", port, timeout=30)) as connection:
+                path = f"{feed['address']}?name=C&value={value}"
+                connection.request("GET", path, headers={"X-Rotorcalc-Page": feed["token"]})
+                return connection.getresponse().status
+
+        asked = (asyncio.to_thread(ask, value) for value in range(70, 90))
+        answers = await asyncio.gather(*asked)
+        assert set(answers) == {200, 429}
+
+
+@awaited
+async def test_through_the_proxy_it_comes_from_the_visitors_own_replica(site: Site) -> None:
+    async with site.visitor() as visitor:
+        await visitor.open("Equilibrium")
+        for clearance in range(80, 90):
+            answer = await visitor.follow("Radial clearance", clearance)
+            assert answer["charts"]
