@@ -27,7 +27,9 @@ def draw() -> None:
             required=True, persist_state="session", label_visibility="collapsed",
         )  # fmt: skip
         page.chart(
-            lambda v: machine.cross_section(v.point, v.film, units, to_scale=scale == "to scale"),
+            lambda v: machine.cross_section(
+                v.point, v.middle_film, units, to_scale=scale == "to scale"
+            ),
             "cross_section",
             alt="Cross-section of the bearing with the journal, the load and the film's pressure",
             caption="Journal in its bearing, seen along the shaft. Pressure of the film: Eq. 5.25.",

@@ -94,6 +94,11 @@ class View:
         return film_field(self.machine, self.speed, theta=_THETA, zeta=_ZETA)
 
     @cached_property
+    def middle_film(self) -> PressureField:
+        """The film around the bearing's middle at the running speed."""
+        return film_field(self.machine, self.speed, theta=_THETA)
+
+    @cached_property
     def forces(self) -> FilmForces:
         """The film's forces at the running speed, at this machine's own equilibrium."""
         return film_forces(self.machine, self.speed, sommerfeld=self.point.sommerfeld)
