@@ -39,17 +39,14 @@ async def test_a_held_value_gives_charts_and_numbers_and_is_kept_by_nobody(serve
         assert shown == numbers
 
 
-@pytest.mark.parametrize("page", ["", "Equilibrium", "Coefficients", "Root_locus", "Response"])
-def test_every_page_follows(server: Replica, page: str) -> None:
-    async def charts() -> tuple[int, int]:
-        async with Visitor(server.address) as visitor:
-            await visitor.open(page)
-            answer = await visitor.follow("Film temperature", 71.5)
-            return len(answer["charts"]), len(answer["rows"])
-
-    found, rows = asyncio.run(charts())
-    assert found >= 1
-    assert rows >= 1
+@pytest.mark.parametrize("name", ["", "Equilibrium", "Coefficients", "Root_locus", "Response"])
+@awaited
+async def test_every_page_follows(server: Replica, name: str) -> None:
+    async with Visitor(server.address) as visitor:
+        await visitor.open(name)
+        answer = await visitor.follow("Film temperature", 71.5)
+        assert answer["charts"]
+        assert answer["rows"]
 
 
 @awaited

@@ -1,6 +1,5 @@
 """What a server writes and answers: its first line, failures with their id, its health."""
 
-import asyncio
 import json
 import re
 from collections.abc import Iterator
@@ -10,6 +9,7 @@ from typing import Any
 import pytest
 
 import rotorcalc
+from tests.deploy.test_replicas import finished
 from tests.load.client import Visitor
 from tests.load.replicas import ROOT, Replica
 from ui import health, settings, version
@@ -50,7 +50,7 @@ async def _visit(address: str) -> list[str]:
 def test_what_fails_has_an_id_on_the_page_and_in_the_log_and_nothing_of_the_visitor(
     failing: Replica,
 ) -> None:
-    said = " ".join(asyncio.run(_visit(failing.address)))
+    said = " ".join(finished(_visit(failing.address)))
     numbers = re.findall(r"\*\*([0-9a-f]{8})\*\*", said)
     assert len(numbers) == 1
     (failure,) = [line for line in _lines(failing) if line["event"] == "failed"]

@@ -1,6 +1,5 @@
 """What nginx lets in, what it turns away, and what it says with each answer."""
 
-import asyncio
 import base64
 import gzip
 import hashlib
@@ -19,6 +18,7 @@ from websockets.exceptions import InvalidStatus
 from tests.browser.app_page import AppPage
 from tests.browser.conftest import CHROMIUM_ARGS, browser_type_launch_args, chromium
 from tests.deploy.conftest import HOST, Site
+from tests.deploy.test_replicas import finished
 from tests.load.client import Visitor
 from tests.load.replicas import ROOT
 
@@ -68,7 +68,7 @@ def _opened(visitor: Visitor, **headers: str) -> None:
         async with visitor:
             await visitor.open(**headers)
 
-    asyncio.run(go())
+    finished(go())
 
 
 @pytest.mark.parametrize(

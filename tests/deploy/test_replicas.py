@@ -1,9 +1,10 @@
 """Two replicas: visitors stay with theirs, and keep their machine when it goes."""
 
 import asyncio
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable, Coroutine
+from concurrent.futures import ThreadPoolExecutor
 from functools import wraps
-from typing import ParamSpec
+from typing import Any, ParamSpec, TypeVar
 
 import pytest
 
@@ -11,15 +12,22 @@ from tests.deploy.conftest import NAMES, Site
 from tests.load.client import ServerError, Visitor
 
 P = ParamSpec("P")
+T = TypeVar("T")
 COOKIE = "rotorcalc_replica"
 
 
-def awaited(test: Callable[P, Awaitable[None]]) -> Callable[P, None]:
+def finished(work: Coroutine[Any, Any, T]) -> T:
+    """Run a coroutine to its end, in a thread: a browser's test leaves a loop in this one."""
+    with ThreadPoolExecutor(1) as pool:
+        return pool.submit(asyncio.run, work).result()
+
+
+def awaited(test: Callable[P, Coroutine[Any, Any, None]]) -> Callable[P, None]:
     """Return a test that runs a coroutine to its end."""
 
     @wraps(test)
     def run(*args: P.args, **kwargs: P.kwargs) -> None:
-        asyncio.run(test(*args, **kwargs))  # type: ignore[arg-type]
+        finished(test(*args, **kwargs))
 
     return run
 
