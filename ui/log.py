@@ -65,18 +65,17 @@ def begin() -> None:
     error_log.addFilter(lambda record: record.msg != _TOLD_TWICE)
 
 
-def event(name: str, **fields: object) -> None:
-    """Write an event."""
+def event(name: str, *, level: int = logging.INFO, **fields: object) -> None:
+    """Write an event with its fields, in either form of the log."""
     if settings.log() == "text":
         name = " ".join([name, *(f"{key}={value}" for key, value in fields.items())])
-    _LOGGER.info(name, extra={"more": fields})
+    _LOGGER.log(level, name, extra={"more": fields})
 
 
 def failed(error: Exception) -> bool:
     """Report what a page's script raised, in the log and to its visitor, under one id."""
     number = secrets.token_hex(4)
-    fields = {"id": number, **described(error)}
-    _LOGGER.error("failed", extra={"more": fields})
+    event("failed", level=logging.ERROR, id=number, **described(error))
     st.error(
         f"Tell whoever runs this server the number **{number}**, under which its log says what "
         "happened. Your inputs stand in the address bar: reload the page to go on.",
@@ -85,7 +84,7 @@ def failed(error: Exception) -> bool:
     return True
 
 
-def described(error: BaseException) -> dict[str, object]:
+def described(error: BaseException) -> dict[str, Any]:
     """Return an exception's type and its places in the code, outermost first."""
     return {"type": type(error).__name__, "places": _places(error.__traceback__)}
 

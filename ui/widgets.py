@@ -123,7 +123,6 @@ def _live_sliders(group: str, items: Sequence[Input]) -> None:
         key=f"inputs_{group}_{units.name}",
         on_move=lambda name, value, held: _moved(name, units, value, held=held),
         while_held=settings.live() == "drag",
-        follow=True,
     )
 
 

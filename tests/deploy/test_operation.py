@@ -12,7 +12,7 @@ import rotorcalc
 from tests.deploy.test_replicas import finished
 from tests.load.client import Visitor
 from tests.load.replicas import ROOT, Replica
-from ui import health, settings, version
+from ui import health, log, settings, version
 
 ENTERED = "81.2345"  # stands for what a visitor entered
 
@@ -101,3 +101,15 @@ def test_a_host_names_the_commit_where_there_is_no_checkout(monkeypatch) -> None
         assert version.label() == f"rotorcalc {rotorcalc.__version__} · 0123456789ab"
     finally:
         version.commit.cache_clear()
+
+
+def test_a_plain_log_names_the_failure_by_its_id_too(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setenv("ROTORCALC_LOG", "text")
+    said: list[str] = []
+    monkeypatch.setattr(log.st, "error", lambda words, **_: said.append(words))
+    assert log.failed(ValueError(ENTERED))
+    (number,) = re.findall(r"\*\*([0-9a-f]{8})\*\*", said[0])
+    assert f"id={number}" in caplog.text
+    assert ENTERED not in caplog.text

@@ -31,7 +31,7 @@ class Feed {
       return false;
     }
     if (answer.status !== 200) {
-      window.rotorcalcFeed = undefined; // until the page has run, for it is not known there
+      window.rotorcalcFeed = undefined; // not known there: sliders send through Streamlit
       return false;
     }
     const { charts, rows } = await answer.json();

@@ -1,6 +1,6 @@
 """What follows a held thumb: charts and numbers, past all of Streamlit's own running and drawing.
 
-While a thumb is held the browser asks the server at `PATH` for what a value would give, with the
+While a thumb is held the browser asks the server at `path()` for what a value would give, with the
 token of the page's session, and draws the answer. Nothing of it is kept: when the thumb is let go
 its value comes through Streamlit, as any other.
 """

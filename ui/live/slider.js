@@ -135,7 +135,7 @@ class Slider {
 
   // While the thumb is held, and for the value at which it is let go where that is one more.
   async follow({ value, held }) {
-    const feed = this.data.follow ? window.rotorcalcFeed : undefined;
+    const feed = window.rotorcalcFeed;
     const due = held || (this.followed !== null && this.followed !== value);
     const followed = due && feed !== undefined && (await feed.follow(this.data.name, value));
     this.followed = held && followed ? value : null;

@@ -38,12 +38,11 @@ def show(
     key: str,
     on_move: Callable[[str, object, bool], None],
     while_held: bool = True,
-    follow: bool = False,
 ) -> None:
     """Show some sliders below each other, one element of the page.
 
     `on_move` gets a slider's name, what it sent, which may be anything, and whether the thumb is
-    still held; where they `follow`, what is sent while held goes to the page's feed, if it has one.
+    still held. What is sent while held goes to the page's feed instead, where it has one.
     """
 
     def moved() -> None:
@@ -56,7 +55,7 @@ def show(
         key=key,
         data={
             "sliders": [_sent(slider) for slider in sliders],
-            "whileHeld": while_held, "follow": follow,
+            "whileHeld": while_held,
             "echo": st.session_state.get(f"{key}_echo"),
         },
         on_moved_change=moved,
