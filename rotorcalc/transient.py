@@ -84,6 +84,10 @@ class TransientError(RuntimeError):
         super().__init__(message)
         self.partial = partial
 
+    def __reduce__(self) -> tuple[type, tuple[str, Transient]]:
+        """Return what another process makes it of."""
+        return type(self), (str(self), self.partial)
+
 
 def simulate(  # noqa: PLR0913 - how long, from where, to which speed
     machine: Machine,

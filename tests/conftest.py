@@ -4,6 +4,9 @@ import os
 
 from hypothesis import settings
 
+# Before NumPy is imported: tests run side by side, and its threads would only get in their way.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 # No deadline: an example that meets a cold cache or a busy machine is slow, not wrong.
 settings.register_profile("local", deadline=None)
 # The same examples in every run, so that a red build is red for its change.

@@ -1,25 +1,23 @@
-"""Heavy computations: a few at once in a process, the others in line, and what they found kept.
+"""Heavy computations: some at once, in processes of their own, the others in line; results kept.
 
-Python computes one thing at a time, so ten visitors' maps at once would come ten times later, and
-every other visitor's page with them. Here they come one after the other, each as soon as it can,
-and who waits is told how many are ahead.
+Ten visitors' maps at once would come ten times later. Here they come one after the other, each as
+soon as it can, and who waits is told how many are ahead.
 """
 
 import threading
 from collections import OrderedDict
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import fields, is_dataclass
-from functools import update_wrapper
-from typing import Generic, ParamSpec, TypeVar, cast
+from typing import Generic, TypeVar, cast
 
 import numpy as np
 import streamlit as st
 from streamlit.runtime.scriptrunner import get_script_run_ctx
 
 from ui import settings
+from ui.worker import Progress, Worker
 
-P = ParamSpec("P")
 T = TypeVar("T")
 
 # Who would be further back than this is asked to come again.
@@ -29,30 +27,41 @@ BUSY = "Many visitors ask for long computations just now. Try again in a minute.
 
 
 class Turns:
-    """A line of computations, of which the first `limit` run."""
+    """A line of computations, of which the first `limit` run, each in a process of its own."""
 
-    def __init__(self, limit: int, longest: int = LONGEST_LINE) -> None:
+    def __init__(
+        self, limit: int, longest: int = LONGEST_LINE, hire: Callable[[], Worker] = Worker
+    ) -> None:
         self._limit = limit
         self._longest = longest
+        self._hire = hire
         self._line: list[object] = []
         self._changed = threading.Condition()
-        self._mine = threading.local()
+        self._idle: list[Worker] = []
 
     @contextmanager
-    def turn(self) -> Iterator[None]:
-        """Wait for a turn, and hold it; a turn within a turn is the same one."""
-        if getattr(self._mine, "held", False):
-            yield
-            return
+    def turn(self) -> Iterator[Worker]:
+        """Wait for a turn, and hold it with a process that is free."""
         ticket = object()
+        worker = None
         try:
             self._join(ticket)
             self._wait(ticket)
-            self._mine.held = True
-            yield
+            worker = self._idle.pop() if self._idle else self._hire()
+            yield worker
         finally:
-            self._mine.held = False
+            self._put_back(worker)
             self._leave(ticket)
+
+    def begin(self) -> None:
+        """Begin a process before anybody asks for it."""
+        with self.turn():
+            pass
+
+    def end(self) -> None:
+        """End the processes that are free."""
+        while self._idle:
+            self._idle.pop().close()
 
     def ahead(self, ticket: object) -> int:
         """Return how many must end before a computation begins."""
@@ -68,6 +77,12 @@ class Turns:
                 raise ValueError(BUSY)
             st.warning(BUSY)
             st.stop()
+
+    def _put_back(self, worker: Worker | None) -> None:
+        if worker is not None and worker.idle:
+            self._idle.append(worker)
+        elif worker is not None:  # left in the middle of something
+            worker.close()
 
     def _leave(self, ticket: object) -> None:
         with self._changed:
@@ -94,27 +109,25 @@ class Turns:
 TURNS = Turns(settings.heavy_jobs())
 
 
-class Kept(Generic[P, T]):
-    """A heavy function that computes in its turn, and keeps the last results up to a size."""
+class Kept(Generic[T]):
+    """A module's heavy function, computed in its turn; its last results are kept up to a size."""
 
-    def __init__(self, work: Callable[P, T], entries: int, megabytes: float) -> None:
+    def __init__(self, work: Callable[..., T], *, entries: int, megabytes: float) -> None:
         self._work = work
         self._entries, self._bytes = entries, megabytes * 1e6
         self._found: OrderedDict[object, tuple[T, int]] = OrderedDict()
         self._lock = threading.Lock()
-        update_wrapper(self, work)
 
-    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> T:
-        """Return a kept result, or compute it when its turn has come."""
-        key = (args, tuple(kwargs.items()))
-        if (found := self._look(key)) is not None:
+    def __call__(self, *args: Hashable, tell: Progress | None = None) -> T:
+        """Return a kept result, or compute it when its turn has come, and tell the progress."""
+        if (found := self._look(args)) is not None:
             return found[0]
-        with TURNS.turn():
+        with TURNS.turn() as worker:
             # Somebody ahead may have asked for the same.
-            if (found := self._look(key)) is not None:
+            if (found := self._look(args)) is not None:
                 return found[0]
-            result = self._work(*args, **kwargs)
-        self._keep(key, result)
+            result = worker.run(self._work, args, tell)
+        self._keep(args, result)
         return result
 
     @property
@@ -139,11 +152,6 @@ class Kept(Generic[P, T]):
                 len(self._found) > 1 and sum(size for _, size in self._found.values()) > self._bytes
             ):
                 self._found.popitem(last=False)
-
-
-def heavy(*, entries: int, megabytes: float) -> Callable[[Callable[P, T]], Kept[P, T]]:
-    """Return a decorator for a heavy function of hashable arguments."""
-    return lambda work: Kept(work, entries, megabytes)
 
 
 def size_of(result: object) -> int:

@@ -7,9 +7,7 @@ in the code are written. What failed for a visitor has an id, which the visitor'
 import json
 import logging
 import secrets
-import traceback
 from datetime import UTC, datetime
-from types import TracebackType
 from typing import Any
 
 import streamlit as st
@@ -17,6 +15,7 @@ import streamlit.logger
 from streamlit import config
 
 from ui import settings
+from ui.worker import places
 
 _LOGGER = logging.getLogger("rotorcalc")
 _UVICORN = ("uvicorn", "uvicorn.asgi", "uvicorn.error")
@@ -86,10 +85,4 @@ def failed(error: Exception) -> bool:
 
 def described(error: BaseException) -> dict[str, Any]:
     """Return an exception's type and its places in the code, outermost first."""
-    return {"type": type(error).__name__, "places": _places(error.__traceback__)}
-
-
-def _places(trace: TracebackType | None) -> list[str]:
-    return [
-        f"{frame.filename}:{frame.lineno} {frame.name}" for frame in traceback.extract_tb(trace)
-    ]
+    return {"type": type(error).__name__, "places": places(error)}

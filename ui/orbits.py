@@ -2,32 +2,21 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Literal, TypeVar
 
 import numpy as np
 import streamlit as st
 
-from rotorcalc import (
-    Bifurcation,
-    BifurcationError,
-    Machine,
-    Onsets,
-    TransientError,
-    analyse,
-    bifurcation,
-    onsets,
-    simulate,
-)
+from rotorcalc import Bifurcation, BifurcationError, Machine, Onsets, TransientError, bifurcation
 from rotorcalc.cycles import sweep
 from rotorcalc.figures import Units
 from rotorcalc.figures.orbits import GrowthCurve, RunUp
 from rotorcalc.figures.text import amount
-from rotorcalc.onset_check import measured_growth
-from rotorcalc.release import Release, release
-from rotorcalc.signals import waterfall
-from rotorcalc.typing import Array, ComplexArray
-from ui import jobs
+from rotorcalc.release import Release
+from rotorcalc.typing import Array
+from ui import heavy, jobs
+from ui.heavy import Progress
 from ui.inputs import INPUTS, PRESET_VALUES
 from ui.page import Page
 from ui.results import digits, leading
@@ -37,15 +26,8 @@ from ui.view import View, view_of
 T = TypeVar("T")
 
 _KICK, _REVOLUTIONS = "orbits_kick", "orbits_revolutions"
-# Revolutions from which a release shows its progress, and is sampled half as finely.
-_LONG = 150
 # Swings of its fastest mode that a release is followed for, and revolutions at least.
 _MOST_SWINGS, _FEWEST = 800, 16
-# Of the integrator's steps: a picture needs less than the core's default.
-_TOLERANCE, _RUN_UP_TOLERANCE = 1e-9, 1e-7
-_RUN_UP_REVOLUTIONS, _SPECTRA = 1600, 200
-# A run-up begins at this share of its end; without imbalance this much, in C, stirs the whirl.
-_RUN_UP_FROM, _STIR = 0.3, 1e-3
 # Sizes, in clearances, below which a journal is at rest, and from which a circle is a whirl.
 _AT_REST, _WHIRLS = 2e-3, 0.02
 # Between these ratios of late to early size a motion neither dies nor grows.
@@ -77,12 +59,10 @@ class Ask:
     revolutions: int
 
 
-@dataclass(frozen=True)
-class _Report:
-    """Whom to tell the progress; all are alike to a cache."""
-
-    tell: Callable[[float], object] = field(compare=False)
-
+_release = jobs.Kept(heavy.release, entries=48, megabytes=64)  # half a megabyte, at most four
+_run_up = jobs.Kept(heavy.run_up, entries=8, megabytes=16)
+_cycles = jobs.Kept(bifurcation, entries=16, megabytes=16)
+_three = jobs.Kept(heavy.three_onsets, entries=16, megabytes=4)
 
 # --- How the journal is let go ----------------------------------------------------------------
 
@@ -133,7 +113,8 @@ def _set_up(demo: Demo) -> None:
 
 def let_go(view: View, ask: Ask) -> Release:
     """Return the release of a machine's journal."""
-    return _release(view.machine, view.speed, _affordable(view, ask), _Report(lambda _: None))
+    ask = _affordable(view, ask)
+    return _release(view.machine, view.speed, ask.kick, ask.revolutions)
 
 
 def _affordable(view: View, ask: Ask) -> Ask:
@@ -149,10 +130,12 @@ def try_out(page: Page, ask: Ask) -> tuple[Page, Release]:
     Say in words why there is none, and stop, where there is none.
     """
     ask = _affordable(page.view, ask)
-    bar = st.progress(0.0, "Integrating …") if ask.revolutions >= _LONG else None
-    report = _Report((lambda _: None) if bar is None else bar.progress)
+    bar = st.progress(0.0, "Integrating …") if ask.revolutions >= heavy.LONG else None
     try:
-        found = _release(page.view.machine, page.view.speed, ask, report)
+        found = _release(
+            page.view.machine, page.view.speed, ask.kick, ask.revolutions,
+            tell=None if bar is None else bar.progress,
+        )  # fmt: skip
     except (ValueError, TransientError) as error:
         st.error(f"{error}", title="This release cannot be computed")
         st.stop()
@@ -165,19 +148,6 @@ def try_out(page: Page, ask: Ask) -> tuple[Page, Release]:
         except (ValueError, TransientError):
             return replace(page, baseline=None), found
     return page, found
-
-
-@jobs.heavy(entries=48, megabytes=64)  # half a megabyte each, four for the longest
-def _release(machine: Machine, speed: float, ask: Ask, report: _Report) -> Release:
-    return release(
-        machine,
-        speed,
-        kick=ask.kick * machine.bearing.radial_clearance,
-        revolutions=ask.revolutions,
-        samples_per_revolution=64 if ask.revolutions < _LONG else 32,
-        tolerance=_TOLERANCE,
-        progress=report.tell,
-    )
 
 
 # --- What became of it ------------------------------------------------------------------------
@@ -265,7 +235,9 @@ def show_measured(view: View, found: Release, units: Units) -> None:
 # --- Long work: on demand, with progress and a way out ----------------------------------------
 
 
-def on_demand(label: str, key: str, token: object, work: Callable[[_Report], T]) -> T | None:
+def on_demand(
+    label: str, key: str, token: object, work: Callable[[Progress | None], T]
+) -> T | None:
     """Return what work gives once a visitor asks for it; until then show a button.
 
     `token` names what the work is about: when it changes, the visitor is asked again. While it
@@ -277,11 +249,11 @@ def on_demand(label: str, key: str, token: object, work: Callable[[_Report], T])
         place.button(label, key=key, on_click=lambda: st.session_state.update({asked: token}))
         return None
     if st.session_state.get(done) == token:
-        return work(_Report(lambda _: None))
+        return work(None)
     with place.container():
         bar = st.progress(0.0, "Computing …")
         st.button("Cancel", key=f"{key}_cancel", on_click=lambda: st.session_state.pop(asked, None))
-    result = work(_Report(bar.progress))
+    result = work(bar.progress)
     place.empty()
     st.session_state[done] = token
     return result
@@ -292,38 +264,20 @@ def ask_run_up(view: View) -> RunUp | None:
     token = ("run-up", view.machine, view.top_speed)
     found = on_demand(
         "Run up to the top speed", "orbits_run_up", token,
-        lambda report: _try(lambda: _run_up(view.machine, view.top_speed, report)),
+        lambda tell: _try(lambda: _run_up(view.machine, view.top_speed, tell=tell)),
     )  # fmt: skip
-    return None if found is None else replace(found, running_speed=view.speed)
+    if found is None:
+        return None
+    return replace(found, onset=view.onset.speed, running_speed=view.speed)
 
 
 def run_up_caption(view: View) -> str:
     """Return what the waterfall shows."""
     stirred = view.machine.rotor.imbalance == 0.0
     return (
-        f"{_RUN_UP_REVOLUTIONS} revolutions from {_RUN_UP_FROM:g} times the top speed to the top "
-        "speed, the journal's forward circles; dashed: Im λ/Ω of the least damped whirl."
+        f"{heavy.RUN_UP_REVOLUTIONS} revolutions from {heavy.RUN_UP_FROM:g} times the top speed to "
+        "the top speed, the journal's forward circles; dashed: Im λ/Ω of the least damped whirl."
         + (" An imbalance of C/1000 stirs the balanced rotor." if stirred else "")
-    )
-
-
-@jobs.heavy(entries=8, megabytes=16)
-def _run_up(machine: Machine, top_speed: float, report: _Report) -> RunUp:
-    C = machine.bearing.radial_clearance
-    imbalance = machine.rotor.imbalance or _STIR * C
-    stirred = replace(machine, rotor=replace(machine.rotor, imbalance=imbalance))
-    motion = simulate(
-        stirred, _RUN_UP_FROM * top_speed, revolutions=_RUN_UP_REVOLUTIONS,
-        samples_per_revolution=16, final_speed=top_speed, tolerance=_RUN_UP_TOLERANCE,
-        progress=report.tell,
-    )  # fmt: skip
-    seen = waterfall(motion, spectra=_SPECTRA)
-    whirl = _leading_rates(machine, seen.speed)
-    return RunUp(
-        seen=seen,
-        whirl_order=whirl.imag / seen.speed,
-        onset=view_onset(machine),
-        running_speed=math.nan,
     )
 
 
@@ -335,7 +289,7 @@ def ask_cycles(view: View) -> Bifurcation | None:
         return None
     return on_demand(
         "Follow the limit cycles", "orbits_cycles", ("cycles", _balanced(view.machine)),
-        lambda report: _try(lambda: _cycles(_balanced(view.machine), report)),
+        lambda tell: _try(lambda: _cycles(_balanced(view.machine), tell=tell)),
     )  # fmt: skip
 
 
@@ -370,11 +324,6 @@ def say_cycles(branch: Bifurcation, units: Units) -> None:
             f"Supercritical at {at}: {rate} ({error}). Above the onset a small whirl grows gently "
             "with speed and goes with it."
         )
-
-
-@jobs.heavy(entries=16, megabytes=16)
-def _cycles(machine: Machine, report: _Report) -> Bifurcation:
-    return bifurcation(machine, progress=report.tell)
 
 
 # --- Three ways to the onset ------------------------------------------------------------------
@@ -422,32 +371,6 @@ def say_onsets(found: Onsets, units: Units) -> None:
         st.warning("No onset was measured from half to twice the speed that the eigenvalues give.")
     else:
         st.error(f"They disagree by {found.spread:.1%} of the onset.")
-
-
-@jobs.heavy(entries=16, megabytes=4)
-def _three(machine: Machine) -> tuple[Onsets, GrowthCurve]:
-    found = onsets(machine)
-    speeds = np.linspace(0.8, 1.2, 81) * found.eigenvalues
-    measured = np.linspace(0.82, 1.18, 10) * found.eigenvalues
-    return found, GrowthCurve(
-        speed=speeds,
-        rate=_leading_rates(machine, speeds).real,
-        measured_speed=measured,
-        measured=np.array([measured_growth(machine, speed) for speed in measured]),
-        running_speed=math.nan,
-        running_rate=math.nan,
-    )
-
-
-def _leading_rates(machine: Machine, speeds: Array) -> ComplexArray:
-    values = analyse(machine, speeds).flexible_eigenvalues
-    waves = np.where(values.imag > 0.0, values.real, -np.inf)
-    return np.take_along_axis(values, np.argmax(waves, axis=1)[:, None], axis=1)[:, 0]
-
-
-def view_onset(machine: Machine) -> float:
-    """Return the machine's onset speed [rad/s]."""
-    return View(machine, 1.0, 1.0).onset.speed
 
 
 def _balanced(machine: Machine) -> Machine:

@@ -17,7 +17,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from streamlit.url_util import make_url_path
 
 from rotorcalc import __version__
-from ui import health, log, settings, version
+from ui import health, jobs, log, settings, version
 
 _HEADER = b"x-rotorcalc-replica"
 # What the pages import, for the first visitor not to wait for it.
@@ -87,6 +87,7 @@ async def life(_: st.App) -> AsyncIterator[None]:
         heavy_jobs=settings.heavy_jobs(),
     )  # fmt: skip
     yield
+    jobs.TURNS.end()
     log.event("stop")
 
 
@@ -96,6 +97,7 @@ def _warm() -> None:
     Otherwise each full collection goes through all objects of all imported modules, and every
     session waits for it.
     """
+    jobs.TURNS.begin()
     for name in _WARM:
         importlib.import_module(name)
     health.check()

@@ -4,11 +4,8 @@ Inputs go here by their keys in `ui.inputs`; the core names them by the fields o
 """
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, field
 from functools import lru_cache
 
-import numpy as np
 import streamlit as st
 
 from rotorcalc import JournalBearing, Machine, design, film_curves, whirl
@@ -17,7 +14,7 @@ from rotorcalc.figures.design import Quantity
 from rotorcalc.figures.stability import Crossing, Energies, FilmFigure
 from rotorcalc.figures.units import SI, Units
 from rotorcalc.typing import Array
-from ui import jobs
+from ui import heavy, jobs
 from ui.inputs import INPUTS
 from ui.results import digits
 from ui.view import View
@@ -35,6 +32,9 @@ _BY_RATIO = {"mass", "load", "mu", "C", "D", "L", "k"}
 _SMALLEST_LOAD = 10.0  # N, the end of a logarithmic axis
 # Cells a side of a map: where the onset has a closed form, and where each cell takes eigenvalues.
 _FINE, _COARSE = 60, 11
+_onset_map = jobs.Kept(heavy.onset_map, entries=32, megabytes=8)
+_sensitivities = jobs.Kept(design.sensitivities, entries=64, megabytes=4)
+_solution = jobs.Kept(heavy.solution, entries=64, megabytes=4)
 BARE = (
     "Midspan damping or journal mass: the closed forms, drawn dashed, are those of the rotor "
     "without them and no longer tell the onset. The vertical line does, found on the eigenvalues."
@@ -214,13 +214,13 @@ def names(units: Units) -> dict[str, str]:
 def onset_map(view: View, x: str, y: str, units: Units) -> design.OnsetMap:
     """Return the onset over two inputs, with its progress shown where each cell takes long."""
     machine = view.machine
-    slow = not design.has_closed_form(machine) or bool({x, y} & {"cs", "mj"})
-    bar = st.progress(0.0, "Eigenvalues at every point of the map …") if slow else None
-    axes = tuple(quantity(key, machine, units) for key in (x, y))
-    report = _Report((lambda _: None) if bar is None else bar.progress)
-    found = _onset_map(machine, (x, y), axes, _COARSE if slow else _FINE, report)
-    if bar is not None:
-        bar.empty()
+    axes = [(FIELDS[key], q.low, q.high, q.log)
+            for key in (x, y) for q in [quantity(key, machine, units)]]  # fmt: skip
+    if design.has_closed_form(machine) and not {x, y} & {"cs", "mj"}:
+        return _onset_map(machine, *axes, _FINE)
+    bar = st.progress(0.0, "Eigenvalues at every point of the map …")
+    found = _onset_map(machine, *axes, _COARSE, tell=bar.progress)
+    bar.empty()
     return found
 
 
@@ -258,37 +258,3 @@ def _now(axis: Quantity, value: float) -> str:
 
 def _speed_word(rpm: float) -> str:
     return "infinity," if math.isinf(rpm) else digits(rpm)
-
-
-@dataclass(frozen=True)
-class _Report:
-    """Whom to tell the progress; all are alike to a cache."""
-
-    tell: Callable[[float], object] = field(compare=False)
-
-
-@jobs.heavy(entries=32, megabytes=8)
-def _onset_map(
-    machine: Machine,
-    keys: tuple[str, ...],
-    axes: tuple[Quantity, ...],
-    points: int,
-    report: _Report,
-) -> design.OnsetMap:
-    xs, ys = (
-        (np.geomspace if axis.log else np.linspace)(axis.low, axis.high, points) for axis in axes
-    )
-    x, y = (FIELDS[key] for key in keys)
-    return design.onset_map(machine, x=x, xs=xs, y=y, ys=ys, progress=report.tell)
-
-
-@jobs.heavy(entries=64, megabytes=4)
-def _sensitivities(machine: Machine) -> design.Sensitivities:
-    return design.sensitivities(machine)
-
-
-@jobs.heavy(entries=64, megabytes=4)
-def _solution(
-    machine: Machine, name: str, target: float, low: float, high: float
-) -> design.OnsetSolution:
-    return design.solve_onset(machine, vary=name, target=target, low=low, high=high)

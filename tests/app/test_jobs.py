@@ -12,6 +12,21 @@ from ui import jobs
 from ui.jobs import Kept, Turns, size_of
 
 
+class Here:
+    """Computes like a worker, in this process."""
+
+    idle = True
+
+    def __init__(self) -> None:
+        self.closed = False
+
+    def run(self, work, args, _tell):
+        return work(*args)
+
+    def close(self) -> None:
+        self.closed = True
+
+
 class Witness:
     """Counts how many computations run at once, and remembers their order."""
 
@@ -32,7 +47,7 @@ class Witness:
 
 @pytest.mark.parametrize("limit", [1, 3])
 def test_no_more_than_the_limit_run_at_once_and_first_come_first_served(limit: int) -> None:
-    turns, witness = Turns(limit), Witness()
+    turns, witness = Turns(limit, hire=Here), Witness()
 
     def run(number: int) -> None:
         with turns.turn():
@@ -49,20 +64,24 @@ def test_no_more_than_the_limit_run_at_once_and_first_come_first_served(limit: i
         assert witness.order == sorted(witness.order)
 
 
-def test_a_turn_within_a_turn_does_not_wait_for_itself() -> None:
-    turns = Turns(1)
-    with turns.turn(), turns.turn():
-        pass
-    with turns.turn():
-        pass
-
-
 def test_a_computation_that_fails_or_is_left_lets_the_next_one_in() -> None:
-    turns = Turns(1)
-    with pytest.raises(RuntimeError), turns.turn():
+    turns = Turns(1, hire=Here)
+    with pytest.raises(RuntimeError), turns.turn() as first:
         raise RuntimeError
-    with turns.turn():
+    with turns.turn() as second:
         pass
+    assert second is first
+
+
+def test_a_process_left_in_the_middle_of_something_is_ended_and_another_hired() -> None:
+    turns = Turns(1, hire=Here)
+    with turns.turn() as first:
+        first.idle = False
+    assert first.closed
+    with turns.turn() as second:
+        assert second is not first
+    turns.end()
+    assert second.closed
 
 
 def test_who_would_wait_too_long_is_told_and_not_kept_waiting(monkeypatch) -> None:
@@ -77,7 +96,7 @@ def test_who_would_wait_too_long_is_told_and_not_kept_waiting(monkeypatch) -> No
 
     monkeypatch.setattr(jobs.st, "stop", stop)
     monkeypatch.setattr(jobs, "_nobody_looks", lambda: False)
-    turns = Turns(1, longest=0)
+    turns = Turns(1, longest=0, hire=Here)
     with turns.turn():
         found: list[type] = []
 
@@ -95,7 +114,8 @@ def test_who_would_wait_too_long_is_told_and_not_kept_waiting(monkeypatch) -> No
     assert said == [jobs.BUSY]
 
 
-def test_two_who_ask_for_the_same_at_once_compute_it_once() -> None:
+def test_two_who_ask_for_the_same_at_once_compute_it_once(monkeypatch) -> None:
+    monkeypatch.setattr(jobs, "TURNS", Turns(1, hire=Here))
     asked: list[int] = []
 
     def work(number: int) -> int:

@@ -1,0 +1,91 @@
+"""The process for heavy computations: its answers, its failures, its end."""
+
+import os
+import signal
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from rotorcalc import TransientError
+from tests.machines import SHEET
+from ui import heavy
+from ui.log import described
+from ui.worker import Worker, WorkerError
+
+LONG = (SHEET, 600.0, 0.3, 600)
+
+
+@pytest.fixture
+def worker() -> Iterator[Worker]:
+    made = Worker()
+    yield made
+    made.close()
+
+
+def test_it_answers_what_this_process_would(worker: Worker) -> None:
+    asked = SHEET, 600.0, 0.3, 20
+    there, here = worker.run(heavy.release, asked, None), heavy.release(*asked)
+    assert np.array_equal(there.motion.journal, here.motion.journal)
+    assert there.stopped == here.stopped
+
+
+def test_its_progress_is_told(worker: Worker) -> None:
+    told: list[float] = []
+    worker.run(heavy.release, LONG, told.append)
+    assert len(told) > 10
+    assert told == sorted(told)
+    assert told[-1] == 1.0
+
+
+def test_what_the_listener_raises_ends_the_computation_and_not_the_process(worker: Worker) -> None:
+    class LeftError(BaseException):
+        pass
+
+    told: list[float] = []
+
+    def leave(share: float) -> None:
+        told.append(share)
+        raise LeftError
+
+    with pytest.raises(LeftError):
+        worker.run(heavy.release, LONG, leave)
+    assert len(told) == 1
+    assert worker.idle
+    assert worker.run(np.zeros, (3,), None).shape == (3,)
+
+
+def test_what_it_raises_is_raised_here_with_its_places(worker: Worker) -> None:
+    with pytest.raises(ValueError, match="radial clearance") as caught:
+        worker.run(heavy.release, (SHEET, 600.0, 5.0, 20), None)
+    assert any("heavy.py" in place for place in described(caught.value)["places"])
+    assert worker.run(np.zeros, (3,), None).shape == (3,)
+
+
+def test_a_motion_that_ends_early_comes_with_its_part(worker: Worker) -> None:
+    with pytest.raises(TransientError, match="after") as caught:
+        worker.run(break_off, (), None)
+    assert len(caught.value.partial.time) == 5
+
+
+def test_a_process_that_dies_is_said_to_be_dead(worker: Worker) -> None:
+    with pytest.raises(WorkerError, match="ended"):
+        worker.run(os.kill, (worker._process.pid, signal.SIGKILL), None)
+    assert not worker.idle
+    with pytest.raises(WorkerError, match="ended"):
+        worker.run(np.zeros, (3,), None)
+
+
+def test_it_ends_with_the_process_that_began_it() -> None:
+    worker = Worker()
+    worker.run(np.zeros, (3,), None)
+    worker._process.stdin.close()
+    assert worker._process.wait(timeout=10.0) == 0
+    worker._process.stdout.close()
+
+
+def break_off() -> None:
+    """Raise what an integration raises that ends early."""
+    motion = heavy.release(SHEET, 600.0, 0.3, 20).motion
+    part = type(motion)(**{name: value[:5] for name, value in vars(motion).items()})
+    raise TransientError("stopped after 1 s", part)
