@@ -26,7 +26,7 @@ LONG = 150
 RUN_UP_REVOLUTIONS, RUN_UP_FROM, _STIR = 1600, 0.3, 1e-3
 _SPECTRA = 200
 # Of the integrator's steps: a picture needs less than the core's default.
-_TOLERANCE, _RUN_UP_TOLERANCE = 1e-9, 1e-7
+_TOLERANCE = 1e-7
 
 
 def release(
@@ -50,7 +50,7 @@ def run_up(machine: Machine, top_speed: float, progress: Progress | None = None)
     stirred = replace(machine, rotor=replace(machine.rotor, imbalance=imbalance))
     motion = simulate(
         stirred, RUN_UP_FROM * top_speed, revolutions=RUN_UP_REVOLUTIONS,
-        samples_per_revolution=16, final_speed=top_speed, tolerance=_RUN_UP_TOLERANCE,
+        samples_per_revolution=16, final_speed=top_speed, tolerance=_TOLERANCE,
         progress=progress,
     )  # fmt: skip
     seen = waterfall(motion, spectra=_SPECTRA)

@@ -15,7 +15,7 @@ import numpy as np
 import streamlit as st
 from streamlit.runtime.scriptrunner import get_script_run_ctx
 
-from ui import settings
+from ui import gate, settings
 from ui.worker import Progress, Worker
 
 T = TypeVar("T")
@@ -122,7 +122,7 @@ class Kept(Generic[T]):
         """Return a kept result, or compute it when its turn has come, and tell the progress."""
         if (found := self._look(args)) is not None:
             return found[0]
-        with TURNS.turn() as worker:
+        with gate.PAGES.aside(), TURNS.turn() as worker:
             # Somebody ahead may have asked for the same.
             if (found := self._look(args)) is not None:
                 return found[0]

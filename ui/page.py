@@ -1,12 +1,14 @@
 """The frame of every page: title, navigation, sidebar, and means to show a machine's results."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import streamlit as st
 
 from rotorcalc.figures.units import Units
-from ui import checks, compare, share, sidebar, version
+from ui import checks, compare, gate, share, sidebar, version
 from ui.follow import Draw, Drawn, drawn
 from ui.results import show_results
 from ui.state import state, write_address_bar
@@ -73,12 +75,18 @@ class Page:
         self.follows.rows.append(keys)
 
 
-def begin(title: str, sentence: str, *, follows: bool = True) -> Page:
-    """Draw a page's frame and return its machine; stop where the inputs make none.
+@contextmanager
+def framed(title: str, sentence: str, *, follows: bool = True) -> Iterator[Page]:
+    """Draw a page's frame and give its machine; stop where the inputs make none.
 
     Its charts and results follow a held thumb by themselves, unless `follows` is false: then the
     whole page does, for charts that take long and show their progress.
     """
+    with gate.PAGES.through():
+        yield _begin(title, sentence, follows=follows)
+
+
+def _begin(title: str, sentence: str, *, follows: bool) -> Page:
     st.set_page_config(
         page_title=f"{title} · rotorcalc",
         page_icon=_ICON,
