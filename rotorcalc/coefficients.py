@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotorcalc.films import FilmState, film_added_mass, film_pressure, film_state
+from rotorcalc.films import FilmState, film_added_mass, film_coefficients, film_pressure, film_state
 from rotorcalc.machine import Machine
 from rotorcalc.typing import Array, BoolArray, real_array
 
@@ -195,6 +195,34 @@ def equilibrium(machine: Machine, speed: ArrayLike) -> Equilibrium:
         friction_coefficient=friction,
         peak_pressure=film.peak_pressure * mu * speed * (L / C) ** 2,
     )
+
+
+def stiffness_and_damping(machine: Machine, speed: ArrayLike) -> tuple[Array, Array]:
+    """Return the force coefficients of a machine's film in static equilibrium.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : array_like, (...)
+        Running speed, Ω [rad/s], positive.
+
+    Returns
+    -------
+    K, C : array, (..., 2, 2)
+        Stiffness [N/m] and damping [N·s/m] in X, Y: those of `equilibrium`, in half its time.
+
+    Raises
+    ------
+    ValueError
+        Where a speed is not positive and finite.
+    """
+    speed = checked_speed(speed)
+    bearing = machine.bearing
+    R, L, C = bearing.radius, bearing.length, bearing.radial_clearance
+    unit = machine.viscosity * R * L**3 / C**3
+    k, c = film_coefficients(bearing, modified_sommerfeld(machine, speed))
+    return k * unit * speed[..., None, None], c * unit
 
 
 def film_field(

@@ -23,8 +23,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq, elementwise, minimize_scalar
 
-from rotorcalc.films import film_state
+from rotorcalc.films import film_coefficients, film_state
 from rotorcalc.machine import JournalBearing, Machine, Oil, Rotor
+from rotorcalc.roots import narrow_root
 from rotorcalc.stability import Onset, onset_speed, whirl_onset
 from rotorcalc.typing import Array
 
@@ -240,9 +241,7 @@ def closed_form_onset(machine: Machine, *, flexible: bool = True) -> Onset:
         return Onset(speed=0.0, whirl_frequency=0.0, eccentricity_ratio=0.0)
     film, sag, wanted = machine.bearing.film, F / (K_rot * C), s**2 / (M * C * F)
     low, high = _bracket(film, sag=np.array([sag]), wanted=np.array([wanted]))
-    sigma = brentq(
-        lambda sigma: _residual(film, sigma, sag, wanted), low[0], high[0], xtol=1e-17, rtol=1e-15
-    )
+    sigma = narrow_root(lambda sigma: _residual(film, sigma, sag, wanted), low[0], high[0])
     state = film_state(machine.bearing, sigma)
     speed = sigma * F / s
     return Onset(
@@ -528,8 +527,9 @@ def _curve(film: str) -> tuple[Array, Array]:
 def _left_side(film: str, sigma: Array) -> tuple[Array, Array]:
     """Return σ²/p_s² and σ²ω̄², the two terms of the module's equation."""
     any_bearing = JournalBearing(diameter=1.0, length=1.0, radial_clearance=1.0, film=film)
-    state = film_state(any_bearing, sigma)
-    onset = whirl_onset(state.stiffness, state.damping)  # p_s² in film units, not in the load's
+    onset = whirl_onset(
+        *film_coefficients(any_bearing, sigma)
+    )  # p_s² in film units, not in the load's
     return sigma / (4.0 * onset.critical_mass), (sigma * onset.whirl_ratio) ** 2
 
 

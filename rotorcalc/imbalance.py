@@ -16,7 +16,8 @@ from numpy.typing import ArrayLike
 
 from rotorcalc import modes
 from rotorcalc.analysis import Sweep
-from rotorcalc.coefficients import checked_speed, equilibrium
+from rotorcalc.coefficients import checked_speed, equilibrium, stiffness_and_damping
+from rotorcalc.design import has_closed_form
 from rotorcalc.machine import Machine, Rotor
 from rotorcalc.response import (
     OrbitEllipse,
@@ -187,8 +188,7 @@ def response_curves(
     """
     machine = sweep.machine
     speed = _with_near(sweep.speed, np.concatenate([disk_peaks.speed, journal_peaks.speed]))
-    state = equilibrium(machine, speed)
-    pair = synchronous_response(machine.rotor, state.stiffness, state.damping, speed)
+    pair = synchronous_response(machine.rotor, *stiffness_and_damping(machine, speed), speed)
     disk, journal = _body(pair[0]), _body(pair[1])
     return ResponseCurves(
         speed=speed,
@@ -218,8 +218,7 @@ def unstable_ranges(sweep: Sweep) -> Array:
         First and last speed of each range [rad/s], interpolated between the sweep's; `onset_speed`
         gives the first onset to the last digit.
     """
-    values = sweep.flexible_eigenvalues
-    growth = values.real.max(axis=-1) - _ROUNDING * np.abs(values).max(axis=-1)
+    growth = _growth(sweep)
     grows = np.concatenate([[False], growth > 0.0, [False]])
     first, last = (
         np.flatnonzero(~grows[:-1] & grows[1:]),
@@ -311,13 +310,13 @@ def response_family(
     speeds = checked_speed(speed)
     machines = [replace(machine, rotor=rotor, load=machine.static_load) for rotor in rotors]
     peaks = [response_peaks(other, speeds, at="disk").speed for other in machines]
-    state = equilibrium(machine, _with_near(speeds, np.concatenate(peaks)))
-    K, C = state.stiffness, state.damping
-    pairs = [synchronous_response(rotor, K, C, state.speed) for rotor in rotors]
+    denser = _with_near(speeds, np.concatenate(peaks))
+    K, C = stiffness_and_damping(machine, denser)
+    pairs = [synchronous_response(rotor, K, C, denser) for rotor in rotors]
     values = [modes.eigenvalues(rotor, K, C) for rotor in rotors]
     return ResponseFamily(
         rotors=tuple(rotors),
-        speed=state.speed,
+        speed=denser,
         disk=np.array([_ellipse(disk).semi_major for disk, _ in pairs]),
         journal=np.array([_ellipse(journal).semi_major for _, journal in pairs]),
         unstable=np.array(
@@ -380,6 +379,14 @@ def _body_on(
     near = np.array([float(np.interp(speed, speeds, curve.lag[:, i])) for i in range(2)])
     lag = lag + 2.0 * np.pi * np.rint((near - lag) / (2.0 * np.pi))
     return BodyResponse(amplitude=np.abs(response), lag=lag, ellipse=_ellipse(response))
+
+
+def _growth(sweep: Sweep) -> Array:
+    """Return a measure of the growth over a sweep: positive where the machine is unstable."""
+    if has_closed_form(sweep.machine):  # without eigenvalues: from −1 far below Eq. 5.50's to 1
+        return 2.0 / (1.0 + sweep.flexible_threshold / sweep.speed) - 1.0
+    values = sweep.flexible_eigenvalues
+    return values.real.max(axis=-1) - _ROUNDING * np.abs(values).max(axis=-1)
 
 
 def _crossings(speeds: Array, growth: Array, i: IntArray, j: IntArray) -> Array:

@@ -14,7 +14,7 @@ from typing import cast
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotorcalc.coefficients import checked_speed, equilibrium
+from rotorcalc.coefficients import checked_speed, stiffness_and_damping
 from rotorcalc.machine import Machine, Rotor
 from rotorcalc.typing import Array, ComplexArray, IntArray
 
@@ -249,9 +249,8 @@ def both_peaks(
 
 def _orbit_sizes(machine: Machine, speed: ArrayLike) -> Array:
     """Return the semi-major axes of the disk's orbit and the journal's, shape (2, ...)."""
-    state = equilibrium(machine, speed)
-    pair = synchronous_response(machine.rotor, state.stiffness, state.damping, state.speed)
-    return _sizes(pair)
+    K, C = stiffness_and_damping(machine, speed)
+    return _sizes(synchronous_response(machine.rotor, K, C, speed))
 
 
 def _sizes(responses: tuple[ComplexArray, ComplexArray]) -> Array:

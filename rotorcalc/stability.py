@@ -11,15 +11,23 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import minimize_scalar
 
 from rotorcalc import modes
-from rotorcalc.coefficients import Equilibrium, equilibrium, modified_sommerfeld
+from rotorcalc.coefficients import (
+    Equilibrium,
+    equilibrium,
+    modified_sommerfeld,
+    stiffness_and_damping,
+)
 from rotorcalc.machine import Machine, Rotor
+from rotorcalc.roots import narrow_root
 from rotorcalc.typing import Array, ComplexArray
 
 # Speeds a decade at which the search for the onset looks before it closes in.
 _POINTS_PER_DECADE = 30
+# It looks at so many at once, and no further than it must.
+_BLOCK = 64
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,12 +189,12 @@ def _fastest(rotor: Rotor, K: Array, C: Array, flexible: bool) -> ComplexArray:
 
 def _growth(machine: Machine, speed: ArrayLike, flexible: bool) -> Array:
     """Return the fastest growth of any mode, max Re λ/Ω [-], shape of `speed`."""
-    state = equilibrium(machine, speed)
-    return _fastest(machine.rotor, state.stiffness, state.damping, flexible).real / state.speed
+    K, C = stiffness_and_damping(machine, speed)
+    return _fastest(machine.rotor, K, C, flexible).real / np.asarray(speed)
 
 
 def _search(machine: Machine, flexible: bool) -> tuple[Array, Array]:
-    """Return speeds that span every onset that the machine can have [rad/s], and the growth there.
+    """Return speeds that span the first of all onsets there can be [rad/s], and the growth there.
 
     A film that cannot whirl feeds no mode, whatever the rotor, so the search begins at the last
     speed before the film can; near the wall, below σ = 1e-3, none can. Above σ = 10 the film is all
@@ -198,11 +206,18 @@ def _search(machine: Machine, flexible: bool) -> tuple[Array, Array]:
     centred = equilibrium(machine, 10.0 / unit if math.isfinite(unit) else lowest)
     highest = 2.0 * max(float(centred.speed), _highest_onset(machine.rotor, centred, flexible))
     points = 1 + math.ceil(_POINTS_PER_DECADE * math.log10(highest / lowest))
-    state = equilibrium(machine, np.geomspace(lowest, highest, points))
-    ratio = whirl_onset(state.stiffness, state.damping * state.speed[:, None, None]).whirl_ratio
+    speeds = np.geomspace(lowest, highest, points)
+    K, C = stiffness_and_damping(machine, speeds)
+    ratio = whirl_onset(K, C * speeds[:, None, None]).whirl_ratio
     first = max(int(np.argmax(ratio > 0.0)) - 1, 0)
-    growth = _fastest(machine.rotor, state.stiffness[first:], state.damping[first:], flexible).real
-    return state.speed[first:], growth / state.speed[first:]
+    growth = np.empty(0)
+    for begin in range(first, points, _BLOCK):
+        block = slice(begin, begin + _BLOCK)
+        more = _fastest(machine.rotor, K[block], C[block], flexible).real / speeds[block]
+        growth = np.concatenate([growth, more])
+        if np.any(more > 0.0):
+            break
+    return speeds[first : first + len(growth)], growth
 
 
 def _slowest_rate(machine: Machine, flexible: bool) -> float:
@@ -239,13 +254,9 @@ def _highest_onset(rotor: Rotor, centred: Equilibrium, flexible: bool) -> float:
 
 def _crossing(machine: Machine, flexible: bool, low: float, high: float) -> float:
     """Return the speed between a stable and an unstable one at which the growth vanishes."""
-
-    def at(speed: float) -> float:
-        return float(_growth(machine, speed, flexible))
-
-    if at(low) >= 0.0:  # within a rounding error of the onset
+    if _growth(machine, low, flexible) >= 0.0:  # within a rounding error of the onset
         return low
-    return float(brentq(at, low, high, xtol=1e-14 * high, rtol=1e-14))
+    return narrow_root(lambda speed: _growth(machine, speed, flexible), low, high)
 
 
 def _first_crossing(

@@ -16,6 +16,7 @@ from rotorcalc.coefficients import (
     film_field,
     film_forces,
     modified_sommerfeld,
+    stiffness_and_damping,
     unloading,
 )
 from rotorcalc.films import short
@@ -37,6 +38,14 @@ def test_sommerfeld_number_is_that_of_equation_5_8(machine, speed):
     assert sigma * 4 * machine.static_load * C**2 == pytest.approx(
         mu * speed * L**3 * R, rel=16 * EPS
     )
+
+
+@given(machines(), st.lists(speeds, min_size=1, max_size=4))
+def test_coefficients_alone_are_those_of_the_equilibrium(machine, several):
+    K, C = stiffness_and_damping(machine, several)
+    state = equilibrium(machine, several)
+    assert np.array_equal(K, state.stiffness)
+    assert np.array_equal(C, state.damping)
 
 
 @given(machines(), speeds)

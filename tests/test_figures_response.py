@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from rotorcalc import PRESETS, Machine, Rotor, analyse, onset_speed
@@ -22,6 +24,7 @@ from rotorcalc.imbalance import (
     unstable_ranges,
 )
 from rotorcalc.response import orbit_ellipse, orbit_points, response_peaks
+from tests.machines import machines
 
 SHEET = PRESETS["sheet-1e8"].machine
 SPEED = 600.0
@@ -128,6 +131,17 @@ def test_the_unstable_range_begins_at_the_onset(machine: Machine) -> None:
         return
     assert_allclose(ranges[0, 0], max(onset, SPEEDS[0]), rtol=1e-4)
     assert ranges[-1, 1] == SPEEDS[-1]
+
+
+@given(machines(), st.floats(100.0, 5000.0))
+def test_without_eigenvalues_the_same_speeds_are_unstable(machine: Machine, top: float) -> None:
+    sweep = analyse(machine, np.linspace(top / 50, top, 50))
+    onset = onset_speed(machine).speed
+    inside = np.zeros(50, dtype=bool)
+    for first, last in unstable_ranges(sweep):
+        inside |= (first <= sweep.speed) & (sweep.speed <= last)
+    clear = np.abs(sweep.speed - onset) > 1e-6 * onset
+    assert np.array_equal(inside[clear], (sweep.speed > onset)[clear])
 
 
 @pytest.mark.parametrize("at", ["disk", "journal"])

@@ -8,7 +8,7 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from rotorcalc import JournalBearing
-from rotorcalc.films import film_pressure, film_state, short
+from rotorcalc.films import film_coefficients, film_pressure, film_state, short
 from rotorcalc.frames import rotate
 from rotorcalc.stability import whirl_onset
 from tests.machines import EPS
@@ -548,3 +548,5 @@ def test_an_unloaded_film_is_centred():
 def test_a_film_thinner_than_the_arithmetic_is_refused(sigma):
     with pytest.raises(ValueError, match=r"sommerfeld = .*too small"):
         film_state(BEARING, sigma)
+    with pytest.raises(ValueError, match=r"sommerfeld = .*too small"):
+        film_coefficients(BEARING, sigma)

@@ -1,10 +1,10 @@
 """Film models: where the journal sits, and how the film holds it.
 
-A film model is a module with four functions, which answer for whole arrays: `state(bearing,
-sommerfeld)` with a `FilmState`, `field(bearing, sommerfeld, angle=..., zeta=...)` with a
-`FilmField`, `inertia(bearing, sommerfeld)` with the film's added mass, and `gap(position)` with the
-thinnest film around a journal that is not in equilibrium. A bearing names its
-model in its field `film`.
+A film model is a module with five functions, which answer for whole arrays: `state(bearing,
+sommerfeld)` with a `FilmState`, `coefficients(bearing, sommerfeld)` with its stiffness and damping
+alone, `field(bearing, sommerfeld, angle=..., zeta=...)` with a `FilmField`, `inertia(bearing,
+sommerfeld)` with the film's added mass, and `gap(position)` with the thinnest film around a journal
+that is not in equilibrium. A bearing names its model in its field `film`.
 """
 
 from collections.abc import Callable
@@ -21,6 +21,7 @@ __all__ = [
     "FilmField",
     "FilmState",
     "film_added_mass",
+    "film_coefficients",
     "film_gap",
     "film_motion",
     "film_pressure",
@@ -31,6 +32,10 @@ __all__ = [
 
 class _FilmModel(Protocol):
     def state(self, bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmState: ...
+
+    def coefficients(
+        self, bearing: JournalBearing, sommerfeld: ArrayLike
+    ) -> tuple[Array, Array]: ...
 
     def field(
         self, bearing: JournalBearing, sommerfeld: ArrayLike, *, angle: ArrayLike, zeta: ArrayLike
@@ -76,6 +81,29 @@ def film_state(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmState:
         Where σ is not positive.
     """
     return _MODELS[bearing.film].state(bearing, sommerfeld)
+
+
+def film_coefficients(bearing: JournalBearing, sommerfeld: ArrayLike) -> tuple[Array, Array]:
+    """Return the film's stiffness and damping in static equilibrium, by the bearing's own model.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing.
+    sommerfeld : array_like, (...)
+        Modified Sommerfeld number, σ [-], positive; infinite without load.
+
+    Returns
+    -------
+    stiffness, damping : array, (..., 2, 2)
+        In X, Y, in μΩRL³/C³ and μRL³/C³: those of `film_state`, sooner, for it computes no more.
+
+    Raises
+    ------
+    ValueError
+        Where σ is not positive.
+    """
+    return _MODELS[bearing.film].coefficients(bearing, sommerfeld)
 
 
 def film_pressure(

@@ -49,15 +49,10 @@ def state(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmState:
     ValueError
         Where σ is not positive, or so small that the film is thinner than the arithmetic can tell.
     """
-    sigma = real_array("sommerfeld", sommerfeld)
-    eps = eccentricity_ratio(sigma)
-    if np.any(eps == 1.0):
-        raise ValueError(
-            f"sommerfeld = {np.min(sigma):.3g}: too small, the film's thickness rounds to zero"
-        )
+    eps = _afloat(sommerfeld)
     phi = attitude_angle(eps)
     return FilmState(
-        sommerfeld=sigma,
+        sommerfeld=np.asarray(sommerfeld, dtype=float),
         position=vector(eps * np.cos(phi), eps * np.sin(phi)),
         attitude_angle=phi,
         minimum_thickness=1.0 - eps,
@@ -68,6 +63,33 @@ def state(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmState:
         peak_pressure=peak_pressure(eps),
         peak_angle=phi + np.pi + peak_position(eps),
     )
+
+
+def coefficients(
+    bearing: JournalBearing,  # noqa: ARG001 - other film models need it
+    sommerfeld: ArrayLike,
+) -> tuple[Array, Array]:
+    """Return the short bearing's stiffness and damping in static equilibrium, in film units.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing; nothing of it enters.
+    sommerfeld : array_like, (...)
+        Modified Sommerfeld number, σ [-], positive; infinite without load.
+
+    Returns
+    -------
+    stiffness, damping : array, (..., 2, 2)
+        As `state` gives them, without the rest.
+
+    Raises
+    ------
+    ValueError
+        As in `state`.
+    """
+    eps = _afloat(sommerfeld)
+    return film_stiffness(eps), film_damping(eps)
 
 
 def field(
@@ -653,6 +675,17 @@ def film_force(position: ArrayLike, velocity: ArrayLike) -> Array:
     F_a = V / 2.0 * a * (3.0 * b * G - 4.0 - 2.0 * b**2 / (1.0 - a**2)) / kappa2**2
     F_b = V / 2.0 * (G / kappa2 + 3.0 * b * (b * G - 2.0) / kappa2**2)
     return vector(F_a * cos - F_b * sin, F_a * sin + F_b * cos)
+
+
+def _afloat(sommerfeld: ArrayLike) -> Array:
+    """Return ε where it is less than 1."""
+    sigma = real_array("sommerfeld", sommerfeld)
+    eps = eccentricity_ratio(sigma)
+    if np.any(eps == 1.0):
+        raise ValueError(
+            f"sommerfeld = {np.min(sigma):.3g}: too small, the film's thickness rounds to zero"
+        )
+    return eps
 
 
 def _eccentricity(y: Array) -> Array:

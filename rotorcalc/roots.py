@@ -1,0 +1,53 @@
+"""Roots of functions that answer for a dozen places as fast as for one."""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from scipy.optimize import brentq
+
+from rotorcalc.typing import Array
+
+# As many as a smooth function needs over an interval of a few per cent.
+_POINTS = 18
+_NODES = chebyshev.chebpts1(_POINTS)
+_TO_COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(_NODES, _POINTS - 1))
+# The last coefficients of a series that is the function but for rounding errors, over the largest.
+_NOTHING = 1e-13
+
+
+def narrow_root(values: Callable[[Array], Array], low: float, high: float) -> float:
+    """Return the place between two near ones at which a function changes sign.
+
+    Parameters
+    ----------
+    values : callable
+        The function: values (n,) at places (n,).
+    low, high : float
+        Places at which its values differ in sign, or one of them is zero.
+
+    Returns
+    -------
+    float
+        The root, to about 1e-14 of itself.
+
+    Notes
+    -----
+    The root of the Chebyshev series through the function's values at 18 places; where its last
+    coefficients are more than rounding errors, as beside a kink, Brent's method on the function.
+
+    Examples
+    --------
+    >>> round(narrow_root(np.cos, 1.5, 1.6), 12)
+    1.570796326795
+    """
+    middle, half = 0.5 * (low + high), 0.5 * (high - low)
+    series = _TO_COEFFICIENTS @ values(middle + half * _NODES)
+    if np.all(np.abs(series[-2:]) <= _NOTHING * np.abs(series).max()):
+        first, last = np.sign(chebyshev.chebval(np.array([-1.0, 1.0]), series))
+        if first * last < 0.0:
+            place = brentq(lambda x: float(chebyshev.chebval(x, series)), -1.0, 1.0, xtol=1e-15)
+            return float(middle + half * place)
+    return float(
+        brentq(lambda x: float(values(np.array([x]))[0]), low, high, xtol=1e-300, rtol=1e-14)
+    )
