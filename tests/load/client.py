@@ -187,9 +187,9 @@ class Visitor:
         """Return what every live slider shows, with the group that holds it."""
         groups = [(group, json.loads(group.json)) for group in self._components(SLIDERS)]
         return [
-            item | {"group": group, "echo": data.get("echo")}
-            for group, data in groups
-            for item in data["sliders"]
+            item | {"group": group, "echo": common["echo"]}
+            for group, (sliders, common) in groups
+            for item in sliders
         ]
 
     def tab_rows(self) -> list[tuple[str, list[str]]]:

@@ -165,7 +165,7 @@ export default function ({ data, parentElement, setTriggerValue }) {
     style.textContent = STYLE;
     document.head.append(style);
   }
-  const { sliders, ...common } = data;
+  const [sliders, common] = data;
   const known = groups.get(parentElement) ?? new Map();
   const group = new Map(sliders.map(({ name }) => [name, known.get(name) ?? new Slider()]));
   for (const slider of sliders) group.get(slider.name).update({ ...slider, ...common }, setTriggerValue);

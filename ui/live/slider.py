@@ -53,11 +53,11 @@ def show(
 
     _component(
         key=key,
-        data={
-            "sliders": [_sent(slider) for slider in sliders],
-            "whileHeld": while_held,
-            "echo": st.session_state.get(f"{key}_echo"),
-        },
+        # A list: Streamlit would look through a dictionary for data frames, at some cost.
+        data=[
+            [_sent(slider) for slider in sliders],
+            {"whileHeld": while_held, "echo": st.session_state.get(f"{key}_echo")},
+        ],
         on_moved_change=moved,
     )  # fmt: skip
 
