@@ -21,7 +21,10 @@ from ui import health, jobs, log, settings, version
 
 _HEADER = b"x-rotorcalc-replica"
 # What the pages import, for the first visitor not to wait for it.
-_WARM = ("ui.page", "ui.stability", "ui.modes", "ui.response", "ui.orbits", "ui.notes", "ui.live")
+_WARM = (
+    "ui.page", "ui.stability", "ui.modes", "ui.response", "ui.orbits", "ui.notes", "ui.live",
+    "ui.export", "ui.report",
+)  # fmt: skip
 # New objects until Python looks for lost ones: its own 700 cost a page a seventh of its time.
 _COLLECT_AFTER = (20_000, 20, 50)
 

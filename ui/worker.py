@@ -14,6 +14,7 @@ import sys
 import threading
 import traceback
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from queue import SimpleQueue
 from typing import IO, Any, Literal
@@ -85,7 +86,7 @@ class Worker:
         assert self._process.stdout is not None  # noqa: S101 - it is a pipe
         try:
             return pickle.load(self._process.stdout)  # noqa: S301 - of our own process
-        except (EOFError, OSError) as error:
+        except (EOFError, OSError, pickle.UnpicklingError) as error:  # also in mid-answer
             raise WorkerError("the process for heavy computations has ended") from error
 
 
@@ -124,7 +125,7 @@ class _Orders:
 def main() -> None:
     """Compute what is asked for on standard input, and answer on standard output."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the server's, which ends this by itself
-    if hasattr(os, "nice"):
+    with suppress(AttributeError, PermissionError):  # not everywhere there, nor allowed
         os.nice(_NICER)
     out = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # whatever prints
