@@ -12,15 +12,16 @@ FOCUS = """() => {
   return `${focus.tagName}: ${focus.getAttribute('aria-label') || focus.innerText}`;
 }"""
 
-# True of live charts and sliders, and of Streamlit's own.
-either = pytest.mark.parametrize("app_url", ["drag", "off"], indirect=True)
-
 # Pages with results and charts of the machine.
 LIVE = [name for name in PATHS if name != "Notes"]
 
 
-@either
-@pytest.mark.parametrize("name", LIVE)
+@pytest.mark.parametrize(
+    ("app_url", "name"),
+    # Streamlit's own charts and sliders too: on all pages in tests/app, without a browser.
+    [*(("drag", name) for name in LIVE), ("off", "Machine")],
+    indirect=["app_url"],
+)
 def test_slider_moves_a_number_a_chart_and_the_address_bar(app: AppPage, name: str) -> None:
     app.open(name)
     numbers, drawn = app.metrics(), app.drawn()
@@ -51,7 +52,6 @@ def _ghosts(app: AppPage) -> list[str]:
     return [trace for chart in app.traces() for trace in chart if trace.startswith("A: ")]
 
 
-@either
 def test_units_switch_leaves_the_machine(app: AppPage) -> None:
     app.open("Machine", C="80")
     numbers = app.metrics()
@@ -72,7 +72,6 @@ def _choose_units(app: AppPage, units: str) -> None:
     app.close_popover()
 
 
-@either
 def test_values_can_be_typed(app: AppPage) -> None:
     app.open("Machine")
     body = app.open_popover("Units and settings")
@@ -86,7 +85,6 @@ def test_values_can_be_typed(app: AppPage) -> None:
     assert app.query() == {"C": "83.5"}
 
 
-@either
 def test_preset_brings_its_machine(app: AppPage) -> None:
     app.open("Machine", C="80")
     with app.run():
@@ -96,7 +94,6 @@ def test_preset_brings_its_machine(app: AppPage) -> None:
     expect(app.page.get_by_test_id("stMain").get_by_text("4627 rpm").first).to_be_visible()
 
 
-@either
 def test_keyboard_alone_reaches_sliders_and_opens_a_popover(app: AppPage) -> None:
     app.open("Equilibrium")
     keyboard = app.page.keyboard
