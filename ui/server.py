@@ -25,8 +25,9 @@ _WARM = (
     "ui.page", "ui.stability", "ui.modes", "ui.response", "ui.orbits", "ui.notes", "ui.live",
     "ui.export", "ui.report",
 )  # fmt: skip
-# New objects until Python looks for lost ones: its own 700 cost a page a seventh of its time.
-_COLLECT_AFTER = (20_000, 20, 50)
+# New objects until Python looks for lost ones, its own 700 cost a page a seventh of its time; and
+# how often it looks at older ones: 320,000 objects of closed sessions are some 30 MB.
+_COLLECT_AFTER = (20_000, 4, 4)
 
 
 class NamedReplica:
