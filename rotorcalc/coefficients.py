@@ -179,15 +179,15 @@ def equilibrium(machine: Machine, speed: ArrayLike) -> Equilibrium:
     bearing, mu = machine.bearing, machine.viscosity
     R, L, C = bearing.radius, bearing.length, bearing.radial_clearance
     film = film_state(bearing, modified_sommerfeld(machine, speed))
-    damping_unit = mu * R * L**3 / C**3
+    stiffness, damping = _with_dimensions(machine, speed, film.stiffness, film.damping)
     drag_torque = film.drag * mu * speed * R**3 * L / C
     with np.errstate(divide="ignore"):
         friction = drag_torque / (R * np.float64(machine.static_load))
     return Equilibrium(
         speed=speed,
         film=film,
-        stiffness=film.stiffness * damping_unit * speed[..., None, None],
-        damping=film.damping * damping_unit,
+        stiffness=stiffness,
+        damping=damping,
         minimum_film_thickness=film.minimum_thickness * C,
         side_flow=film.side_flow * speed * R * L * C,
         drag_torque=drag_torque,
@@ -218,11 +218,8 @@ def stiffness_and_damping(machine: Machine, speed: ArrayLike) -> tuple[Array, Ar
         Where a speed is not positive and finite.
     """
     speed = checked_speed(speed)
-    bearing = machine.bearing
-    R, L, C = bearing.radius, bearing.length, bearing.radial_clearance
-    unit = machine.viscosity * R * L**3 / C**3
-    k, c = film_coefficients(bearing, modified_sommerfeld(machine, speed))
-    return k * unit * speed[..., None, None], c * unit
+    film = film_coefficients(machine.bearing, modified_sommerfeld(machine, speed))
+    return _with_dimensions(machine, speed, *film)
 
 
 def film_field(
@@ -419,6 +416,14 @@ def checked_speed(speed: ArrayLike) -> Array:
     if not np.all(good):
         raise ValueError(f"speed = {speeds[~good].flat[0]} rad/s: must be positive and finite")
     return speeds
+
+
+def _with_dimensions(machine: Machine, speed: Array, k: Array, c: Array) -> tuple[Array, Array]:
+    """Return K [N/m] and C [N·s/m] of coefficients in film units, μΩRL³/C³ and μRL³/C³."""
+    bearing = machine.bearing
+    R, L, C = bearing.radius, bearing.length, bearing.radial_clearance
+    unit = machine.viscosity * R * L**3 / C**3
+    return k * unit * speed[..., None, None], c * unit
 
 
 def _trace(coefficients: Array) -> Array:

@@ -527,9 +527,8 @@ def _curve(film: str) -> tuple[Array, Array]:
 def _left_side(film: str, sigma: Array) -> tuple[Array, Array]:
     """Return σ²/p_s² and σ²ω̄², the two terms of the module's equation."""
     any_bearing = JournalBearing(diameter=1.0, length=1.0, radial_clearance=1.0, film=film)
-    onset = whirl_onset(
-        *film_coefficients(any_bearing, sigma)
-    )  # p_s² in film units, not in the load's
+    k, c = film_coefficients(any_bearing, sigma)
+    onset = whirl_onset(k, c)  # p_s² in film units, not in the load's
     return sigma / (4.0 * onset.critical_mass), (sigma * onset.whirl_ratio) ** 2
 
 

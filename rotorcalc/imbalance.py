@@ -319,9 +319,7 @@ def response_family(
         speed=denser,
         disk=np.array([_ellipse(disk).semi_major for disk, _ in pairs]),
         journal=np.array([_ellipse(journal).semi_major for _, journal in pairs]),
-        unstable=np.array(
-            [v.real.max(axis=-1) > _ROUNDING * np.abs(v).max(axis=-1) for v in values]
-        ),
+        unstable=np.array([_fastest_growth(of_rotor) > 0.0 for of_rotor in values]),
     )
 
 
@@ -385,7 +383,11 @@ def _growth(sweep: Sweep) -> Array:
     """Return a measure of the growth over a sweep: positive where the machine is unstable."""
     if has_closed_form(sweep.machine):  # without eigenvalues: from −1 far below Eq. 5.50's to 1
         return 2.0 / (1.0 + sweep.flexible_threshold / sweep.speed) - 1.0
-    values = sweep.flexible_eigenvalues
+    return _fastest_growth(sweep.flexible_eigenvalues)
+
+
+def _fastest_growth(values: ComplexArray) -> Array:
+    """Return the largest Re λ less what may be rounding error, (...), of eigenvalues (..., m)."""
     return values.real.max(axis=-1) - _ROUNDING * np.abs(values).max(axis=-1)
 
 

@@ -5,7 +5,6 @@ every visitor's slider stick. `Worker` is the pages' side of such a process; thi
 program is the other. They speak in pickles: an order, any number of words of progress, an answer.
 """
 
-import importlib
 import os
 import pickle
 import signal
@@ -19,11 +18,12 @@ from pathlib import Path
 from queue import SimpleQueue
 from typing import IO, Any, Literal
 
+from ui.heavy import Progress  # imported with all that will be asked for, while nobody waits
+
 _ROOT = Path(__file__).parents[1]
 # Pages come first where both want the processor.
 _NICER = 5
 
-Progress = Callable[[float], object]
 Order = tuple[int, Callable[..., Any], tuple[Any, ...], bool]
 Answer = tuple[Literal["at", "done", "failed"], Any]
 
@@ -131,7 +131,6 @@ def main() -> None:
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # whatever prints
     orders = _Orders(sys.stdin.buffer)
     threading.Thread(target=orders.listen, daemon=True).start()
-    importlib.import_module("ui.heavy")  # what will be asked for, while nobody waits
     while True:
         _write(out, _answer(orders, out, orders.queue.get()))
 

@@ -94,6 +94,7 @@ def test_preset_brings_its_machine(app: AppPage) -> None:
     expect(app.page.get_by_test_id("stMain").get_by_text("4627 rpm").first).to_be_visible()
 
 
+@pytest.mark.parametrize("app_url", ["drag", "off"], indirect=True)
 def test_keyboard_alone_reaches_sliders_and_opens_a_popover(app: AppPage) -> None:
     app.open("Equilibrium")
     keyboard = app.page.keyboard
