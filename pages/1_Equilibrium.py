@@ -2,93 +2,107 @@ import streamlit as st
 
 from rotorcalc.figures import equilibrium as place
 from rotorcalc.figures import film
-from ui.page import framed
+from ui.page import Page, show
 
-with framed(
-    "Static equilibrium",
-    "Where the journal sits at the running speed, how its film carries the load, "
-    "and what the film costs.",
-) as page:
-    units = page.units
+
+def content(page: Page) -> None:
     page.results(
         "eccentricity_ratio", "attitude_angle", "minimum_film_thickness", "power_loss", "side_flow"
     )
-    TABS = ["Locus", "Film and pressure", "Forces", "Losses and flow"]
-    place_tab, film_tab, force_tab, loss_tab = st.tabs(
-        TABS, on_change="rerun", key="equilibrium_tab"
-    )
+    page.tabs("equilibrium_tab", {
+        "Locus": locus,
+        "Film and pressure": film_and_pressure,
+        "Forces": forces,
+        "Losses and flow": losses,
+    })  # fmt: skip
 
-    if place_tab.open:
-        left, right = place_tab.columns(2)
-        with left:
-            page.chart(
-                lambda v: place.locus(v.curves, v.sweep, v.at_round_speeds, v.point, units),
-                "locus",
-                alt="Path of the journal in the clearance circle, from the wall to the middle.",
-                caption="Path of the journal, with rpm along it; dotted, any speed. Eqs. 5.7, 5.8.",
-            )  # fmt: skip
-        with right:
-            over = st.segmented_control(
-                "Abscissa", ["Over σ", "Over speed"], default="Over σ", required=True,
-                label_visibility="collapsed", key="equilibrium_over", persist_state="session",
-            )  # fmt: skip
-            page.chart(
-                lambda v: (
-                    place.position_over_speed(v.sweep, v.point, units)
-                    if over == "Over speed"
-                    else place.position_over_sommerfeld(v.curves, v.sweep, v.point, units)
-                ),
-                "position",
-                alt="Eccentricity ratio and attitude angle, the running speed marked on both.",
-                caption="More speed or viscosity, less load: nearer the centre. Eqs. 5.7, 5.8.",
-            )
 
-    if film_tab.open:
-        left, right = film_tab.columns(2)
-        with left:
+def locus(page: Page) -> None:
+    units = page.units
+    left, right = st.columns(2)
+    with left:
+        page.chart(
+            lambda v: place.locus(v.curves, v.sweep, v.at_round_speeds, v.point, units),
+            "locus",
+            alt="Path of the journal in the clearance circle, from the wall to the middle.",
+            caption="Path of the journal, with rpm along it; dotted, any speed. Eqs. 5.7, 5.8.",
+        )  # fmt: skip
+    with right:
+        over = st.segmented_control(
+            "Abscissa", ["Over σ", "Over speed"], default="Over σ", required=True,
+            label_visibility="collapsed", key="equilibrium_over", persist_state="session",
+        )  # fmt: skip
+        page.chart(
+            lambda v: (
+                place.position_over_speed(v.sweep, v.point, units)
+                if over == "Over speed"
+                else place.position_over_sommerfeld(v.curves, v.sweep, v.point, units)
+            ),
+            "position",
+            alt="Eccentricity ratio and attitude angle, the running speed marked on both.",
+            caption="More speed or viscosity, less load: nearer the centre. Eqs. 5.7, 5.8.",
+        )
+
+
+def film_and_pressure(page: Page) -> None:
+    units = page.units
+    left, right = st.columns(2)
+    with left:
+        page.chart(
+            lambda v: film.film_around(v.film, v.point, units), "film",
+            alt="Thickness and pressure of the film once around the journal, and the load.",
+            caption="Film and pressure above ambient at mid-length; θ in the sense of "
+            "rotation. Eqs. 5.19, 5.25.",
+        )  # fmt: skip
+    with right:
+        page.chart(
+            lambda v: film.pressure_map(v.film, v.point, units), "pressure",
+            alt="Contour map of the film's pressure over angle and axial position.",
+            caption="The film unwrapped: a parabola along z, ambient at both ends. Eq. 5.25.",
+        )  # fmt: skip
+
+
+def forces(page: Page) -> None:
+    units = page.units
+    left, right = st.columns(2)
+    with left:
+        page.chart(
+            lambda v: film.forces(v.force_curves, v.forces, units), "forces",
+            alt="Resultant, tangential and radial force of the film over eccentricity ratio.",
+            caption="At the running speed: the journal sits where the resultant meets the "
+            "load. Eqs. 5.5, 5.6, Fig. 5.2.",
+        )  # fmt: skip
+    with right:
+        page.chart(
+            lambda v: film.force_balance(v.forces, v.point, units), "balance",
+            alt="Right-angled triangle of load, tangential and radial film force.",
+            caption="The forces close a triangle; φ lies between load and radial force. "
+            "Eqs. 5.4, 5.7.",
+        )  # fmt: skip
+
+
+def losses(page: Page) -> None:
+    units = page.units
+    left, right = st.columns(2)
+    friction = place.drag_torque if page.view.unloaded else place.friction_coefficient
+    for column, draw, caption in (
+        (left, place.power_loss, "Drag torque times speed, all turned into heat. Sheet."),
+        (right, place.side_flow, "Oil that leaves at both ends and has to be fed. Sheet."),
+        (left, friction, "Drag torque/(R Fₒ); without load the drag torque itself."),
+        (right, place.minimum_film_thickness, "C(1 − ε), below the clearance. Eq. 5.19."),
+    ):
+        name = draw.__name__
+        with column:
             page.chart(
-                lambda v: film.film_around(v.film, v.point, units), "film",
-                alt="Thickness and pressure of the film once around the journal, and the load.",
-                caption="Film and pressure above ambient at mid-length; θ in the sense of "
-                "rotation. Eqs. 5.19, 5.25.",
-            )  # fmt: skip
-        with right:
-            page.chart(
-                lambda v: film.pressure_map(v.film, v.point, units), "pressure",
-                alt="Contour map of the film's pressure over angle and axial position.",
-                caption="The film unwrapped: a parabola along z, ambient at both ends. Eq. 5.25.",
+                lambda v, draw=draw: draw(v.sweep, v.point, units), name,
+                alt=f"{name.replace('_', ' ').capitalize()} over running speed.",
+                caption=caption,
             )  # fmt: skip
 
-    if force_tab.open:
-        left, right = force_tab.columns(2)
-        with left:
-            page.chart(
-                lambda v: film.forces(v.force_curves, v.forces, units), "forces",
-                alt="Resultant, tangential and radial force of the film over eccentricity ratio.",
-                caption="At the running speed: the journal sits where the resultant meets the "
-                "load. Eqs. 5.5, 5.6, Fig. 5.2.",
-            )  # fmt: skip
-        with right:
-            page.chart(
-                lambda v: film.force_balance(v.forces, v.point, units), "balance",
-                alt="Right-angled triangle of load, tangential and radial film force.",
-                caption="The forces close a triangle; φ lies between load and radial force. "
-                "Eqs. 5.4, 5.7.",
-            )  # fmt: skip
 
-    if loss_tab.open:
-        left, right = loss_tab.columns(2)
-        friction = place.drag_torque if page.view.unloaded else place.friction_coefficient
-        for column, draw, caption in (
-            (left, place.power_loss, "Drag torque times speed, all turned into heat. Sheet."),
-            (right, place.side_flow, "Oil that leaves at both ends and has to be fed. Sheet."),
-            (left, friction, "Drag torque/(R Fₒ); without load the drag torque itself."),
-            (right, place.minimum_film_thickness, "C(1 − ε), below the clearance. Eq. 5.19."),
-        ):
-            name = draw.__name__
-            with column:
-                page.chart(
-                    lambda v, draw=draw: draw(v.sweep, v.point, units), name,
-                    alt=f"{name.replace('_', ' ').capitalize()} over running speed.",
-                    caption=caption,
-                )  # fmt: skip
+show(
+    "Static equilibrium",
+    "Where the journal sits at the running speed, how its film carries the load, "
+    "and what the film costs.",
+    content,
+)

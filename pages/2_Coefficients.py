@@ -1,3 +1,4 @@
+from functools import partial
 from typing import Literal
 
 import streamlit as st
@@ -6,98 +7,101 @@ from rotorcalc.analysis import Axes
 from rotorcalc.coefficients import BULK_FLOW, LAMINAR
 from rotorcalc.figures import coefficients as draw
 from ui import coefficients as words
-from ui.page import framed
+from ui.page import Page, show
 
-with framed(
-    "Force coefficients",
-    "How the film pushes back: four stiffness and four damping coefficients for small motions of "
-    "the journal about its equilibrium.",
-) as page:
-    view, units = page.view, page.units
+
+def content(page: Page) -> None:
     page.results("sommerfeld", "eccentricity_ratio", "attitude_angle", "equivalent_stiffness")
     axes: Axes = st.segmented_control(
         "Frame", list(words.FRAMES), format_func=words.FRAMES.__getitem__, key="coefficient_axes",
         default="XY", required=True, persist_state="session",
     )  # fmt: skip
-    speed, eccentricity, sommerfeld, mass, centre = st.tabs(
-        ["Against speed", "Against ε", "Against σ", "Added mass", "Why only cross-coupling"],
-        on_change="rerun", key="coefficient_tabs",
-    )  # fmt: skip
+    page.tabs("coefficient_tabs", {
+        "Against speed": partial(against_speed, axes=axes),
+        "Against ε": partial(dimensionless, axes=axes, against="ε"),
+        "Against σ": partial(dimensionless, axes=axes, against="σ"),
+        "Added mass": added_mass,
+        "Why only cross-coupling": only_cross_coupling,
+    })  # fmt: skip
+    st.subheader("At the running speed", anchor=False)
+    words.show_matrices(page.view, axes, page.units)
 
-    if speed.open:
-        left, right = speed.columns(2)
-        with left:
-            page.chart(
-                lambda v: draw.stiffness_against_speed(
-                    v.sweep, v.point, v.coefficients(axes), v.coefficients_here(axes), units
-                ),
-                "stiffness_speed",
-                alt="Stiffness coefficients and equivalent stiffness of one bearing against speed.",
-                caption="Per bearing, each speed at its own equilibrium. Eqs. 5.30, 5.35, 5.45.",
-            )
-        with right:
-            page.chart(
-                lambda v: draw.damping_against_speed(
-                    v.sweep, v.point, v.coefficients(axes), v.coefficients_here(axes), units
-                ),
-                "damping_speed",
-                alt="Damping coefficients of one bearing against speed.",
-                caption="Per bearing; large at low speed, where the film is thin. Eqs. 5.31, 5.35.",
-            )
 
-    def film_chart(symbol: Literal["k", "c"], against: Literal["ε", "σ"]) -> None:
+def against_speed(page: Page, axes: Axes) -> None:
+    units = page.units
+    left, right = st.columns(2)
+    with left:
         page.chart(
-            lambda v: draw.dimensionless(
-                v.film_coefficients(axes), v.film_coefficients_here(axes), symbol, against
+            lambda v: draw.stiffness_against_speed(
+                v.sweep, v.point, v.coefficients(axes), v.coefficients_here(axes), units
             ),
-            f"{symbol}_{against}",
-            alt=f"Dimensionless coefficients {symbol} against {against}, logarithmic.",
-            caption=words.dimensionless_caption(symbol, against),
+            "stiffness_speed",
+            alt="Stiffness coefficients and equivalent stiffness of one bearing against speed.",
+            caption="Per bearing, each speed at its own equilibrium. Eqs. 5.30, 5.35, 5.45.",
+        )
+    with right:
+        page.chart(
+            lambda v: draw.damping_against_speed(
+                v.sweep, v.point, v.coefficients(axes), v.coefficients_here(axes), units
+            ),
+            "damping_speed",
+            alt="Damping coefficients of one bearing against speed.",
+            caption="Per bearing; large at low speed, where the film is thin. Eqs. 5.31, 5.35.",
         )
 
-    if eccentricity.open:
-        left, right = eccentricity.columns(2)
-        with left:
-            film_chart("k", "ε")
-        with right:
-            film_chart("c", "ε")
-        words.say_unloaded(view)
-    if sommerfeld.open:
-        left, right = sommerfeld.columns(2)
-        with left:
-            film_chart("k", "σ")
-        with right:
-            film_chart("c", "σ")
-        words.say_unloaded(view)
-    if mass.open:
-        left, right = mass.columns(2)
-        with left:
+
+def dimensionless(page: Page, axes: Axes, against: Literal["ε", "σ"]) -> None:
+    symbols: tuple[Literal["k", "c"], ...] = ("k", "c")
+    for column, symbol in zip(st.columns(2), symbols, strict=True):
+        with column:
             page.chart(
-                lambda v: draw.added_mass(
-                    v.added_mass(LAMINAR),
-                    v.added_mass(BULK_FLOW),
-                    v.added_mass_here(LAMINAR),
-                    units,
+                lambda v, symbol=symbol: draw.dimensionless(
+                    v.film_coefficients(axes), v.film_coefficients_here(axes), symbol, against
                 ),
-                "added_mass",
-                alt="Added mass of the film of one bearing against speed.",
-                caption="Solid for laminar flow, dotted for bulk flow.",
+                f"{symbol}_{against}",
+                alt=f"Dimensionless coefficients {symbol} against {against}, logarithmic.",
+                caption=words.dimensionless_caption(symbol, against),
             )
-        with right:
-            words.show_added_mass(view, units)
+    words.say_unloaded(page.view)
 
-    if centre.open:
-        left, right = centre.columns(2)
-        with left:
-            page.chart(
-                lambda v: draw.unloading(v.unloading, v.unloading_here, v.centred, units),
-                "unloading",
-                alt="Stiffness against eccentricity ratio: direct falls to zero, cross stays.",
-                caption="At the running speed, the load alone varied; dashed: minus the value. "
-                "Eqs. 5.35, 5.37.",
-            )
-        with right:
-            words.show_centred(view, units)
 
-    st.subheader("At the running speed", anchor=False)
-    words.show_matrices(view, axes, units)
+def added_mass(page: Page) -> None:
+    units = page.units
+    left, right = st.columns(2)
+    with left:
+        page.chart(
+            lambda v: draw.added_mass(
+                v.added_mass(LAMINAR),
+                v.added_mass(BULK_FLOW),
+                v.added_mass_here(LAMINAR),
+                units,
+            ),
+            "added_mass",
+            alt="Added mass of the film of one bearing against speed.",
+            caption="Solid for laminar flow, dotted for bulk flow.",
+        )
+    with right:
+        words.show_added_mass(page.view, units)
+
+
+def only_cross_coupling(page: Page) -> None:
+    units = page.units
+    left, right = st.columns(2)
+    with left:
+        page.chart(
+            lambda v: draw.unloading(v.unloading, v.unloading_here, v.centred, units),
+            "unloading",
+            alt="Stiffness against eccentricity ratio: direct falls to zero, cross stays.",
+            caption="At the running speed, the load alone varied; dashed: minus the value. "
+            "Eqs. 5.35, 5.37.",
+        )
+    with right:
+        words.show_centred(page.view, units)
+
+
+show(
+    "Force coefficients",
+    "How the film pushes back: four stiffness and four damping coefficients for small motions of "
+    "the journal about its equilibrium.",
+    content,
+)

@@ -4,160 +4,174 @@ from rotorcalc import whirl
 from rotorcalc.figures import design as what_if
 from rotorcalc.figures import stability as figures
 from ui import stability as ask
-from ui.page import framed
+from ui.page import Page, show
 
-with framed(
+
+def content(page: Page) -> None:
+    page.results("onset_speed", "whirl_frequency", "margin", "critical_mass", "whirl_ratio")
+    page.tabs("stability_tab", {
+        "Threshold": threshold,
+        "Figures of the notes": figures_of_the_notes,
+        "Follower force": follower_force,
+        "Map": onset_map,
+        "Remedies": remedies,
+    })  # fmt: skip
+
+
+def over_speed(draw, units):
+    return lambda v: draw(
+        whirl.thresholds(v.sweep), whirl.thresholds(v.point), ask.crossing(v), units
+    )
+
+
+def threshold(page: Page) -> None:
+    units = page.units
+    if not ask.crossing(page.view).closed_form:
+        st.info(ask.BARE)
+    left, right = st.columns(2)
+    with left:
+        page.chart(
+            over_speed(figures.threshold, units),
+            "threshold",
+            alt="Threshold speed over running speed for the flexible and the rigid shaft, "
+            "with the line of equal speeds, their crossing and the unstable side shaded.",
+            caption="Where the threshold meets the line Ω the rotor goes unstable. "
+            "Eqs. 5.45, 5.46, 5.50.",
+        )
+    with right:
+        page.chart(
+            over_speed(figures.whirl_frequency, units),
+            "whirl_frequency",
+            alt="Whirl frequency at the threshold over running speed, with half the speed.",
+            caption="At the threshold the rotor whirls at its natural frequency. Eq. 5.47.",
+        )
+    page.chart(
+        over_speed(figures.critical_mass, units),
+        "critical_mass",
+        alt="Critical mass over the rotor's mass, over running speed; unstable below one.",
+        caption="$M_c/M = (Ω_s/Ω)^2$: a rotor heavier than $2M_c$ would whirl. Eq. 5.46.",
+    )
+
+
+def figures_of_the_notes(page: Page) -> None:
+    over_eps = ask.choose_abscissa()
+    left, right = st.columns(2)
+    with left:
+        page.chart(
+            lambda v: figures.whirl_ratio(ask.film_figure(v, over_eps)),
+            "whirl_ratio",
+            alt="Whirl frequency ratio: one half for a centred journal, zero above the limit.",
+            caption="Half-speed whirl of a light load; none above ε = 0.7560. Fig. 5.7, Eq. 5.46.",
+        )
+        page.chart(
+            lambda v: figures.critical_mass_number(ask.film_figure(v, over_eps)),
+            "critical_mass_number",
+            alt="Dimensionless critical mass of the short bearing.",
+            caption=r"$m_c = p_s^2 = M_c C Ω^2/F_o$. Fig. 5.9, Eqs. 5.45, 5.46.",
+        )
+    with right:
+        page.chart(
+            lambda v: figures.threshold_speed(ask.film_figure(v, over_eps)),
+            "threshold_speed",
+            alt="Dimensionless threshold speed of a rigid rotor on the short bearing.",
+            caption=r"$p_s = Ω_s\sqrt{MC/F_o}$, lowest at ε = 0.457. Fig. 5.8, Eq. 5.46.",
+        )
+        page.chart(
+            lambda v: figures.flexible_threshold(
+                ask.film_figure(v, over_eps),
+                ask.sags(v),
+                ask.flexible_curves(v),
+                ask.flexible_here(v),
+            ),
+            "flexible_threshold",
+            alt="Dimensionless threshold speed of flexible rotors for several static sags.",
+            caption="The more the shaft sags, Γ = Fₒ/Kᵣₒₜ, the lower the threshold. Fig. "
+            "5.10, Eq. 5.50.",
+        )
+
+
+def follower_force(page: Page) -> None:
+    if not ask.has_orbit(page.view):
+        return
+    units = page.units
+    st.markdown(ask.balance(page.view, units))
+    left, right = st.columns([2, 3])
+    with left:
+        page.chart(
+            lambda v: figures.energy_bars(ask.energies(v), units),
+            "energy_bars",
+            alt="Energy fed in and taken out in one turn of the whirl orbit, at the "
+            "running speed and at the onset, where the bars meet.",
+            caption="Per turn, orbit area (J/m² = N/m) and bearing. Appendix A, Eq. 5.14.",
+        )
+    with right:
+        page.chart(
+            lambda v: figures.energy(ask.energies(v), ask.crossing(v), units),
+            "energy",
+            alt="Energy fed into and taken out of the whirl orbit over running speed; the "
+            "two lines meet at the onset.",
+            caption="The follower force grows with speed, the damping does not: past the "
+            "onset more is fed in than taken out, and the orbit grows.",
+        )
+    st.latex(ask.WORK)
+    st.caption(ask.WORK_WORDS)
+
+
+def onset_map(page: Page) -> None:
+    view, units = page.view, page.units
+    left, right = st.columns(2)
+    with left:
+        x = ask.choose_input("Across", "C", "stability_x")
+    with right:
+        y = ask.choose_input("Up", "T", "stability_y", without=x)
+    onsets = ask.onset_map(view, x, y, units)
+    axes = ask.quantity(x, view.machine, units), ask.quantity(y, view.machine, units)
+    page.chart(
+        lambda v: what_if.onset_map(
+            onsets, axes, (ask.value(v, x), ask.value(v, y)), v.speed, units
+        ),
+        "onset_map",
+        alt="Contour map of the onset speed over two inputs, with this machine and the "
+        "line on which the onset is the running speed.",
+        caption="Onset of this machine with two inputs changed, all others kept. On the "
+        "dark side of the line it would be unstable at the running speed.",
+    )
+
+
+def remedies(page: Page) -> None:
+    view, units = page.view, page.units
+    page.chart(
+        lambda v: what_if.tornado(ask.sensitivities(v), ask.names(units), units),
+        "tornado",
+        alt="Movement of the onset speed for ten per cent less and more of each input.",
+        caption=ask.TORNADO,
+    )
+    left, right = st.columns(2)
+    with left:
+        vary = ask.choose_input("Change", "C", "stability_vary")
+    with right:
+        target = ask.choose_target(view, units)
+    found, axis = (
+        ask.solution(view, vary, target, units),
+        ask.quantity(vary, view.machine, units),
+    )
+    st.markdown(ask.answer(found, axis, ask.value(view, vary), units))
+    page.chart(
+        lambda v: what_if.solution(
+            ask.solution(v, vary, target, units),
+            axis,
+            (ask.value(v, vary), v.onset.speed),
+            units,
+        ),
+        "solution",
+        alt="Onset speed over one input, with the onset wanted and the values that give it.",
+        caption="Onset with one input changed, all others kept; each crossing solved.",
+    )
+
+
+show(
     "Stability",
     "The speed above which the rotor whirls by itself, at about half the running speed, and what "
     "moves it.",
-) as page:
-    units, view = page.units, page.view
-    page.results("onset_speed", "whirl_frequency", "margin", "critical_mass", "whirl_ratio")
-
-    tabs = ["Threshold", "Figures of the notes", "Follower force", "Map", "Remedies"]
-    threshold, notes, force, over_map, remedies = st.tabs(
-        tabs, on_change="rerun", key="stability_tab"
-    )
-
-    def over_speed(draw):
-        return lambda v: draw(
-            whirl.thresholds(v.sweep), whirl.thresholds(v.point), ask.crossing(v), units
-        )
-
-    if threshold.open:
-        with threshold:
-            if not ask.crossing(view).closed_form:
-                st.info(ask.BARE)
-            left, right = st.columns(2)
-            with left:
-                page.chart(
-                    over_speed(figures.threshold),
-                    "threshold",
-                    alt="Threshold speed over running speed for the flexible and the rigid shaft, "
-                    "with the line of equal speeds, their crossing and the unstable side shaded.",
-                    caption="Where the threshold meets the line Ω the rotor goes unstable. "
-                    "Eqs. 5.45, 5.46, 5.50.",
-                )
-            with right:
-                page.chart(
-                    over_speed(figures.whirl_frequency),
-                    "whirl_frequency",
-                    alt="Whirl frequency at the threshold over running speed, with half the speed.",
-                    caption="At the threshold the rotor whirls at its natural frequency. Eq. 5.47.",
-                )
-            page.chart(
-                over_speed(figures.critical_mass),
-                "critical_mass",
-                alt="Critical mass over the rotor's mass, over running speed; unstable below one.",
-                caption="$M_c/M = (Ω_s/Ω)^2$: a rotor heavier than $2M_c$ would whirl. Eq. 5.46.",
-            )
-    if notes.open:
-        with notes:
-            over_eps = ask.choose_abscissa()
-            left, right = st.columns(2)
-            with left:
-                page.chart(
-                    lambda v: figures.whirl_ratio(ask.film_figure(v, over_eps)),
-                    "whirl_ratio",
-                    alt="Whirl frequency ratio: one half for a centred journal, zero above the "
-                    "limit.",
-                    caption="Half-speed whirl of a light load; none above ε = 0.7560. Fig. 5.7, "
-                    "Eq. 5.46.",
-                )
-                page.chart(
-                    lambda v: figures.critical_mass_number(ask.film_figure(v, over_eps)),
-                    "critical_mass_number",
-                    alt="Dimensionless critical mass of the short bearing.",
-                    caption=r"$m_c = p_s^2 = M_c C Ω^2/F_o$. Fig. 5.9, Eqs. 5.45, 5.46.",
-                )
-            with right:
-                page.chart(
-                    lambda v: figures.threshold_speed(ask.film_figure(v, over_eps)),
-                    "threshold_speed",
-                    alt="Dimensionless threshold speed of a rigid rotor on the short bearing.",
-                    caption=r"$p_s = Ω_s\sqrt{MC/F_o}$, lowest at ε = 0.457. Fig. 5.8, Eq. 5.46.",
-                )
-                page.chart(
-                    lambda v: figures.flexible_threshold(
-                        ask.film_figure(v, over_eps),
-                        ask.sags(v),
-                        ask.flexible_curves(v),
-                        ask.flexible_here(v),
-                    ),
-                    "flexible_threshold",
-                    alt="Dimensionless threshold speed of flexible rotors for several static sags.",
-                    caption="The more the shaft sags, Γ = Fₒ/Kᵣₒₜ, the lower the threshold. Fig. "
-                    "5.10, Eq. 5.50.",
-                )
-    if force.open and ask.has_orbit(view):
-        with force:
-            st.markdown(ask.balance(view, units))
-            left, right = st.columns([2, 3])
-            with left:
-                page.chart(
-                    lambda v: figures.energy_bars(ask.energies(v), units),
-                    "energy_bars",
-                    alt="Energy fed in and taken out in one turn of the whirl orbit, at the "
-                    "running speed and at the onset, where the bars meet.",
-                    caption="Per turn, orbit area (J/m² = N/m) and bearing. Appendix A, Eq. 5.14.",
-                )
-            with right:
-                page.chart(
-                    lambda v: figures.energy(ask.energies(v), ask.crossing(v), units),
-                    "energy",
-                    alt="Energy fed into and taken out of the whirl orbit over running speed; the "
-                    "two lines meet at the onset.",
-                    caption="The follower force grows with speed, the damping does not: past the "
-                    "onset more is fed in than taken out, and the orbit grows.",
-                )
-            st.latex(ask.WORK)
-            st.caption(ask.WORK_WORDS)
-    if over_map.open:
-        with over_map:
-            left, right = st.columns(2)
-            with left:
-                x = ask.choose_input("Across", "C", "stability_x")
-            with right:
-                y = ask.choose_input("Up", "T", "stability_y", without=x)
-            onsets = ask.onset_map(view, x, y, units)
-            axes = ask.quantity(x, view.machine, units), ask.quantity(y, view.machine, units)
-            page.chart(
-                lambda v: what_if.onset_map(
-                    onsets, axes, (ask.value(v, x), ask.value(v, y)), v.speed, units
-                ),
-                "onset_map",
-                alt="Contour map of the onset speed over two inputs, with this machine and the "
-                "line on which the onset is the running speed.",
-                caption="Onset of this machine with two inputs changed, all others kept. On the "
-                "dark side of the line it would be unstable at the running speed.",
-            )
-    if remedies.open:
-        with remedies:
-            page.chart(
-                lambda v: what_if.tornado(ask.sensitivities(v), ask.names(units), units),
-                "tornado",
-                alt="Movement of the onset speed for ten per cent less and more of each input.",
-                caption=ask.TORNADO,
-            )
-            left, right = st.columns(2)
-            with left:
-                vary = ask.choose_input("Change", "C", "stability_vary")
-            with right:
-                target = ask.choose_target(view, units)
-            found, axis = (
-                ask.solution(view, vary, target, units),
-                ask.quantity(vary, view.machine, units),
-            )
-            st.markdown(ask.answer(found, axis, ask.value(view, vary), units))
-            page.chart(
-                lambda v: what_if.solution(
-                    ask.solution(v, vary, target, units),
-                    axis,
-                    (ask.value(v, vary), v.onset.speed),
-                    units,
-                ),
-                "solution",
-                alt="Onset speed over one input, with the onset wanted and the values that give "
-                "it.",
-                caption="Onset with one input changed, all others kept; each crossing solved.",
-            )
+    content,
+)

@@ -4,96 +4,103 @@ import streamlit as st
 
 from rotorcalc.figures import response as draw
 from ui import response as words
-from ui.page import framed
+from ui.page import Page, show
 
-with framed(
+
+def content(page: Page) -> None:
+    page.results("disk_amplitude", "journal_amplitude", "disk_peak", "journal_peak")
+    if words.say_balanced(page.view):
+        return
+    words.say_limits(page.view, page.units)
+    page.tabs("response_tabs", {
+        "Against speed": against_speed,
+        "Orbits": orbits,
+        "What damping and journal mass do": family,
+    })  # fmt: skip
+
+
+def against_speed(page: Page) -> None:
+    view, units = page.view, page.units
+    shown: Literal["axes", "XY"] = st.segmented_control(
+        "Amplitudes of", list(words.SHOWN), format_func=words.SHOWN.__getitem__,
+        key="response_shown", default="axes", required=True, persist_state="session",
+    )  # fmt: skip
+    left, right = st.columns(2)
+    with left:
+        page.chart(
+            lambda v: draw.amplitude(v.response, shown, units),
+            "amplitude",
+            alt="Amplitudes of disk and journal against speed, with peaks and unstable range.",
+            caption=words.amplitude_caption(view),
+        )
+    with right:
+        page.chart(
+            lambda v: draw.phase(v.response, units),
+            "phase",
+            alt="Phase lag of disk and journal behind the imbalance against speed.",
+            caption="Lag of X behind cos Ωt and of Y behind sin Ωt, the imbalance's "
+            "components. Eq. 5.38, imbalance forward.",
+        )
+
+
+def orbits(page: Page) -> None:
+    view, units = page.view, page.units
+    left, right = st.columns(2)
+    with left:
+        page.chart(
+            lambda v: draw.in_clearance(v.clearance_orbit, v.sweep.journal_position, units),
+            "clearance_orbit",
+            alt="The journal's orbit about its equilibrium inside the clearance circle.",
+            caption="The journal's centre in its clearance circle, about the point where it "
+            "rests at running speed. X points down, along the load; the shaft turns "
+            "anticlockwise.",
+        )
+    with right:
+        page.chart(
+            lambda v: draw.at_running_speed(v.orbits, units),
+            "orbits",
+            alt="Orbits of disk and journal at the running speed about the same point.",
+            caption=f"Both about equilibrium. {words.senses(view)} {words.ORBIT_MARKS}",
+        )
+    page.chart(
+        lambda v: draw.scrubber(v.orbit_steps, v.orbits, units),
+        "orbit_scrubber",
+        alt="Orbits of disk and journal, with a slider over speed.",
+        caption="The same at every speed; the slider starts at the running speed, and a "
+        "pinned machine stays at its own.",
+    )
+
+
+def family(page: Page) -> None:
+    view, units = page.view, page.units
+    varied: Literal["damping", "mass"] = st.segmented_control(
+        "Vary", list(words.VARIED), format_func=words.VARIED.__getitem__,
+        key="response_varied", default="damping", required=True, persist_state="session",
+    )  # fmt: skip
+    words.explain_family(view, varied)
+    left, right = st.columns(2)
+    with left:
+        page.chart(
+            lambda v: draw.family(
+                v.response_family(words.VARIANTS[varied]), "disk", varied, v.response, units
+            ),
+            "family_disk",
+            alt="Size of the disk's orbit against speed for several rotors.",
+            caption="The disk's orbit. Eq. 5.38 with midspan damping and journal mass added.",
+        )
+    with right:
+        page.chart(
+            lambda v: draw.family(
+                v.response_family(words.VARIANTS[varied]), "journal", varied, v.response, units
+            ),
+            "family_journal",
+            alt="Size of the journal's orbit against speed for several rotors.",
+            caption="The journal's orbit. Eq. 5.38 with midspan damping and journal mass added.",
+        )
+
+
+show(
     "Imbalance response",
     "How far disk and journal swing when the disk's mass centre lies off the shaft's axis.",
-) as page:
-    view, units = page.view, page.units
-    page.results("disk_amplitude", "journal_amplitude", "disk_peak", "journal_peak")
-    if words.say_balanced(view):
-        st.stop()
-    words.say_limits(view, units)
-    speed, orbits, family = st.tabs(
-        ["Against speed", "Orbits", "What damping and journal mass do"],
-        on_change="rerun", key="response_tabs",
-    )  # fmt: skip
-
-    if speed.open:
-        with speed:
-            shown: Literal["axes", "XY"] = st.segmented_control(
-                "Amplitudes of", list(words.SHOWN), format_func=words.SHOWN.__getitem__,
-                key="response_shown", default="axes", required=True, persist_state="session",
-            )  # fmt: skip
-        left, right = speed.columns(2)
-        with left:
-            page.chart(
-                lambda v: draw.amplitude(v.response, shown, units),
-                "amplitude",
-                alt="Amplitudes of disk and journal against speed, with peaks and unstable range.",
-                caption=words.amplitude_caption(view),
-            )
-        with right:
-            page.chart(
-                lambda v: draw.phase(v.response, units),
-                "phase",
-                alt="Phase lag of disk and journal behind the imbalance against speed.",
-                caption="Lag of X behind cos Ωt and of Y behind sin Ωt, the imbalance's "
-                "components. Eq. 5.38, imbalance forward.",
-            )
-
-    if orbits.open:
-        left, right = orbits.columns(2)
-        with left:
-            page.chart(
-                lambda v: draw.in_clearance(v.clearance_orbit, v.sweep.journal_position, units),
-                "clearance_orbit",
-                alt="The journal's orbit about its equilibrium inside the clearance circle.",
-                caption="The journal's centre in its clearance circle, about the point where it "
-                "rests at running speed. X points down, along the load; the shaft turns "
-                "anticlockwise.",
-            )
-        with right:
-            page.chart(
-                lambda v: draw.at_running_speed(v.orbits, units),
-                "orbits",
-                alt="Orbits of disk and journal at the running speed about the same point.",
-                caption=f"Both about equilibrium. {words.senses(view)} {words.ORBIT_MARKS}",
-            )
-        with orbits:
-            page.chart(
-                lambda v: draw.scrubber(v.orbit_steps, v.orbits, units),
-                "orbit_scrubber",
-                alt="Orbits of disk and journal, with a slider over speed.",
-                caption="The same at every speed; the slider starts at the running speed, and a "
-                "pinned machine stays at its own.",
-            )
-
-    if family.open:
-        with family:
-            varied: Literal["damping", "mass"] = st.segmented_control(
-                "Vary", list(words.VARIED), format_func=words.VARIED.__getitem__,
-                key="response_varied", default="damping", required=True, persist_state="session",
-            )  # fmt: skip
-            words.explain_family(view, varied)
-        left, right = family.columns(2)
-        with left:
-            page.chart(
-                lambda v: draw.family(
-                    v.response_family(words.VARIANTS[varied]), "disk", varied, v.response, units
-                ),
-                "family_disk",
-                alt="Size of the disk's orbit against speed for several rotors.",
-                caption="The disk's orbit. Eq. 5.38 with midspan damping and journal mass added.",
-            )
-        with right:
-            page.chart(
-                lambda v: draw.family(
-                    v.response_family(words.VARIANTS[varied]), "journal", varied, v.response, units
-                ),
-                "family_journal",
-                alt="Size of the journal's orbit against speed for several rotors.",
-                caption="The journal's orbit. Eq. 5.38 with midspan damping and journal mass "
-                "added.",
-            )
+    content,
+)

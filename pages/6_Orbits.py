@@ -1,101 +1,134 @@
+from functools import partial
+
 import streamlit as st
 
 from rotorcalc.figures import orbits as draw
+from rotorcalc.release import Release
 from ui import orbits as ask
-from ui.page import framed
+from ui.page import Page, show
 
-with framed(
+
+def content(shown: Page) -> None:
+    answer = st.container()
+    asked = ask.choose_release(shown.view)
+    page, found = ask.try_out(shown, asked)
+    with answer:
+        ask.say_outcome(page.view, asked, found, page.units)
+    page.tabs("orbits_tab", {
+        "Orbit": partial(orbit, asked=asked),
+        "In time": partial(in_time, asked=asked),
+        "Spectrum": partial(spectrum, asked=asked, found=found),
+        "Run-up": run_up,
+        "Limit cycles": limit_cycles,
+        "Onset three ways": onset_three_ways,
+    })  # fmt: skip
+    page.results("onset_speed", "whirl_frequency", "margin", "damping_ratio")
+
+
+def of_release(draw_release, page: Page, asked: ask.Ask):
+    units = page.units
+    return lambda v: draw_release(ask.let_go(v, asked), units)
+
+
+def orbit(page: Page, asked: ask.Ask) -> None:
+    left, right = st.columns([4, 5])
+    with left:
+        page.chart(
+            of_release(draw.orbit, page, asked),
+            "orbits_path",
+            alt="The journal's path in its clearance circle, with an animation.",
+            caption="Play it, or pull the slider. Blue: M ẍ = F(x, ẋ) + load + imbalance (Eq. 5.1, "
+            "forward); purple: the linear theory from the same start (Eq. 5.38).",
+        )
+    with right:
+        page.chart(
+            of_release(draw.over_time, page, asked),
+            "orbits_time",
+            alt="X and Y of the journal over revolutions, and the linear ones.",
+            caption="X along the load, Y at 90° with the rotation. The linear motion ends where it "
+            "leaves the bearing.",
+        )
+
+
+def in_time(page: Page, asked: ask.Ask) -> None:
+    left, right = st.columns(2)
+    with left:
+        page.chart(
+            of_release(draw.growth, page, asked),
+            "orbits_growth",
+            alt="Distance from rest over revolutions, logarithmic.",
+            caption="Largest distance over each two revolutions; dashed: e^(Re λ t). Eq. 5.38.",
+        )
+    with right:
+        page.chart(
+            of_release(draw.film, page, asked),
+            "orbits_film",
+            alt="Thinnest film over revolutions.",
+            caption="Thinnest film around the journal, h = C(1 − ε). Eq. 5.19.",
+        )
+
+
+def spectrum(page: Page, asked: ask.Ask, found: Release) -> None:
+    ask.show_measured(page.view, found, page.units)
+    left, right = st.columns([3, 2])
+    with left:
+        page.chart(
+            of_release(draw.spectrum, page, asked),
+            "orbits_spectrum",
+            alt="Spectrum of the motion over orders, ½× and 1× marked.",
+            caption="Of X + jY over the last quarter, Hann window; negative orders turn against "
+            "the shaft.",
+        )
+    with right:
+        page.chart(
+            of_release(draw.once_a_revolution, page, asked),
+            "orbits_points",
+            alt="Places of the journal once a revolution.",
+            caption="Once a revolution (Poincaré): synchronous one point, exact half-speed whirl "
+            "two.",
+        )
+
+
+def run_up(page: Page) -> None:
+    view, units = page.view, page.units
+    if (run := ask.ask_run_up(view)) is not None:
+        page.alone().chart(
+            lambda _, run=run: draw.waterfall(run, units), "orbits_waterfall",
+            alt="Spectra over running speed: imbalance at 1×, whirl near ½× past the "
+            "onset.",
+            caption=ask.run_up_caption(view),
+        )  # fmt: skip
+
+
+def limit_cycles(page: Page) -> None:
+    units = page.units
+    if (branch := ask.ask_cycles(page.view)) is not None:
+        ask.say_cycles(branch, units)
+        page.alone().chart(
+            lambda v, branch=branch: draw.cycles(branch, ask.swept(branch), v.speed, units),
+            "orbits_cycles",
+            alt="Size of the limit cycles over speed, stable and unstable, and two sweeps.",
+            caption="Without imbalance: harmonic balance, stability by Floquet. At the "
+            "onset ȧ = (Re λ) a + ℓ (a/C)² a decides.",
+        )  # fmt: skip
+
+
+def onset_three_ways(page: Page) -> None:
+    units = page.units
+    if (three := ask.ask_onsets(page.view)) is not None:
+        ask.say_onsets(three[0], units)
+        ask.with_onset(page).chart(
+            lambda v: draw.onset_growth(*ask.three_onsets(v), units), "orbits_onset",
+            alt="Growth rate over speed: eigenvalues as a line, measured rates as points.",
+            caption="Each point: 16 revolutions of the nonlinear motion after a kick of "
+            "C/10000, its exponentials fitted. Without imbalance. Eqs. 5.38, 5.45 to 5.50.",
+        )  # fmt: skip
+
+
+show(
     "Nonlinear orbits",
     "Let the journal go and watch: its motion on the film's full force, the linear theory beside "
     "it.",
+    content,
     follows=False,
-) as drawn:
-    view, units = drawn.view, drawn.units
-    answer = st.container()
-    asked = ask.choose_release(view)
-    page, found = ask.try_out(drawn, asked)
-    with answer:
-        ask.say_outcome(view, asked, found, units)
-    TABS = ["Orbit", "In time", "Spectrum", "Run-up", "Limit cycles", "Onset three ways"]
-    orbit, time, spectrum, run_up, cycles, onset = st.tabs(
-        TABS, on_change="rerun", key="orbits_tab"
-    )
-
-    def chart(draw_release, key, alt, caption):
-        shown = lambda v: draw_release(ask.let_go(v, asked), units)  # noqa: E731
-        page.chart(shown, f"orbits_{key}", alt=alt, caption=caption)
-
-    if orbit.open:
-        left, right = orbit.columns([4, 5])
-        with left:
-            chart(
-                draw.orbit, "path",
-                "The journal's path in its clearance circle, with an animation.",
-                "Play it, or pull the slider. Blue: M ẍ = F(x, ẋ) + load + imbalance (Eq. 5.1, "
-                "forward); purple: the linear theory from the same start (Eq. 5.38).",
-            )  # fmt: skip
-        with right:
-            chart(
-                draw.over_time, "time",
-                "X and Y of the journal over revolutions, and the linear ones.",
-                "X along the load, Y at 90° with the rotation. The linear motion ends where it "
-                "leaves the bearing.",
-            )  # fmt: skip
-    if time.open:
-        left, right = time.columns(2)
-        with left:
-            chart(
-                draw.growth, "growth", "Distance from rest over revolutions, logarithmic.",
-                "Largest distance over each two revolutions; dashed: e^(Re λ t). Eq. 5.38.",
-            )  # fmt: skip
-        with right:
-            chart(
-                draw.film, "film", "Thinnest film over revolutions.",
-                "Thinnest film around the journal, h = C(1 − ε). Eq. 5.19.",
-            )  # fmt: skip
-    if spectrum.open:
-        with spectrum:
-            ask.show_measured(view, found, units)
-        left, right = spectrum.columns([3, 2])
-        with left:
-            chart(
-                draw.spectrum, "spectrum", "Spectrum of the motion over orders, ½× and 1× marked.",
-                "Of X + jY over the last quarter, Hann window; negative orders turn against the "
-                "shaft.",
-            )  # fmt: skip
-        with right:
-            chart(
-                draw.once_a_revolution, "points", "Places of the journal once a revolution.",
-                "Once a revolution (Poincaré): synchronous one point, exact half-speed whirl two.",
-            )  # fmt: skip
-    if run_up.open:
-        with run_up:
-            if (run := ask.ask_run_up(view)) is not None:
-                page.alone().chart(
-                    lambda _, run=run: draw.waterfall(run, units), "orbits_waterfall",
-                    alt="Spectra over running speed: imbalance at 1×, whirl near ½× past the "
-                    "onset.",
-                    caption=ask.run_up_caption(view),
-                )  # fmt: skip
-    if cycles.open:
-        with cycles:
-            if (branch := ask.ask_cycles(view)) is not None:
-                ask.say_cycles(branch, units)
-                page.alone().chart(
-                    lambda v, branch=branch: draw.cycles(branch, ask.swept(branch), v.speed, units),
-                    "orbits_cycles",
-                    alt="Size of the limit cycles over speed, stable and unstable, and two sweeps.",
-                    caption="Without imbalance: harmonic balance, stability by Floquet. At the "
-                    "onset ȧ = (Re λ) a + ℓ (a/C)² a decides.",
-                )  # fmt: skip
-    if onset.open:
-        with onset:
-            if (three := ask.ask_onsets(view)) is not None:
-                ask.say_onsets(three[0], units)
-                ask.with_onset(page).chart(
-                    lambda v: draw.onset_growth(*ask.three_onsets(v), units), "orbits_onset",
-                    alt="Growth rate over speed: eigenvalues as a line, measured rates as points.",
-                    caption="Each point: 16 revolutions of the nonlinear motion after a kick of "
-                    "C/10000, its exponentials fitted. Without imbalance. Eqs. 5.38, 5.45 to 5.50.",
-                )  # fmt: skip
-    page.results("onset_speed", "whirl_frequency", "margin", "damping_ratio")
+)

@@ -160,14 +160,15 @@ class Equations:
         return states[..., 4:6] if self.flexible else states[..., :2]
 
     def journal_velocity(self, angles: Array, states: Array) -> Array:
-        """Return the journal's velocities in states at angles of rotation, in CΩ_0."""
+        """Return the journal's velocities in states at angles of rotation [m/s]."""
+        unit = self.C * self.first
         if not self.flexible:
-            return states[:, 2:4]
+            return states[:, 2:4] * unit
         if not self.massless:
-            return states[:, 6:8]
+            return states[:, 6:8] * unit
         motion, nu = self.motion(), self.speed(angles) / self.first
         rates = [motion(state, angle) for state, angle in zip(states, angles, strict=True)]
-        return np.array(rates)[:, 4:6] * nu[:, None]
+        return np.array(rates)[:, 4:6] * nu[:, None] * unit
 
 
 def resting(machine: Machine, position: Array) -> Start:

@@ -16,6 +16,7 @@ import math
 import numbers
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -60,8 +61,8 @@ class Transient:
         t [s].
     journal, disk : array, (n, 2)
         Positions in X, Y [m]; the disk's with its static sag. Equal for a rigid shaft.
-    journal_velocity, disk_velocity : array, (n, 2)
-        Velocities in X, Y [m/s].
+    disk_velocity : array, (n, 2)
+        The disk's velocity in X, Y [m/s].
     speed : array, (n,)
         Running speed, Ω [rad/s].
     angle : array, (n,)
@@ -71,10 +72,18 @@ class Transient:
     time: Array
     journal: Array
     disk: Array
-    journal_velocity: Array
     disk_velocity: Array
     speed: Array
     angle: Array
+    _journal_velocity: Callable[[], Array]
+
+    @cached_property
+    def journal_velocity(self) -> Array:
+        """The journal's velocity in X, Y [m/s], (n, 2); computed when first asked for.
+
+        Without journal mass it is solved from the film's force, sample by sample.
+        """
+        return self._journal_velocity()
 
 
 class TransientError(RuntimeError):
@@ -238,10 +247,10 @@ def _transient(model: Equations, angles: Array, states: Array) -> Transient:
         time=model.time(angles),
         journal=model.journal(states) * C,
         disk=states[:, :2] * C,
-        journal_velocity=model.journal_velocity(angles, states) * unit,
         disk_velocity=states[:, 2:4] * unit,
         speed=model.speed(angles),
         angle=angles,
+        _journal_velocity=partial(model.journal_velocity, angles, states),
     )
 
 

@@ -9,6 +9,7 @@ from collections import OrderedDict
 from collections.abc import Callable, Hashable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import fields, is_dataclass
+from functools import partial
 from typing import Generic, TypeVar, cast
 
 import numpy as np
@@ -162,8 +163,9 @@ def size_of(result: object) -> int:
         return sum(size_of(getattr(result, item.name)) for item in fields(result))
     if isinstance(result, Mapping):
         return sum(size_of(item) for item in cast("Mapping[object, object]", result).values())
-    if isinstance(result, tuple | list):
-        return sum(size_of(item) for item in cast("list[object]", result))
+    if isinstance(result, tuple | list | partial):
+        held = result.args if isinstance(result, partial) else cast("list[object]", result)
+        return sum(size_of(item) for item in held)
     return 64
 
 

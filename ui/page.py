@@ -1,7 +1,6 @@
 """The frame of every page: title, navigation, sidebar, and means to show a machine's results."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -65,6 +64,14 @@ class Page:
         self.follows.charts[chart_key(key)] = draw
         st.caption(caption)
 
+    def tabs(self, key: str, contents: Mapping[str, Callable[["Page"], object]]) -> None:
+        """Show tabs by their labels, of which only the open one's content is drawn."""
+        tabs = st.tabs(list(contents), on_change="rerun", key=key)
+        for tab, draw in zip(tabs, contents.values(), strict=True):
+            if tab.open:
+                with tab:
+                    draw(self)
+
     def alone(self) -> "Page":
         """Return the page without the pinned machine, for what is too long to compute twice."""
         return replace(self, baseline=None)
@@ -75,18 +82,20 @@ class Page:
         self.follows.rows.append(keys)
 
 
-@contextmanager
-def framed(title: str, sentence: str, *, follows: bool = True) -> Iterator[Page]:
-    """Draw a page's frame and give its machine; stop where the inputs make none.
+def show(
+    title: str, sentence: str, content: Callable[[Page], None], *, follows: bool = True
+) -> None:
+    """Draw a page: its frame, then its content, which alone is drawn anew where a slider moved.
 
-    Its charts and results follow a held thumb by themselves, unless `follows` is false: then the
-    whole page does, for charts that take long and show their progress.
+    Charts and results follow a held thumb by themselves, unless `follows` is false: then the whole
+    page runs, for charts that take long and show their progress.
     """
     with gate.PAGES.through():
-        yield _begin(title, sentence, follows=follows)
+        _frame(title, sentence)
+        (st.fragment(_content) if follows else _content)(content, follows=follows)
 
 
-def _begin(title: str, sentence: str, *, follows: bool) -> Page:
+def _frame(title: str, sentence: str) -> None:
     st.set_page_config(
         page_title=f"{title} · rotorcalc",
         page_icon=_ICON,
@@ -95,31 +104,47 @@ def _begin(title: str, sentence: str, *, follows: bool) -> Page:
     )
     st.html(_STYLE)
     kept = state()
+    kept.frame += 1
     kept.arriving = kept.page != title
     with st.sidebar:
         sidebar.draw_presets()
         compare.draw_buttons()
         sidebar.draw_inputs()
+        share.draw()
     kept.page = title
-    write_address_bar()
     _navigation()
     st.header(title, anchor=False)
     st.markdown(sentence)
+
+
+def _content(content: Callable[[Page], None], *, follows: bool) -> None:
+    with gate.PAGES.through():
+        content(_page(follows=follows))
+
+
+def _page(*, follows: bool) -> Page:
+    """Return the page's machine and draw what depends on it everywhere; stop where there is none.
+
+    A fragment may write into the sidebar where it has done so when the whole page ran; the feed,
+    through which a better value comes, is written in any case.
+    """
+    kept = state()
+    write_address_bar()
     for problem in kept.problems:
         st.warning(problem)
     try:
         view = view_of(kept.values)
         baseline = None if kept.baseline is None else view_of(kept.baseline)
     except ValueError as error:
+        with st.sidebar:
+            show_feed(None)
         st.error(f"{error}", title="These inputs make no machine")
         st.stop()
     kept.drawn = Drawn(dict(kept.values), baseline, kept.units, dark=is_dark())
     with st.sidebar:
-        share.draw(view, baseline, kept.units)
         checks.draw(view)
         st.caption(version.label())
-        if follows:
-            show_feed(kept.drawn)
+        show_feed(kept.drawn if follows else None)
     compare.draw_differences(kept.units)
     return Page(view=view, baseline=baseline, units=kept.units, follows=kept.drawn)
 

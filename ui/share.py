@@ -1,5 +1,6 @@
 """Share and keep: link, machine file, tables and report, each built when asked for."""
 
+from contextlib import suppress
 from urllib.parse import urlencode, urlsplit, urlunsplit
 
 import streamlit as st
@@ -9,10 +10,10 @@ from rotorcalc.figures.units import Units
 from ui import link
 from ui.inputs import speeds_of, values_of
 from ui.state import state
-from ui.view import View
+from ui.view import View, view_of
 
 
-def draw(view: View, baseline: View | None, units: Units) -> None:
+def draw() -> None:
     """Draw the popover with all that leaves or enters the program."""
     popover = st.popover("Share and keep", width="stretch", key="share", on_change="rerun")
     if not popover.open:
@@ -21,7 +22,10 @@ def draw(view: View, baseline: View | None, units: Units) -> None:
         address = _link()
         st.caption("A link to this machine")
         st.code(address, language=None, wrap_lines=True)
-        _downloads(view, baseline, units, address)
+        kept = state()
+        with suppress(ValueError):  # no machine: said on the page
+            baseline = None if kept.baseline is None else view_of(kept.baseline)
+            _downloads(view_of(kept.values), baseline, kept.units, address)
         st.file_uploader("Load a machine (JSON)", type="json", key="upload", on_change=_load)
 
 

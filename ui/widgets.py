@@ -17,7 +17,7 @@ from rotorcalc.figures import Chart, themed
 from rotorcalc.figures.units import Units
 from ui import settings
 from ui.follow import Drawn
-from ui.inputs import Input, Values, input_named
+from ui.inputs import INPUTS, Input, Values, input_named
 from ui.state import mirror, state
 
 
@@ -50,10 +50,17 @@ def show_chart(chart: Chart, *, key: str, alt: str) -> None:
         _live().show_chart(drawn, key=chart_key(key), config=config, alt=alt)
 
 
-def show_feed(page: Drawn) -> None:
-    """Let a page's charts and results follow its sliders while they are held."""
-    if settings.live() == "drag":
-        _live().show_feed(page, state().token)
+def show_feed(page: Drawn | None) -> None:
+    """Let sliders move what is drawn here, and charts and results follow them while held."""
+    if settings.live() == "off" or state().typed:
+        return
+    kept = state()
+    units = kept.units
+    _live().show_feed(
+        page if settings.live() == "drag" else None, kept.token, kept.frame,
+        {key: _sent(item, _shown(item, kept.values, units)) for key, item in INPUTS.items()},
+        lambda name, value, held: _moved(name, units, value, held=held),
+    )  # fmt: skip
 
 
 def chart_key(key: str) -> str:
@@ -108,22 +115,29 @@ def _live() -> ModuleType:
 
 
 def _live_sliders(group: str, items: Sequence[Input]) -> None:
-    live, values, units = _live(), state().values, state().units
+    live, kept = _live(), state()
+    values, units = kept.values, kept.units
 
     def slider(item: Input) -> object:
         low, high = item.shown(item.low, units), item.shown(item.high, units)
         step = item.step if item.log else _round_step(item.shown(item.low + item.step, units) - low)
         return live.Slider(
-            item.key, item.name(units), item.help, _shown(item, values, units),
+            item.key, item.name(units), item.help, _sent(item, _shown(item, values, units)),
             low, high, step, item.log, item.infinite,
         )  # fmt: skip
 
     live.show_sliders(
         [slider(item) for item in items],
         key=f"inputs_{group}_{units.name}",
+        frame=kept.frame,
         on_move=lambda name, value, held: _moved(name, units, value, held=held),
         while_held=settings.live() == "drag",
     )
+
+
+def _sent(item: Input, shown: float) -> float | str:
+    """Return a shown value as a live slider gets it, which knows the last one by its word."""
+    return item.infinite if math.isinf(shown) else shown
 
 
 def _moved(name: str, units: Units, value: object, *, held: bool) -> None:

@@ -155,7 +155,8 @@ def test_what_is_moved_while_held_is_what_plotly_draws(app: AppPage, page: str) 
     app.open(page)
     _held(app, "Radial clearance", 0.02)
     app.page.wait_for_function("() => document.body.classList.contains('rotorcalc-held')")
-    app.page.wait_for_timeout(500)  # the last value is drawn
+    app.page.wait_for_function("() => !document.querySelector('.live-slider[data-busy]')")
+    app.page.wait_for_timeout(500)  # the last value, which is there, is drawn
     moved, numbers = _picture(app), app.metrics()
     with app.run():
         app.page.mouse.up()

@@ -11,7 +11,7 @@ import pytest
 
 from tests.deploy.conftest import Site
 from tests.deploy.test_replicas import awaited
-from tests.load.client import FEED, Visitor
+from tests.load.client import Visitor
 from tests.load.replicas import Replica
 
 
@@ -73,7 +73,7 @@ async def test_what_is_no_value_moves_nothing(server: Replica) -> None:
 async def test_a_page_asks_one_thing_at_a_time(server: Replica) -> None:
     async with Visitor(server.address) as visitor:
         await visitor.open()
-        feed = json.loads(visitor._components(FEED)[0].json)
+        feed = visitor.feed()
         port = urlsplit(server.address).port
 
         def ask(value: int) -> int:

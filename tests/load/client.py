@@ -26,6 +26,7 @@ from websockets.exceptions import ConnectionClosed
 
 TIMEOUT = 30.0  # seconds for a run; one takes a few hundredths
 SLIDERS, FEED = "rotorcalc.sliders", "rotorcalc.feed"
+_SUCCESS = ForwardMsg.FINISHED_SUCCESSFULLY, ForwardMsg.FINISHED_FRAGMENT_RUN_SUCCESSFULLY
 # As streamlit/components/v2/bidi_component/main.py names the widget of a component's triggers.
 _TRIGGERS = "$$STREAMLIT_INTERNAL_KEY_{}__events"
 
@@ -68,6 +69,8 @@ class Visitor:
         self._widgets: dict[str, WidgetState] = {}
         self._shown: dict[tuple[int, ...], Any] = {}
         self._touched: set[tuple[int, ...]] = set()
+        self._parts: dict[tuple[int, ...], str] = {}  # the fragment that drew what is shown
+        self._run_parts: list[str] = []  # the fragments that run, none where the whole page does
         self._answers: HTTPConnection | None = None
         self._socket: ClientConnection | None = None
         self._reading: asyncio.Task[None] | None = None
@@ -117,9 +120,8 @@ class Visitor:
         if (found := self.live_slider(label)) is not None:
             number = time.perf_counter() * 1e3
             sent = {"name": found["name"], "value": value, "held": held, "number": number}
-            await self._trigger(found["group"], sent)
-            found = self.live_slider(label)
-            if found is None or number != found["echo"]:
+            await self._trigger(*self._components(FEED)[0], sent)
+            if number != self.feed()["echo"]:
                 raise self._failed(f"{label}: the answer is to something else")
             return
         own = next(e.slider for e in self.elements("slider") if e.slider.label.startswith(label))
@@ -142,7 +144,7 @@ class Visitor:
 
     def ask(self, name: str, value: float | str, token: str = "") -> tuple[int, bytes]:
         """Ask the page's feed, with its token or another; return status and body."""
-        feed = json.loads(self._components(FEED)[0].json)
+        feed = self.feed()
         if self._answers is None:
             parts = urlsplit(self.address)
             host, port = self._at.get("host", parts.hostname), self._at.get("port", parts.port)
@@ -162,7 +164,12 @@ class Visitor:
         """Open one of the page's tabs."""
         row = next(row for row, labels in self.tab_rows() if label in labels)
         self._widgets[row] = WidgetState(id=row, string_value=label)
-        await self._run()
+        part = next(
+            self._parts[path]
+            for path, block in self._shown.items()
+            if not isinstance(block, Element) and block.tab_container.id == row
+        )
+        await self._run(part=part)
 
     async def rerun(self) -> None:
         """Run the page anew."""
@@ -184,13 +191,14 @@ class Visitor:
         return next((item for item in sliders if item["label"].startswith(label)), None)
 
     def live_sliders(self) -> list[dict[str, Any]]:
-        """Return what every live slider shows, with the group that holds it."""
-        groups = [(group, json.loads(group.json)) for group in self._components(SLIDERS)]
-        return [
-            item | {"group": group, "echo": common["echo"]}
-            for group, (sliders, common) in groups
-            for item in sliders
-        ]
+        """Return what every live slider shows."""
+        values = json.loads(self._components(FEED)[0][0].json)[1]
+        groups = (json.loads(group.json)[0] for group, _ in self._components(SLIDERS))
+        return [item | {"value": values[item["name"]]} for group in groups for item in group]
+
+    def feed(self) -> dict[str, Any]:
+        """Return what the page's feed knows: where and how to ask, what was answered last."""
+        return json.loads(self._components(FEED)[0][0].json)[0]
 
     def tab_rows(self) -> list[tuple[str, list[str]]]:
         """Return the page's rows of tabs: the id of each and its labels."""
@@ -209,9 +217,13 @@ class Visitor:
         said += [f"{e.metric.label} {e.metric.body}" for e in self.elements("metric")]
         return said
 
-    def _components(self, name: str) -> list[BidiComponent]:
-        components = (element.bidi_component for element in self.elements("bidi_component"))
-        return [component for component in components if component.component_name == name]
+    def _components(self, name: str) -> list[tuple[BidiComponent, str]]:
+        """Return the components of a name, each with the fragment that drew it."""
+        return [
+            (item.bidi_component, self._parts[path])
+            for path, item in sorted(self._shown.items())
+            if isinstance(item, Element) and item.bidi_component.component_name == name
+        ]
 
     def _labels(self, row: tuple[int, ...]) -> list[str]:
         return [
@@ -244,19 +256,19 @@ class Visitor:
             self.cookies |= {key: morsel.value for key, morsel in SimpleCookie(header).items()}
         self._reading = asyncio.create_task(self._read(self._socket))
 
-    async def _trigger(self, component: BidiComponent, value: dict[str, Any]) -> None:
+    async def _trigger(self, component: BidiComponent, part: str, value: dict[str, Any]) -> None:
         key = _TRIGGERS.format(component.id)
         sent = json.dumps([{"event": "moved", "value": value}])
-        await self._run(WidgetState(id=key, json_trigger_value=sent))
+        await self._run(WidgetState(id=key, json_trigger_value=sent), part=part)
 
-    async def _run(self, *triggers: WidgetState) -> None:
-        """Ask for a run of the page, and wait until it has ended."""
+    async def _run(self, *triggers: WidgetState, part: str = "") -> None:
+        """Ask for a run of the page, or of a fragment of it, and wait until it has ended."""
         if self._socket is None:
             raise self._failed("not connected")
         message = BackMsg()
         asked = message.rerun_script
         asked.query_string, asked.page_script_hash = self.query, self._page_hash
-        asked.page_name = self._page_name
+        asked.page_name, asked.fragment_id = self._page_name, part
         asked.widget_states.CopyFrom(WidgetStates(widgets=[*self._widgets.values(), *triggers]))
         asked.context_info.url = f"{self.address}/{self._page_name}"
         asked.context_info.color_scheme = "light"
@@ -291,6 +303,7 @@ class Visitor:
             self._place(message)
         elif kind == "new_session":
             self._touched.clear()
+            self._run_parts = list(message.metadata.run.fragment_ids)
             self.session_id = message.new_session.initialize.session_id or self.session_id
         elif kind == "navigation":
             self._page_hash = message.navigation.page_script_hash
@@ -310,15 +323,17 @@ class Visitor:
             if delta.new_element.WhichOneof("type") == "exception":
                 self._failed(f"exception: {delta.new_element.exception.message}")
         self._touched.add(path)
+        self._parts[path] = delta.fragment_id
 
     def _end(self, status: int) -> None:
         """Forget what the run has not drawn again, and let the next action begin."""
         if status == ForwardMsg.FINISHED_EARLY_FOR_RERUN:
             return
-        if status != ForwardMsg.FINISHED_SUCCESSFULLY:
+        if status not in _SUCCESS:
             self._failed(f"run ended with {ForwardMsg.ScriptFinishedStatus.Name(status)}")
         for path in self._shown.keys() - self._touched:
-            del self._shown[path]
+            if not self._run_parts or self._parts[path] in self._run_parts:
+                del self._shown[path]
         self.tally.runs += 1
         self.tally.under_way = 0
         self._finished.set()

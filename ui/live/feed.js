@@ -1,4 +1,7 @@
-// The feed: what follows a held thumb, past Streamlit's running and drawing of the whole page.
+// The feed: values that are let go, and what follows a held thumb, past Streamlit's running and drawing.
+//
+// A slider that is let go sends by the feed, for what runs then is the part of the page that holds the feed,
+// and not the sidebar; the answer has every slider's value.
 //
 // A held slider asks the server what a value would give: charts, redrawn, and numbers, overwritten
 // where they stand; all that does not follow is dimmed. When the thumb has been let go and the whole
@@ -21,8 +24,14 @@ class Feed {
     this.written = new Map(); // text nodes: what the page said, and what is written over it
   }
 
+  update(common, values, send) {
+    Object.assign(this, common, { values, send });
+    for (const { slider } of document.querySelectorAll(".live-slider")) slider.rest();
+  }
+
   // Ends when the answer is drawn; false where there is none to be had.
   async follow(name, value) {
+    if (!this.follows) return false;
     const asked = new URLSearchParams({ name, value });
     let answer;
     try {
@@ -31,7 +40,7 @@ class Feed {
       return false;
     }
     if (answer.status !== 200) {
-      window.rotorcalcFeed = undefined; // not known there: sliders send through Streamlit
+      this.follows = false; // not known there: sliders send through Streamlit
       return false;
     }
     const { charts, rows } = await answer.json();
@@ -65,7 +74,7 @@ class Feed {
 
 const feeds = new WeakMap();
 
-export default function ({ data, parentElement }) {
+export default function ({ data, parentElement, setTriggerValue }) {
   if (!document.getElementById("live-feed-style")) {
     const style = Object.assign(document.createElement("style"), { id: "live-feed-style" });
     style.textContent = STYLE;
@@ -76,8 +85,9 @@ export default function ({ data, parentElement }) {
     const place = Object.assign(document.createElement("div"), { className: "live-feed", hidden: true });
     parentElement.replaceChildren(place);
   }
-  const feed = Object.assign(feeds.get(parentElement), data);
+  const feed = feeds.get(parentElement);
   window.rotorcalcFeed = feed;
+  feed.update(...data, setTriggerValue);
   return () => {
     if (window.rotorcalcFeed === feed) window.rotorcalcFeed = undefined;
   };

@@ -1,12 +1,14 @@
-"""What follows a held thumb: charts and numbers, past all of Streamlit's own running and drawing.
+"""What joins sliders and page: values that are let go, and what follows a held thumb.
 
-While a thumb is held the browser asks the server at `path()` for what a value would give, with the
-token of the page's session, and draws the answer. Nothing of it is kept: when the thumb is let go
-its value comes through Streamlit, as any other.
+A value that is let go comes through Streamlit, and what runs is that part of the page in which the
+feed was shown: the sidebar is left as it stands. While a thumb is held the browser asks the server
+at `path()` for what a value would give, with the token of the page's session, past all of
+Streamlit's own running and drawing, and draws the answer. Nothing of that is kept.
 """
 
 import asyncio
 import gzip
+from collections.abc import Mapping
 from typing import Any, Protocol
 from weakref import WeakValueDictionary
 
@@ -19,6 +21,7 @@ from streamlit.url_util import make_url_path
 from ui import gate
 from ui.live import assets
 from ui.live.chart import encoded
+from ui.live.sent import Move, echo, taken
 
 _TOKEN = "x-rotorcalc-page"  # noqa: S105 - a header's name
 _KEY = "live_feed"
@@ -42,10 +45,22 @@ _pages: WeakValueDictionary[str, Page] = WeakValueDictionary()
 _asking: set[str] = set()
 
 
-def show(page: Page, token: str) -> None:
-    """Let a page's charts and numbers follow its sliders; the token is its session's secret."""
-    _pages[token] = page
-    _component(key=_KEY, data={"address": path(), "token": token})
+def show(
+    page: Page | None, token: str, frame: int, values: Mapping[str, object], on_move: Move
+) -> None:
+    """Let sliders send through here, and a page's charts and numbers follow them, where there are.
+
+    `values` are the sliders' by name, as they show them; `token` is the session's secret, and
+    `frame` the number of the frame that holds the sliders.
+    """
+    if page is not None:
+        _pages[token] = page
+    common = {
+        "address": path(), "token": token, "frame": frame, "echo": echo(),
+        "follows": page is not None,
+    }  # fmt: skip
+    # A list: Streamlit would look through a dictionary for data frames, at some cost.
+    _component(key=_KEY, data=[common, values], on_moved_change=lambda: taken(_KEY, on_move))
 
 
 def path() -> str:

@@ -1,9 +1,11 @@
 // Sliders that send while they move, each with a field to type its value in.
 //
-// While the thumb is held its values go to the page's feed, where there is one. Else, and when it is let
-// go, it sends {name, value, held, number}, and the server answers with `number` as `echo`. The next value goes
-// out only when the last one's answer is drawn: a slow server makes fewer updates, never a queue. The last
-// value always goes out, with held = false.
+// While the thumb is held its values go to the page's feed, where that follows. Else, and when it is let go, it
+// sends {name, value, held, number}, and the server answers with `number` as `echo`. It sends by the feed, and
+// by itself where there is none yet, or where something runs: that ends then, and the whole page runs.
+//
+// The next value goes out only when the last one's answer is drawn: a slow server makes fewer updates, never a
+// queue. The last value always goes out, with held = false.
 
 const STYLE = `
 .live-slider {display: grid; grid-template-columns: 1fr 4.6rem; gap: 0.2rem 0.6rem; align-items: center;
@@ -43,10 +45,9 @@ function scale({ low, high, step, log, beyond }) {
   };
 }
 
-function resting() {
+function running() {
   const app = document.querySelector('[data-testid="stApp"]');
-  const state = app?.dataset.testScriptState ?? "notRunning";
-  return state === "notRunning" && !window.rotorcalcDrawing;
+  return (app?.dataset.testScriptState ?? "notRunning") !== "notRunning";
 }
 
 class Slider {
@@ -54,6 +55,7 @@ class Slider {
     const id = `live-slider-${crypto.randomUUID?.() ?? Math.random()}`;
     this.root = document.createElement("div");
     this.root.className = "live-slider";
+    this.root.slider = this;
     this.label = Object.assign(document.createElement("label"), { htmlFor: id });
     this.field = Object.assign(document.createElement("input"),
       { type: "text", inputMode: "decimal", autocomplete: "off" });
@@ -85,7 +87,17 @@ class Slider {
     this.range.ariaLabel = data.label;
     this.range.ariaDescription = data.help;
     this.field.ariaLabel = `${data.label}, typed`;
-    if (!this.out && !this.grasped) this.show(data.value);
+    this.rest();
+  }
+
+  // The value as the server knows it: the feed was drawn after the sliders of its frame.
+  get value() {
+    const feed = window.rotorcalcFeed;
+    return feed?.frame === this.data.frame ? feed.values[this.data.name] : this.data.value;
+  }
+
+  rest() {
+    if (!this.out && !this.grasped) this.show(this.value);
   }
 
   show(value) {
@@ -130,7 +142,7 @@ class Slider {
       if (!message.held && this.waiting === null) window.rotorcalcFeed?.settle();
     }
     delete this.root.dataset.busy;
-    if (!this.grasped) this.show(this.data.value);
+    this.rest();
   }
 
   // While the thumb is held, and for the value at which it is let go where that is one more.
@@ -145,10 +157,12 @@ class Slider {
   // Ends when Streamlit's answer is drawn, or after ten seconds: it can be lost with its connection.
   ask(message) {
     const number = performance.now();
-    this.send("moved", { ...message, name: this.data.name, number });
+    const send = running() ? this.send : (window.rotorcalcFeed?.send ?? this.send);
+    send("moved", { ...message, name: this.data.name, number });
     return new Promise((resolve) => {
       const look = () => {
-        const answered = this.data.echo === number && resting();
+        const echoed = this.data.echo === number || window.rotorcalcFeed?.echo === number;
+        const answered = echoed && !running() && !window.rotorcalcDrawing;
         if (answered || performance.now() - number > 10000) resolve();
         else requestAnimationFrame(look);
       };
