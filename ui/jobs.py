@@ -1,7 +1,7 @@
 """Heavy computations: some at once, in processes of their own, the others in line; results kept.
 
 Ten visitors' maps at once would come ten times later. Here they come one after the other, each as
-soon as it can, and who waits is told how many are ahead.
+soon as it can, and who waits is told how many are ahead. Short ones do not wait behind long ones.
 """
 
 import threading
@@ -98,23 +98,27 @@ class Turns:
             return
         place = None if _nobody_looks() else st.empty()
         while ahead:
-            if place is not None:  # where a visitor has gone on meanwhile, this ends the run
-                place.info(_words(ahead))
             with self._changed:
                 self._changed.wait(_LOOK)
                 ahead = self.ahead(ticket)
+            if ahead and place is not None:  # where a visitor has gone on meanwhile, this ends it
+                place.info(_words(ahead))
         if place is not None:
             place.empty()
 
 
-TURNS = Turns(settings.heavy_jobs())
+# What a visitor waits for as for a page has a process for itself; what takes seconds stands back.
+SHORT = Turns(1, hire=partial(Worker, nicer=0))
+LONG = Turns(settings.heavy_jobs())
 
 
 class Kept(Generic[T]):
     """A module's heavy function, computed in its turn; its last results are kept up to a size."""
 
-    def __init__(self, work: Callable[..., T], *, entries: int, megabytes: float) -> None:
-        self._work = work
+    def __init__(
+        self, work: Callable[..., T], *, entries: int, megabytes: float, turns: Turns = LONG
+    ) -> None:
+        self._work, self._turns = work, turns
         self._entries, self._bytes = entries, megabytes * 1e6
         self._found: OrderedDict[object, tuple[T, int]] = OrderedDict()
         self._lock = threading.Lock()
@@ -123,7 +127,7 @@ class Kept(Generic[T]):
         """Return a kept result, or compute it when its turn has come, and tell the progress."""
         if (found := self._look(args)) is not None:
             return found[0]
-        with gate.PAGES.aside(), TURNS.turn() as worker:
+        with gate.PAGES.aside(), self._turns.turn() as worker:
             # Somebody ahead may have asked for the same.
             if (found := self._look(args)) is not None:
                 return found[0]

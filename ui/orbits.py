@@ -59,7 +59,9 @@ class Ask:
     revolutions: int
 
 
-_release = jobs.Kept(heavy.release, entries=48, megabytes=64)  # half a megabyte, at most four
+# Half a megabyte each, at most four.
+_release = jobs.Kept(heavy.release, entries=32, megabytes=24, turns=jobs.SHORT)
+_long_release = jobs.Kept(heavy.release, entries=16, megabytes=40)
 _run_up = jobs.Kept(heavy.run_up, entries=8, megabytes=16)
 _cycles = jobs.Kept(bifurcation, entries=16, megabytes=16)
 _three = jobs.Kept(heavy.three_onsets, entries=16, megabytes=4)
@@ -111,10 +113,11 @@ def _set_up(demo: Demo) -> None:
     _, st.session_state[_KICK], st.session_state[_REVOLUTIONS] = _DEMOS[demo]
 
 
-def let_go(view: View, ask: Ask) -> Release:
+def let_go(view: View, ask: Ask, tell: Progress | None = None) -> Release:
     """Return the release of a machine's journal."""
     ask = _affordable(view, ask)
-    return _release(view.machine, view.speed, ask.kick, ask.revolutions)
+    release = _long_release if ask.revolutions >= heavy.LONG else _release
+    return release(view.machine, view.speed, ask.kick, ask.revolutions, tell=tell)
 
 
 def _affordable(view: View, ask: Ask) -> Ask:
@@ -132,10 +135,7 @@ def try_out(page: Page, ask: Ask) -> tuple[Page, Release]:
     ask = _affordable(page.view, ask)
     bar = st.progress(0.0, "Integrating …") if ask.revolutions >= heavy.LONG else None
     try:
-        found = _release(
-            page.view.machine, page.view.speed, ask.kick, ask.revolutions,
-            tell=None if bar is None else bar.progress,
-        )  # fmt: skip
+        found = let_go(page.view, ask, None if bar is None else bar.progress)
     except (ValueError, TransientError) as error:
         st.error(f"{error}", title="This release cannot be computed")
         st.stop()

@@ -91,7 +91,8 @@ async def life(_: st.App) -> AsyncIterator[None]:
         heavy_jobs=settings.heavy_jobs(),
     )  # fmt: skip
     yield
-    jobs.TURNS.end()
+    for turns in (jobs.SHORT, jobs.LONG):
+        turns.end()
     log.event("stop")
 
 
@@ -101,7 +102,8 @@ def _warm() -> None:
     Otherwise each full collection goes through all objects of all imported modules, and every
     session waits for it.
     """
-    jobs.TURNS.begin()
+    for turns in (jobs.SHORT, jobs.LONG):
+        turns.begin()
     for name in _WARM:
         importlib.import_module(name)
     health.check()

@@ -22,7 +22,7 @@ from ui.heavy import Progress  # imported with all that will be asked for, while
 
 _ROOT = Path(__file__).parents[1]
 # Pages come first where both want the processor.
-_NICER = 5
+NICER = 5
 
 Order = tuple[int, Callable[..., Any], tuple[Any, ...], bool]
 Answer = tuple[Literal["at", "done", "failed"], Any]
@@ -33,11 +33,15 @@ class WorkerError(RuntimeError):
 
 
 class Worker:
-    """A process that computes one thing at a time, and is told so by one thread at a time."""
+    """A process that computes one thing at a time, and is told so by one thread at a time.
 
-    def __init__(self) -> None:
-        self._process = subprocess.Popen(
-            [sys.executable, "-m", "ui.worker"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+    `nicer` is by how much it stands back behind other processes.
+    """
+
+    def __init__(self, nicer: int = NICER) -> None:
+        command = [sys.executable, "-m", "ui.worker", f"{nicer:d}"]
+        self._process = subprocess.Popen(  # noqa: S603 - our own
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
             env=os.environ | {"PYTHONPATH": str(_ROOT)},
         )  # fmt: skip
         self._number = 0
@@ -122,11 +126,11 @@ class _Orders:
             os._exit(0)
 
 
-def main() -> None:
+def main(nicer: int) -> None:
     """Compute what is asked for on standard input, and answer on standard output."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the server's, which ends this by itself
     with suppress(AttributeError, PermissionError):  # not everywhere there, nor allowed
-        os.nice(_NICER)
+        os.nice(nicer)
     out = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # whatever prints
     orders = _Orders(sys.stdin.buffer)
@@ -158,4 +162,4 @@ def _write(stream: IO[bytes], message: object) -> None:
 
 
 if __name__ == "__main__":
-    main()
+    main(int(sys.argv[1]))

@@ -114,8 +114,7 @@ def test_who_would_wait_too_long_is_told_and_not_kept_waiting(monkeypatch) -> No
     assert said == [jobs.BUSY]
 
 
-def test_two_who_ask_for_the_same_at_once_compute_it_once(monkeypatch) -> None:
-    monkeypatch.setattr(jobs, "TURNS", Turns(1, hire=Here))
+def test_two_who_ask_for_the_same_at_once_compute_it_once() -> None:
     asked: list[int] = []
 
     def work(number: int) -> int:
@@ -123,7 +122,7 @@ def test_two_who_ask_for_the_same_at_once_compute_it_once(monkeypatch) -> None:
         time.sleep(0.05)
         return 2 * number
 
-    kept = Kept(work, entries=4, megabytes=1)
+    kept = Kept(work, entries=4, megabytes=1, turns=Turns(1, hire=Here))
     found: list[int] = []
     threads = [threading.Thread(target=lambda: found.append(kept(21))) for _ in range(4)]
     for thread in threads:
