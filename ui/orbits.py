@@ -72,7 +72,7 @@ _three = jobs.Kept(heavy.three_onsets, entries=16, megabytes=4)
 def choose_release(view: View) -> Ask:
     """Show the demonstrations, kick and length; return what is asked for."""
     st.session_state.setdefault(_KICK, 0.30)
-    st.session_state.setdefault(_REVOLUTIONS, 60)
+    st.session_state.setdefault(_REVOLUTIONS, 40)
     with st.container(horizontal=True, gap="small"):
         for demo, (label, _, _) in _DEMOS.items():
             st.button(

@@ -22,7 +22,7 @@ from ui.heavy import Progress  # imported with all that will be asked for, while
 
 _ROOT = Path(__file__).parents[1]
 # Pages come first where both want the processor.
-NICER = 5
+NICER = 10
 
 Order = tuple[int, Callable[..., Any], tuple[Any, ...], bool]
 Answer = tuple[Literal["at", "done", "failed"], Any]

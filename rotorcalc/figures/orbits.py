@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from rotorcalc.cycles import Bifurcation
 from rotorcalc.figures import plane, style, text
@@ -24,7 +24,7 @@ LINEAR = style.PURPLE
 UP, DOWN = style.GREEN, style.OCHRE
 _PLANE_HEIGHT = 680
 # Frames of an animation at most, points of a trail, revolutions that it reaches back.
-_FRAMES, _TRAIL, _REACH = 150, 64, 2.0
+_FRAMES, _TRAIL, _REACH = 120, 48, 2.0
 # Points of a line over time that a screen can tell apart.
 _MOST_POINTS = 6000
 _MARGIN = {"l": 64, "r": 16, "t": 16, "b": 96}
@@ -89,12 +89,11 @@ def orbit(let_go: Release, units: Units) -> Chart:
         },
     ]
     chart = plane.chart(
-        [*still, *steps[-1]], x, y, height=_PLANE_HEIGHT, showlegend=True,
+        [*still, *_moving(steps[-1])], x, y, height=_PLANE_HEIGHT, showlegend=True,
         margin={"l": 64, "r": 16, "t": 56, "b": 184},
     )  # fmt: skip
     chart = scrubbed(
-        chart, [[_change(trace) for trace in step] for step in steps],
-        labels=labels, active=len(labels) - 1, unit="", prefix="Revolution ",
+        chart, steps, labels=labels, active=len(labels) - 1, unit="", prefix="Revolution ",
     )  # fmt: skip
     return _placed(playable(chart, step=60, y=-0.33))
 
@@ -325,28 +324,44 @@ def _steady(let_go: Release, unit: Unit) -> list[Trace]:
 
 
 def _steps(let_go: Release, unit: Unit) -> tuple[list[list[Trace]], list[str]]:
-    """Return the moving traces at each step of the animation, and the steps' labels."""
-    n = len(let_go.motion.time)
-    per_revolution = (n - 1) / float(let_go.revolutions[-1])
+    """Return what moves of the moving traces at each step of the animation, and the steps' labels.
+
+    Half the digits are enough for a screen.
+    """
+    n, turns = len(let_go.motion.time), let_go.revolutions
     ends = np.unique(np.linspace(0, n - 1, min(_FRAMES, n)).astype(int))
-    back = np.linspace(_REACH * per_revolution, 0.0, _TRAIL)
-    journal, linear = unit.of(let_go.motion.journal), unit.of(let_go.linear)
-    steps: list[list[Trace]] = []
-    for end in ends:
-        at = np.unique(np.maximum(end - back, 0.0).astype(int))
-        steps.append([
-            plane.line(linear[at], "linear theory", LINEAR, dash="dash", width=1.6),
-            style.mark(linear[end, 1], linear[end, 0], "linear journal", LINEAR,
-                       showlegend=False, opacity=0.8),
-            plane.line(journal[at], "journal", style.JOURNAL, width=2.6),
-            style.mark(journal[end, 1], journal[end, 0], "now"),
-        ])  # fmt: skip
-    return steps, [f"{let_go.revolutions[end]:.1f}" for end in ends]
+    back = np.linspace(_REACH * (n - 1) / float(turns[-1]), 0.0, _TRAIL)
+    trails = np.maximum(ends[:, None] - back, 0.0).astype(int)
+    journal, linear = (
+        unit.of(points).astype(np.float32) for points in (let_go.motion.journal, let_go.linear)
+    )
+    steps = [
+        [_at(path[places]) for path in (linear, journal) for places in (trail, trail[-1:])]
+        for trail in trails
+    ]
+    return steps, [f"{turns[end]:.1f}" for end in ends]
 
 
-def _change(trace: Trace) -> Trace:
-    """Return what of a trace moves; half the digits are enough for a screen."""
-    return {axis: np.asarray(trace[axis], dtype=np.float32) for axis in ("x", "y")}
+def _moving(step: list[Trace]) -> list[Trace]:
+    """Return the moving traces at a step: trails of both journals, and where they are now."""
+    still = np.zeros((1, 2))
+    return [
+        trace | place
+        for trace, place in zip(
+            (
+                plane.line(still, "linear theory", LINEAR, dash="dash", width=1.6),
+                style.mark(0.0, 0.0, "linear journal", LINEAR, showlegend=False, opacity=0.8),
+                plane.line(still, "journal", style.JOURNAL, width=2.6),
+                style.mark(0.0, 0.0, "now"),
+            ),
+            step,
+            strict=True,
+        )
+    ]
+
+
+def _at(points: NDArray[np.float32]) -> Trace:
+    return {"x": points[:, 1], "y": points[:, 0]}
 
 
 def _placed(chart: Chart) -> Chart:

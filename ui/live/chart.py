@@ -39,9 +39,17 @@ def _array(value: Any) -> Any:
         raise TypeError(f"{type(value).__name__} in a chart")
     if value.dtype.kind != "f" or value.size <= _FEW:
         return value.tolist()
-    with np.errstate(over="ignore"):
-        single = value.astype(np.float32)
-    if np.any(np.isinf(single) & np.isfinite(value)):
-        single = value.astype(np.float64)
+    single = _single(value)
     spec = {"dtype": single.dtype.str[1:], "bdata": base64.b64encode(single.tobytes()).decode()}
     return spec if value.ndim == 1 else spec | {"shape": ",".join(map(str, value.shape))}
+
+
+def _single(value: np.ndarray) -> np.ndarray:
+    """Return an array in single precision, or in double where it does not fit."""
+    if value.dtype == np.float32:
+        return value
+    with np.errstate(over="ignore"):
+        single = value.astype(np.float32)
+    if np.isinf(single).any() and np.any(np.isinf(single) & np.isfinite(value)):
+        return value.astype(np.float64)
+    return single
