@@ -1,7 +1,7 @@
 """Where Streamlit meets the core: widgets to records, charts, the address bar, export.
 
-A page is a function of its `page.Page`: the machine and its results, and the methods that show them.
-`page.show` draws the navigation and the sidebar once, and the page anew at each move of a slider.
+A page is a function of its `page.Page`, which has the machine, its results, and the methods that
+show them. `page.show` draws navigation and sidebar, and the page anew at each move of a slider.
 """
 
 import os
