@@ -140,6 +140,33 @@ def test_preset_moves_the_live_sliders(app: AppPage) -> None:
     assert app.slider("Radial clearance").input_value() == "100"
 
 
+def test_the_sidebar_judges_a_moved_value_and_keeps_it_when_the_page_runs(app: AppPage) -> None:
+    """A moved slider draws the page alone: the sidebar's sliders were drawn before it."""
+    app.open("Machine")
+    panel = app.page.get_by_test_id("stSidebar").get_by_test_id("stExpander").last
+    expect(panel).to_contain_text("The model holds")
+    app.press("Radial clearance", "End")
+    expect(panel).to_contain_text("The model is strained")
+    assert app.query() == {"C": "500"}
+    for button in ("Pin this machine", "Unpin A"):
+        with app.run():
+            app.page.get_by_role("button", name=button).click()
+        assert app.slider("Radial clearance").input_value() == "500"
+    app.press("Radial clearance", "Home")
+    assert app.slider("Radial clearance").input_value() == "10"
+    assert app.query() == {"C": "10"}
+
+
+def test_a_slider_without_a_feed_sends_by_itself(app: AppPage) -> None:
+    """So does one that is moved before the page has been drawn, or while it computes."""
+    app.open("Equilibrium")
+    numbers = app.metrics()
+    app.page.evaluate("() => { window.rotorcalcFeed = undefined; }")
+    app.press("Radial clearance", "ArrowRight")
+    assert app.query() == {"C": "61"}
+    assert app.metrics() != numbers
+
+
 def test_a_bundle_that_does_not_load_is_said_on_the_page(stranger: AppPage) -> None:
     stranger.page.route("**/plotly-*.min.js", lambda route: route.abort())
     stranger.page.goto(f"{stranger.url}/Equilibrium")
