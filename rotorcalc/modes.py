@@ -304,32 +304,48 @@ def _bounded(step: ComplexArray, last: ComplexArray) -> ComplexArray:
 
 def _first_guesses(rotor: Rotor, K: Array, C: Array, flexible: bool) -> ComplexArray:
     """Return eigenvalues of the machine and of simpler ones, (..., m), none of them refined."""
-    slow = np.linalg.eigvals(np.linalg.solve(C + rotor.disk_damping * _I, -K))
-    found = [eigenvalues(rotor, K, C, flexible=flexible), slow.astype(complex)]
+    found = [eigenvalues(rotor, K, C, flexible=flexible), _slow(K, C + rotor.disk_damping * _I)]
     if flexible and not rotor.is_rigid and rotor.journal_mass > 0.0:
         found.append(np.linalg.eigvals(_massless_journals(rotor, K, C)).astype(complex))
     return np.concatenate(found, axis=-1)
+
+
+def _slow(K: Array, C: Array) -> ComplexArray:
+    """Return λ of K + λC: the roots of λ² det C + λ (K : adj C) + det K, (..., 2)."""
+
+    def both(A: Array, B: Array) -> Array:
+        return A[..., 0, 0] * B[..., 1, 1] - A[..., 0, 1] * B[..., 1, 0]
+
+    a, b, c = both(C, C), 0.5 * (both(K, C) + both(C, K)), both(K, K)
+    q = -b - np.copysign(np.sqrt(np.maximum(b * b - a * c, 0.0)), b)
+    swing = 1j * np.sqrt(np.maximum(a * c - b * b, 0.0))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.stack([(q + swing) / a, np.where(swing == 0.0, c / q, (q - swing) / a)], axis=-1)
 
 
 def _newton_step(
     rotor: Rotor, K: Array, C: Array, values: ComplexArray, flexible: bool
 ) -> ComplexArray:
     """Return −1/tr(W⁻¹ dW) = −det W/tr(adj W · dW) of the machine's impedance W at each λ."""
-    s = 1.0 / rotor.shaft_stiffness if flexible else 0.0
-    lam = values[..., None, None]
-    Z = K[..., None, :, :] + lam * C[..., None, :, :] + lam**2 * rotor.journal_mass * _I
-    dZ = C[..., None, :, :] + 2.0 * lam * rotor.journal_mass * _I
-    z = lam**2 * rotor.disk_mass + lam * rotor.disk_damping
+    s, m, lam = 1.0 / rotor.shaft_stiffness if flexible else 0.0, rotor.journal_mass, values
+    z = lam * (lam * rotor.disk_mass + rotor.disk_damping)
     dz = 2.0 * lam * rotor.disk_mass + rotor.disk_damping
-    W, dW = Z * (1.0 + s * z) + z * _I, dZ * (1.0 + s * z) + dz * (_I + s * Z)
-    determinant = W[..., 0, 0] * W[..., 1, 1] - W[..., 0, 1] * W[..., 1, 0]
-    slope = (
-        W[..., 1, 1] * dW[..., 0, 0]
-        + W[..., 0, 0] * dW[..., 1, 1]
-        - W[..., 0, 1] * dW[..., 1, 0]
-        - W[..., 1, 0] * dW[..., 0, 1]
+    bent, d_bent = 1.0 + s * z, s * dz
+    inertia, d_inertia = (
+        lam * lam * m * bent + z,
+        2.0 * lam * m * bent + lam * lam * m * d_bent + dz,
     )
-    return -determinant / slope
+
+    def element(i: int, j: int) -> tuple[ComplexArray, ComplexArray]:
+        k, c = K[..., i, j, None], C[..., i, j, None]
+        film = k + lam * c
+        W, dW = film * bent, c * bent + film * d_bent
+        return (W + inertia, dW + d_inertia) if i == j else (W, dW)
+
+    (W_xx, dW_xx), (W_xy, dW_xy) = element(0, 0), element(0, 1)
+    (W_yx, dW_yx), (W_yy, dW_yy) = element(1, 0), element(1, 1)
+    slope = W_yy * dW_xx + W_xx * dW_yy - W_xy * dW_yx - W_yx * dW_xy
+    return (W_xy * W_yx - W_xx * W_yy) / slope
 
 
 def _rigid(rotor: Rotor, K: Array, C: Array) -> Array:
