@@ -34,10 +34,10 @@ def live() -> str:
 
 
 def heavy_jobs() -> int:
-    """Return how many heavy computations a replica runs at once, ROTORCALC_HEAVY_JOBS.
+    """Return how many long computations a replica runs at once, ROTORCALC_HEAVY_JOBS.
 
-    Each has a process of its own, of some 90 MB, which stands back behind the pages. The default is
-    1; more help where there are cores to spare.
+    Each has a process of its own, of some 90 MB, which stands back behind the pages; releases have
+    one more. The default is 1; more help where there are cores to spare.
     """
     text = os.environ.get("ROTORCALC_HEAVY_JOBS", "1")
     if not (text.isascii() and text.isdigit() and 1 <= int(text) <= 64):

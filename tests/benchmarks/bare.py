@@ -17,6 +17,7 @@ if params.get("slider", "streamlit") == "live":
     live.show_sliders(
         [live.Slider("value", "Value", "", now, 0.0, 100.0, 1.0, log=False)],
         key="slider",
+        frame=0,
         on_move=lambda name, value, _: st.session_state.update({name: value}),
     )
     value = st.session_state.get("value", 50.0)
