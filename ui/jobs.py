@@ -110,6 +110,7 @@ class Turns:
 # What a visitor waits for as for a page has a process for itself; what takes seconds stands back.
 SHORT = Turns(1, hire=partial(Worker, nicer=0))
 LONG = Turns(settings.heavy_jobs())
+LINES = SHORT, LONG
 
 
 class Kept(Generic[T]):

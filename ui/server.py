@@ -91,7 +91,7 @@ async def life(_: st.App) -> AsyncIterator[None]:
         heavy_jobs=settings.heavy_jobs(),
     )  # fmt: skip
     yield
-    for turns in (jobs.SHORT, jobs.LONG):
+    for turns in jobs.LINES:
         turns.end()
     log.event("stop")
 
@@ -102,7 +102,7 @@ def _warm() -> None:
     Otherwise each full collection goes through all objects of all imported modules, and every
     session waits for it.
     """
-    for turns in (jobs.SHORT, jobs.LONG):
+    for turns in jobs.LINES:
         turns.begin()
     for name in _WARM:
         importlib.import_module(name)

@@ -5,7 +5,7 @@ How an input sends and how a chart is drawn are decided here and nowhere else.
 
 import importlib
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from types import ModuleType
 from typing import Any
 
@@ -58,8 +58,7 @@ def show_feed(page: Drawn | None) -> None:
     units = kept.units
     _live().show_feed(
         page if settings.live() == "drag" else None, kept.token, kept.frame,
-        {key: _sent(item, _shown(item, kept.values, units)) for key, item in INPUTS.items()},
-        lambda name, value, held: _moved(name, units, value, held=held),
+        {key: _sent(item, kept.values, units) for key, item in INPUTS.items()}, _mover(units),
     )  # fmt: skip
 
 
@@ -122,7 +121,7 @@ def _live_sliders(group: str, items: Sequence[Input]) -> None:
         low, high = item.shown(item.low, units), item.shown(item.high, units)
         step = item.step if item.log else _round_step(item.shown(item.low + item.step, units) - low)
         return live.Slider(
-            item.key, item.name(units), item.help, _sent(item, _shown(item, values, units)),
+            item.key, item.name(units), item.help, _sent(item, values, units),
             low, high, step, item.log, item.infinite,
         )  # fmt: skip
 
@@ -130,14 +129,20 @@ def _live_sliders(group: str, items: Sequence[Input]) -> None:
         [slider(item) for item in items],
         key=f"inputs_{group}_{units.name}",
         frame=kept.frame,
-        on_move=lambda name, value, held: _moved(name, units, value, held=held),
+        on_move=_mover(units),
         while_held=settings.live() == "drag",
     )
 
 
-def _sent(item: Input, shown: float) -> float | str:
-    """Return a shown value as a live slider gets it, which knows the last one by its word."""
+def _sent(item: Input, values: Values, units: Units) -> float | str:
+    """Return an input's value as a live slider gets it, which knows the last one by its word."""
+    shown = _shown(item, values, units)
     return item.infinite if math.isinf(shown) else shown
+
+
+def _mover(units: Units) -> Callable[[str, object, bool], None]:
+    """Return what takes in the values that live slider and feed send in these units."""
+    return lambda name, value, held: _moved(name, units, value, held=held)
 
 
 def _moved(name: str, units: Units, value: object, *, held: bool) -> None:

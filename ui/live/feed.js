@@ -4,8 +4,8 @@
 // and not the sidebar; the answer has every slider's value.
 //
 // A held slider asks the server what a value would give: charts, redrawn, and numbers, overwritten
-// where they stand; all that does not follow is dimmed. When the thumb has been let go and the whole
-// page has run, what the page says holds again.
+// where they stand; all that does not follow is dimmed. When the thumb has been let go and the
+// page has run, what it says holds again.
 
 const STYLE = `
 .rotorcalc-held :is([data-testid=stAlert], [data-testid=stMetricDelta], .katex-display, [data-testid=stTable]) {
