@@ -91,7 +91,7 @@ def spectrum(page: Page, asked: ask.Ask, found: Release) -> None:
 
 def run_up(page: Page) -> None:
     view, units = page.view, page.units
-    if (run := ask.ask_run_up(view)) is not None:
+    if (run := ask.ask_run_up(page)) is not None:
         page.alone().chart(
             lambda _, run=run: draw.waterfall(run, units), "orbits_waterfall",
             alt="Spectra over running speed: imbalance at 1×, whirl near ½× past the "
@@ -102,7 +102,7 @@ def run_up(page: Page) -> None:
 
 def limit_cycles(page: Page) -> None:
     units = page.units
-    if (branch := ask.ask_cycles(page.view)) is not None:
+    if (branch := ask.ask_cycles(page)) is not None:
         ask.say_cycles(branch, units)
         page.alone().chart(
             lambda v, branch=branch: draw.cycles(branch, ask.swept(branch), v.speed, units),

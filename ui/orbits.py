@@ -226,17 +226,16 @@ def show_measured(view: View, found: Release, units: Units) -> None:
         ("1× circle", amount(units.film, seen.synchronous)),
         ("Ends within", f"{found.last_size / C:.3g} C of rest"),
     ]
-    with st.container(key="results_orbits"):
-        columns = st.columns(len(rows))
-    for column, (label, value) in zip(columns, rows, strict=True):
-        column.metric(label, value)
+    with st.container(horizontal=True):
+        for label, value in rows:
+            st.metric(label, value)
 
 
 # --- Long work: on demand, with progress and a way out ----------------------------------------
 
 
 def on_demand(
-    label: str, key: str, token: object, work: Callable[[Progress | None], T]
+    page: Page, label: str, key: str, token: object, work: Callable[[Progress | None], T]
 ) -> T | None:
     """Return what work gives once a visitor asks for it; until then show a button.
 
@@ -250,6 +249,7 @@ def on_demand(
         return None
     if st.session_state.get(done) == token:
         return work(None)
+    page.run_whole()
     with place.container():
         bar = st.progress(0.0, "Computing …")
         st.button("Cancel", key=f"{key}_cancel", on_click=lambda: st.session_state.pop(asked, None))
@@ -259,11 +259,12 @@ def on_demand(
     return result
 
 
-def ask_run_up(view: View) -> RunUp | None:
+def ask_run_up(page: Page) -> RunUp | None:
     """Return the run-up's spectra once asked for."""
+    view = page.view
     token = ("run-up", view.machine, view.top_speed)
     found = on_demand(
-        "Run up to the top speed", "orbits_run_up", token,
+        page, "Run up to the top speed", "orbits_run_up", token,
         lambda tell: _try(lambda: _run_up(view.machine, view.top_speed, tell=tell)),
     )  # fmt: skip
     if found is None:
@@ -281,14 +282,14 @@ def run_up_caption(view: View) -> str:
     )
 
 
-def ask_cycles(view: View) -> Bifurcation | None:
+def ask_cycles(page: Page) -> Bifurcation | None:
     """Return the limit cycles once asked for; say in words why there are none."""
-    onset = view.onset.speed
+    view, onset = page.view, page.view.onset.speed
     if not 0.0 < onset < math.inf:
         st.info(_no_onset(onset))
         return None
     return on_demand(
-        "Follow the limit cycles", "orbits_cycles", ("cycles", _balanced(view.machine)),
+        page, "Follow the limit cycles", "orbits_cycles", ("cycles", _balanced(view.machine)),
         lambda tell: _try(lambda: _cycles(_balanced(view.machine), tell=tell)),
     )  # fmt: skip
 
@@ -359,12 +360,11 @@ def say_onsets(found: Onsets, units: Units) -> None:
         ("Measured growth in time", found.measured, "the nonlinear motion neither grows nor dies"),
     )
     with st.container(key="results_onsets"):
-        columns = st.columns(3)
-    for column, (label, speed, how) in zip(columns, rows, strict=True):
-        unknown = "no closed form" if label == "Closed form" else "not found"
-        reading = f"{float(units.speed.of(speed)):.2f} {units.speed.name}"
-        column.metric(label, unknown if math.isnan(speed) else reading)
-        column.caption(how)
+        for label, speed, how in rows:
+            unknown = "no closed form" if label == "Closed form" else "not found"
+            reading = f"{float(units.speed.of(speed)):.2f} {units.speed.name}"
+            st.metric(label, unknown if math.isnan(speed) else reading)
+            st.caption(how)
     if found.agree:
         st.success(f"They agree: the largest difference is {found.spread:.1e} of the onset.")
     elif math.isnan(found.measured):

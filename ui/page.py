@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import streamlit as st
+from streamlit.delta_generator import DeltaGenerator
 
 from rotorcalc.figures.units import Units
 from ui import checks, compare, gate, share, sidebar, version
@@ -18,13 +19,21 @@ _ICON = str(Path(__file__).with_name("icon.svg"))
 
 _ABOUT = f"{version.label()}: rotors on fluid-film bearings, after San Andrés, Notes 5."
 # The answer first: Streamlit leaves six rem free above a page.
-# On a narrow screen results stand two in a row, equations break between their terms, tables are
+# Results and what stands below each, a caption or a popover, come in pairs, a column each. On a
+# narrow screen results stand two in a row, equations break between their terms, tables are
 # tight and a wide one's rows run over several lines: nothing there scrolls sideways, which a
 # keyboard could not do. KaTeX's own boxes stick out of an equation by two pixels.
 _STYLE = """<style>
 .stMainBlockContainer {padding-top: 4.2rem; padding-bottom: 3rem;}
 .katex-display {padding-right: 2px;}
-[class*="st-key-results"] .stColumn > .stVerticalBlock {gap: 0;}
+.stVerticalBlock[class*="st-key-results_"] {
+  display: grid; grid-auto-flow: dense; grid-auto-columns: minmax(0, 1fr); gap: 0 1rem;
+}
+[class*="st-key-results_"] > :nth-child(n) {grid-column: 1;}
+[class*="st-key-results_"] > :nth-child(n + 3) {grid-column: 2;}
+[class*="st-key-results_"] > :nth-child(n + 5) {grid-column: 3;}
+[class*="st-key-results_"] > :nth-child(n + 7) {grid-column: 4;}
+[class*="st-key-results_"] > :nth-child(n + 9) {grid-column: 5;}
 @media (max-width: 640px) {
   .katex-display {font-size: 0.85em;}
   .katex-display > .katex {white-space: normal;}
@@ -33,7 +42,8 @@ _STYLE = """<style>
   .stMarkdown table:has(th:nth-child(7)) {display: block;}
   .stMarkdown tr:has(> :nth-child(7)) {display: flex; flex-wrap: wrap;}
   .stMarkdown tr > :nth-last-child(n + 7):first-child {flex: 1 0 100%; font-weight: 600;}
-  [class*="st-key-results"] .stColumn {min-width: calc(50% - 1rem); flex: 1 1 calc(50% - 1rem);}
+  [class*="st-key-results_"] > :is(:nth-child(4n + 1), :nth-child(4n + 2)) {grid-column: 1;}
+  [class*="st-key-results_"] > :is(:nth-child(4n + 3), :nth-child(4n + 4)) {grid-column: 2;}
 }
 </style>"""
 
@@ -57,6 +67,8 @@ class Page:
     baseline: View | None
     units: Units
     follows: Drawn
+    # Whether the content runs with the frame as one.
+    whole: bool = False
 
     def chart(self, draw: Draw, key: str, *, alt: str, caption: str) -> None:
         """Show a chart of the live machine, the pinned one thin and grey behind it."""
@@ -76,6 +88,12 @@ class Page:
         """Return the page without the pinned machine, for what is too long to compute twice."""
         return replace(self, baseline=None)
 
+    def run_whole(self) -> None:
+        """Let the page run whole, for a click can end such a run, but none of a fragment's."""
+        if not self.whole:
+            state().whole = True
+            st.rerun()
+
     def results(self, *keys: str) -> None:
         """Show results in a row, each with its equation and its change from the pinned machine."""
         show_results(self.view, self.baseline, self.units, *keys)
@@ -87,15 +105,21 @@ def show(
 ) -> None:
     """Draw a page: its frame, then its content, which alone is drawn anew where a slider moved.
 
-    Charts and results follow a held thumb by themselves, unless `follows` is false: then the whole
-    page runs, for charts that take long and show their progress.
+    Charts and results follow a held thumb by themselves, unless `follows` is false: then its
+    content runs for each value, for charts that take long and show their progress.
     """
     with gate.PAGES.through():
-        _frame(title, sentence)
-        (st.fragment(_content) if follows else _content)(content, follows=follows)
+        foot = _frame(title, sentence)
+        kept = state()
+        whole, kept.whole = kept.whole, False
+        if whole:
+            _content(content, foot, follows=follows, whole=True)
+        else:
+            st.fragment(_content)(content, foot, follows=follows, whole=False)
 
 
-def _frame(title: str, sentence: str) -> None:
+def _frame(title: str, sentence: str) -> DeltaGenerator:
+    """Draw what stands while sliders move; return the sidebar's place for what follows them."""
     st.set_page_config(
         page_title=f"{title} · rotorcalc",
         page_icon=_ICON,
@@ -111,22 +135,27 @@ def _frame(title: str, sentence: str) -> None:
         compare.draw_buttons()
         sidebar.draw_inputs()
         share.draw()
+        foot = st.container()
+        st.caption(version.label())
     kept.page = title
     _navigation()
     st.header(title, anchor=False)
     st.markdown(sentence)
+    return foot
 
 
-def _content(content: Callable[[Page], None], *, follows: bool) -> None:
+def _content(
+    content: Callable[[Page], None], foot: DeltaGenerator, *, follows: bool, whole: bool
+) -> None:
     with gate.PAGES.through():
-        content(_page(follows=follows))
+        content(replace(_page(foot, follows=follows), whole=whole))
 
 
-def _page(*, follows: bool) -> Page:
+def _page(foot: DeltaGenerator, *, follows: bool) -> Page:
     """Return the page's machine and draw what depends on it everywhere; stop where there is none.
 
-    A fragment may write into the sidebar where it has done so when the whole page ran; the feed,
-    through which a better value comes, is written in any case.
+    A fragment may write into the sidebar's foot where it has done so when the whole page ran; the
+    feed, through which a better value comes, is written in any case.
     """
     kept = state()
     write_address_bar()
@@ -136,14 +165,13 @@ def _page(*, follows: bool) -> Page:
         view = view_of(kept.values)
         baseline = None if kept.baseline is None else view_of(kept.baseline)
     except ValueError as error:
-        with st.sidebar:
+        with foot:
             show_feed(None)
         st.error(f"{error}", title="These inputs make no machine")
         st.stop()
     kept.drawn = Drawn(dict(kept.values), baseline, kept.units, dark=is_dark())
-    with st.sidebar:
+    with foot:
         checks.draw(view)
-        st.caption(version.label())
         show_feed(kept.drawn if follows else None)
     compare.draw_differences(kept.units)
     return Page(view=view, baseline=baseline, units=kept.units, follows=kept.drawn)

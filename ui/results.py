@@ -66,13 +66,14 @@ def row_key(keys: tuple[str, ...]) -> str:
 
 
 def show_results(view: View, baseline: View | None, units: Units, *keys: str) -> None:
-    """Show results in a row, each with a popover that explains it."""
+    """Show results in a row, each above a popover that explains it.
+
+    The page's style lays out the pairs: a column each would be an element more.
+    """
     with st.container(key=row_key(keys)):
-        columns = st.columns(len(keys))
-    for column, key in zip(columns, keys, strict=True):
-        result = RESULTS[key]
-        change = None if baseline is None else result.change(view, baseline)
-        with column:
+        for key in keys:
+            result = RESULTS[key]
+            change = None if baseline is None else result.change(view, baseline)
             st.metric(
                 result.label,
                 result.shown(view, units),

@@ -34,6 +34,8 @@ class State:
     # The page as it was last drawn, for what follows a held thumb, and the secret to ask for it.
     drawn: Drawn | None = None
     token: str = field(default_factory=secrets.token_urlsafe)
+    # Whether the page's content is to run with its frame as one, the next time.
+    whole: bool = False
     # How often a page's frame was drawn: whether sliders or feed know better what a value is.
     frame: int = 0
     # The page whose sidebar was drawn last, and whether the visitor has just come to another.
