@@ -47,6 +47,7 @@ _STYLE = """<style>
 }
 </style>"""
 
+NO_MACHINE = "These inputs make no machine"
 PAGES = {
     "app.py": "Machine",
     "pages/1_Equilibrium.py": "Equilibrium",
@@ -167,7 +168,7 @@ def _page(foot: DeltaGenerator, *, follows: bool) -> Page:
     except ValueError as error:
         with foot:
             show_feed(None)
-        st.error(f"{error}", title="These inputs make no machine")
+        st.error(f"{error}", title=NO_MACHINE)
         st.stop()
     kept.drawn = Drawn(dict(kept.values), baseline, kept.units, dark=is_dark())
     with foot:

@@ -64,6 +64,7 @@ class Visitor:
         self.query = ""
         self.tally = Tally()
         self.session_id = ""
+        self.moved: list[tuple[str, float | str]] = []  # the slider moved last, and where it was
         self._page_name = ""
         self._page_hash = ""
         self._widgets: dict[str, WidgetState] = {}
