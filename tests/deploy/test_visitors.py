@@ -1,6 +1,7 @@
 """Many visitors on one process: none is frozen by another, none has two runs under way."""
 
 import asyncio
+import random
 from collections.abc import Iterator
 
 import pytest
@@ -9,6 +10,7 @@ from tests.deploy.test_replicas import awaited
 from tests.load.client import Tally, Visitor
 from tests.load.drag import crowd
 from tests.load.replicas import Replica
+from tests.load.walk import act, is_refused
 
 PATIENCE = 5.0  # seconds: far more than a page takes here, far less than the heavy ones
 
@@ -70,6 +72,18 @@ async def test_a_stranger_knows_nothing_of_another_visitors_session(server: Repl
         assert one.session_id != other.session_id
         assert other.query == ""
         assert "81.2345" not in " ".join(other.texts())
+
+
+@awaited
+async def test_a_visitor_of_the_load_puts_back_what_makes_no_machine(server: Replica) -> None:
+    async with Visitor(server.address) as visitor:
+        await visitor.open(query="mass=300")
+        visitor.moved[:] = [("Journal mass", 0.0)]
+        await visitor.slide("Journal mass", 160.0)
+        assert is_refused(visitor)
+        await act(visitor, random.Random(0))  # noqa: S311 - any dice do
+        assert not is_refused(visitor)
+        assert visitor.query == "mass=300"
 
 
 def _errors(tallies: list[Tally]) -> list[str]:
