@@ -7,6 +7,7 @@ from ui.results import digits
 from ui.view import View
 
 _BADGES = {"good": "green", "caution": "orange", "outside": "red"}
+_FILM = ":small[Film: short, laminar, isoviscous, aligned, rigid walls. Orbits: small.]"
 _WORDS = {"good": "holds", "caution": "strained", "outside": "outside"}
 
 
@@ -19,8 +20,7 @@ def draw(view: View) -> None:
         "The model holds" if not strained else f"The model is {_WORDS[worst.level]}: {worst.name}"
     )
     with st.expander(headline, expanded=False, key="validity", icon=_icon(worst)):
-        st.markdown("\n\n".join(_line(check) for check in checks))
-        st.caption("Film: short, laminar, isoviscous, aligned, rigid walls. Orbits: small.")
+        st.markdown("\n\n".join([*map(_line, checks), _FILM]))
 
 
 def _icon(worst: Check) -> str:
