@@ -1,6 +1,7 @@
 """The short bearing's film: closed forms against differences, quadrature and limits."""
 
 import math
+from contextlib import nullcontext
 
 import numpy as np
 import pytest
@@ -407,11 +408,19 @@ def test_inverse_returns_the_sommerfeld_number_of_a_scalar(power):
 
 @given(st.floats(0.0, 0.9999, allow_subnormal=False))
 def test_inverse_returns_the_eccentricity(eps):
-    # The search is for ln(1/ε² − 1), which rounds to EPS of itself.
+    # The search is for ln(ε/s), which rounds to EPS of itself.
     rounding = 16 * EPS * (1 - math.log(max(eps, 1e-308)))
     assert short.eccentricity_ratio(short.modified_sommerfeld(eps)) == pytest.approx(
         eps, rel=rounding, abs=1e-308
     )
+
+
+@pytest.mark.parametrize(("tangents", "found"), [(1, False), (2, True)])
+def test_two_tangents_find_the_eccentricity(monkeypatch, tangents, found):
+    """The first begins so near that the second ends the search; one that has no end is an error."""
+    monkeypatch.setattr(short, "_MOST_ITERATIONS", tangents)
+    with nullcontext() if found else pytest.raises(RuntimeError, match="no eccentricity ratio"):
+        short.eccentricity_ratio(np.geomspace(1e-300, 1e300, 20001))
 
 
 def test_inverse_keeps_the_shape_and_treats_each_element_alone():

@@ -15,17 +15,21 @@ Source: San Andrés, Notes 5, Eqs. 5.5 to 5.37. Misprints of the source that are
 the sign in Eq. 5.7, and f_r² printed for f_t² in k_YY and c_YY of Eq. 5.35.
 """
 
+import functools
+
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.special import expit, log_expit
 
 from rotorcalc.films.state import FilmField, FilmState
 from rotorcalc.frames import matrix, rotate, vector
 from rotorcalc.machine import JournalBearing
 from rotorcalc.typing import Array, real_array
 
-# The change of ln(s²/ε²) that ends the search for ε: a rounding error or two.
-_TOLERANCE = 1e-14
+# ln(ε/s) between which the search for ε begins. From the last but one at either end on, the curve
+# is straight, past the largest and the smallest of numbers.
+_LN_W = np.concatenate([[-800.0], np.linspace(-12.0, 12.0, 2401), [200.0]])
+# The change of ln(ε/s) that ends it: the error that is left is less than 12 times its square.
+_TOLERANCE = 1e-8
 _MOST_ITERATIONS = 50
 
 
@@ -89,7 +93,9 @@ def coefficients(
         As in `state`.
     """
     eps = _afloat(sommerfeld)
-    return film_stiffness(eps), film_damping(eps)
+    s2 = _s2(eps)
+    units = _film_units(eps, s2)
+    return _xy_stiffness(eps, s2, *units), _xy_damping(eps, s2, *units)
 
 
 def field(
@@ -177,8 +183,9 @@ def modified_sommerfeld(eps: ArrayLike) -> Array:
     0.333164
     """
     eps = _checked_eccentricity(eps)
+    s2 = _s2(eps)
     with np.errstate(divide="ignore"):
-        return _s2(eps) ** 2 / (eps * _load_root(eps))
+        return s2**2 / (eps * np.sqrt(_load_square(eps, s2)))
 
 
 def eccentricity_ratio(sigma: ArrayLike) -> Array:
@@ -203,12 +210,13 @@ def eccentricity_ratio(sigma: ArrayLike) -> Array:
 
     Notes
     -----
-    With x = s² = 1 − ε² and y = ln(x/(1−x)) Eq. 5.8 reads g(y) = 0,
+    With w = ε/s, s² = 1 − ε², Eq. 5.8 reads g(ln w) = 0,
 
-        g = 4 ln x − ln(1−x) − ln(16 − (16−π²)x) − 2 ln σ.
+        g = ln w + ln((1+w²)√(π²+16w²)) + ln σ.
 
-    g rises with a slope between 1 and 4.4 and is concave. So Newton's tangents never pass the
-    root from the left, and a residual g brackets it: it lies in [y, y − g].
+    g is convex and rises with a slope between 1 and 4. So wherever Newton's tangents begin, they
+    are right of the root from the first on and fall towards it, and a residual g brackets it: it
+    lies between ln w and ln w − g. They begin on a chord of the curve.
 
     Examples
     --------
@@ -216,23 +224,20 @@ def eccentricity_ratio(sigma: ArrayLike) -> Array:
     0.5
     """
     sigma = real_array("sigma", sigma)
-    if not np.all(sigma >= 0.0):
+    if sigma.size and not sigma.min() >= 0.0:
         worst = sigma[~(sigma >= 0.0)].flat[0]
         raise ValueError(f"sigma = {worst}: must be zero or positive")
-    between = (sigma > 0.0) & (sigma < np.inf)
-    target = 2.0 * np.log(np.where(between, sigma, 1.0))
-    start = target + np.log(np.pi**2)
-    y: Array = np.minimum(start, start / 4)  # left of the root
+    curve = _curve()
+    with np.errstate(divide="ignore"):  # at the curve's ends ε rounds to 0 and 1
+        ln_load = np.minimum(np.maximum(-np.log(sigma), curve[0]), curve[-1])
+    ln_w = np.interp(ln_load, curve, _LN_W)
     for _ in range(_MOST_ITERATIONS):
-        x: Array = expit(y)
-        eps2: Array = expit(-y)
-        rest = 16.0 - (16.0 - np.pi**2) * x
-        residual = 4.0 * log_expit(y) - log_expit(-y) - np.log(rest) - target
-        slope = 4.0 * eps2 + x + (16.0 - np.pi**2) * x * eps2 / rest
-        step = residual / slope
-        y = y - step
-        if np.all(np.abs(step) <= _TOLERANCE * (1.0 + np.abs(y))):
-            return np.where(between, _eccentricity(y), np.where(sigma == 0.0, 1.0, 0.0))
+        value, slope = _ln_load(ln_w)
+        step = (value - ln_load) / slope
+        ln_w = ln_w - step
+        if np.all(np.abs(step) <= _TOLERANCE):
+            w = np.exp(ln_w)
+            return w / np.sqrt(1.0 + w * w)
     raise RuntimeError(f"no eccentricity ratio found within {_MOST_ITERATIONS} iterations")
 
 
@@ -304,7 +309,8 @@ def stiffness(eps: ArrayLike) -> Array:
     array([[ 2.9233,  3.9766],
            [-0.8577,  2.2099]])
     """
-    return _xy_stiffness(eps, *_load_units(eps))
+    eps, s2 = _open(eps)
+    return _xy_stiffness(eps, s2, *_load_units(eps, s2))
 
 
 def damping(eps: ArrayLike) -> Array:
@@ -325,7 +331,8 @@ def damping(eps: ArrayLike) -> Array:
     ValueError
         Where ε lies outside [0, 1).
     """
-    return _xy_damping(eps, *_load_units(eps))
+    eps, s2 = _open(eps)
+    return _xy_damping(eps, s2, *_load_units(eps, s2))
 
 
 def film_stiffness(eps: ArrayLike) -> Array:
@@ -346,7 +353,8 @@ def film_stiffness(eps: ArrayLike) -> Array:
     ValueError
         Where ε lies outside [0, 1).
     """
-    return _xy_stiffness(eps, *_film_units(eps))
+    eps, s2 = _open(eps)
+    return _xy_stiffness(eps, s2, *_film_units(eps, s2))
 
 
 def film_damping(eps: ArrayLike) -> Array:
@@ -367,7 +375,8 @@ def film_damping(eps: ArrayLike) -> Array:
     ValueError
         Where ε lies outside [0, 1).
     """
-    return _xy_damping(eps, *_film_units(eps))
+    eps, s2 = _open(eps)
+    return _xy_damping(eps, s2, *_film_units(eps, s2))
 
 
 def radial_stiffness(eps: ArrayLike) -> Array:
@@ -681,16 +690,23 @@ def _afloat(sommerfeld: ArrayLike) -> Array:
     """Return ε where it is less than 1."""
     sigma = real_array("sommerfeld", sommerfeld)
     eps = eccentricity_ratio(sigma)
-    if np.any(eps == 1.0):
+    if eps.size and eps.max() == 1.0:
         raise ValueError(
             f"sommerfeld = {np.min(sigma):.3g}: too small, the film's thickness rounds to zero"
         )
     return eps
 
 
-def _eccentricity(y: Array) -> Array:
-    """Return ε at y = ln(s²/ε²), also where ε² would be too small a number."""
-    return np.where(y < 0.0, np.sqrt(expit(-y)), np.exp(-y / 2.0) * np.sqrt(expit(y)))
+@functools.cache
+def _curve() -> Array:
+    return _ln_load(_LN_W)[0]
+
+
+def _ln_load(ln_w: Array) -> tuple[Array, Array]:
+    """Return ln(1/σ) of Eq. 5.8 and its slope over ln w, w = ε/s."""
+    w2 = np.exp(2.0 * ln_w)
+    a, b = 1.0 + w2, np.pi**2 + 16.0 * w2
+    return ln_w + np.log(a * np.sqrt(b)), 4.0 - 2.0 / a - np.pi**2 / b
 
 
 def _checked_eccentricity(eps: ArrayLike) -> Array:
@@ -713,29 +729,26 @@ def _s2(eps: Array) -> Array:
     return (1.0 - eps) * (1.0 + eps)
 
 
-def _load_root(eps: Array) -> Array:
-    """Return √(16ε² + π²(1−ε²)), which Eqs. 5.6 to 5.8 share."""
-    return np.sqrt(16.0 * eps**2 + np.pi**2 * _s2(eps))
+def _load_square(eps: Array, s2: Array) -> Array:
+    """Return 16ε² + π²(1−ε²), whose root Eqs. 5.6 to 5.8 share."""
+    return 16.0 * eps**2 + np.pi**2 * s2
 
 
-def _load_units(eps: ArrayLike) -> tuple[Array, Array]:
+def _load_units(eps: Array, s2: Array) -> tuple[Array, Array]:
     """Return f_r/ε and f_t/ε of Eq. 5.33, which scale Eq. 5.35 to k and c of Eq. 5.32."""
-    eps, s2 = _open(eps)
-    root = _load_root(eps)
+    root = np.sqrt(_load_square(eps, s2))
     with np.errstate(divide="ignore"):
         return 4.0 / root, np.pi * np.sqrt(s2) / (eps * root)
 
 
-def _film_units(eps: ArrayLike) -> tuple[Array, Array]:
+def _film_units(eps: Array, s2: Array) -> tuple[Array, Array]:
     """Return the same times F_o, in film units: ε/s⁴ and π/(4s³)."""
-    eps, s2 = _open(eps)
     return eps / s2**2, np.pi / (4.0 * s2**1.5)
 
 
-def _xy_stiffness(eps: ArrayLike, radial: Array, tangential: Array) -> Array:
+def _xy_stiffness(eps: Array, s2: Array, radial: Array, tangential: Array) -> Array:
     """Return Eq. 5.35 for K, scaled by `radial` and `tangential`."""
-    eps, s2 = _open(eps)
-    fr2, ft2 = _direction(eps)
+    fr2, ft2 = _direction(eps, s2)
     K_XX = radial / s2 * (fr2 + 1.0 + 2.0 * eps**2)
     K_XY = tangential / s2 * (fr2 + 1.0 + 2.0 * eps**2)
     K_YX = tangential / s2 * (fr2 - s2)
@@ -743,20 +756,19 @@ def _xy_stiffness(eps: ArrayLike, radial: Array, tangential: Array) -> Array:
     return matrix(K_XX, K_XY, K_YX, K_YY)
 
 
-def _xy_damping(eps: ArrayLike, radial: Array, tangential: Array) -> Array:
+def _xy_damping(eps: Array, s2: Array, radial: Array, tangential: Array) -> Array:
     """Return Eq. 5.35 for C, scaled by `radial` and `tangential`."""
-    eps, s2 = _open(eps)
-    fr2, ft2 = _direction(eps)
+    fr2, ft2 = _direction(eps, s2)
     C_XX = 2.0 * tangential / s2 * ((2.0 + eps**2) * fr2 + s2)
     C_XY = 2.0 * radial / s2 * ((2.0 + eps**2) * ft2 - s2)
     C_YY = 2.0 * tangential / s2 * ((2.0 + eps**2) * ft2 - s2)  # the source prints f_r²
     return matrix(C_XX, C_XY, C_XY, C_YY)
 
 
-def _direction(eps: Array) -> tuple[Array, Array]:
+def _direction(eps: Array, s2: Array) -> tuple[Array, Array]:
     """Return cos²φ and sin²φ, the squares of f_r and f_t of Eq. 5.33."""
-    load2 = _load_root(eps) ** 2
-    return 16.0 * eps**2 / load2, np.pi**2 * _s2(eps) / load2
+    load2 = _load_square(eps, s2)
+    return 16.0 * eps**2 / load2, np.pi**2 * s2 / load2
 
 
 def _inertia_cross(eps: Array) -> Array:
