@@ -26,6 +26,9 @@ from rotorcalc.typing import Array
 Motion: TypeAlias = Callable[[Array, float], list[float]]
 
 _MOST_STEPS = 20_000  # between two angles
+# The longest step [rad]: at rest longer ones, of high order, blow rounding errors up to the
+# tolerance many times over before the error control sees them.
+_LONGEST_STEP = 0.25
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,12 +97,15 @@ class Equations:
         spin = 0.5 * twice  # Ω̇/Ω_0²
         cos, sin, sqrt = math.cos, math.sin, math.sqrt
 
+        def steady(angle: float) -> tuple[float, float, float]:
+            return u * cos(angle), u * sin(angle), 1.0
+
         def drive(angle: float) -> tuple[float, float, float]:
             nu2 = 1.0 + twice * angle
             c, s = cos(angle), sin(angle)
             return u * (nu2 * c + spin * s), u * (nu2 * s - spin * c), sqrt(nu2)
 
-        return drive
+        return drive if twice else steady
 
     def _rigid(self) -> Motion:
         film, damper, load, force, drive = (
@@ -121,15 +127,14 @@ class Equations:
         film, shaft, damper, load, velocity, drive = (
             self.film, self.shaft, self.damper, self.load, self.velocity, self._drive(),
         )  # fmt: skip
-        vx = vy = 0.0  # the last answer, from which the search for the next begins
+        near: list[float] = []  # the last search, from which the next begins
 
         def motion(state: Array, angle: float) -> list[float]:
-            nonlocal vx, vy
             X, Y, vX, vY, x, y = state.tolist()
             u_x, u_y, nu = drive(angle)
             s_x, s_y = shaft * (X - x), shaft * (Y - y)
             scale = film * nu
-            vx, vy = velocity(x, y, -s_x / scale, -s_y / scale, (vx, vy))  # already by the angle
+            vx, vy = velocity(x, y, -s_x / scale, -s_y / scale, near)  # already by the angle
             a_x = -s_x - damper * vX + load + u_x
             a_y = -s_y - damper * vY + u_y
             return [vX / nu, vY / nu, a_x / nu, a_y / nu, vx, vy]
@@ -228,6 +233,7 @@ def integrated(
             rtol=tolerance,
             atol=tolerance * 1e-2,
             mxstep=_MOST_STEPS,
+            hmax=_LONGEST_STEP,
             full_output=True,
         ),
     )

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotorcalc import modes
-from rotorcalc.coefficients import equilibrium
+from rotorcalc.coefficients import Equilibrium, equilibrium
 from rotorcalc.films import film_gap
 from rotorcalc.machine import Machine
 from rotorcalc.motion import Start, resting
@@ -146,7 +146,8 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
     if revolutions < 16:
         raise ValueError(f"revolutions = {revolutions}: must be 16 or more")
     C = machine.bearing.radial_clearance
-    rest = equilibrium(machine, speed).film.position * C
+    state = equilibrium(machine, speed)
+    rest = state.film.position * C
     start = resting(machine, rest - np.array([kick, 0.0]))
     stopped = ""
     try:
@@ -158,7 +159,7 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
         if len(error.partial.time) <= 16 * samples_per_revolution:
             raise
         motion, stopped = error.partial, str(error)
-    linear, ellipse, whirl = _linear(machine, speed, start, motion.time)
+    linear, ellipse, whirl = _linear(machine, state, start, motion.time)
     return Release(
         motion=motion,
         clearance=C,
@@ -192,14 +193,14 @@ def linear_motion(machine: Machine, speed: float, start: Start, time: Array) -> 
     array, (n, 2)
         Displacement from rest in X, Y [m].
     """
-    return _linear(machine, speed, start, time)[0]
+    return _linear(machine, equilibrium(machine, speed), start, time)[0]
 
 
 def _linear(
-    machine: Machine, speed: float, start: Start, time: Array
+    machine: Machine, state: Equilibrium, start: Start, time: Array
 ) -> tuple[Array, Array, complex]:
     """Return the journal's linear motion, its synchronous orbit, and the least damped whirl's λ."""
-    rotor, state = machine.rotor, equilibrium(machine, speed)
+    rotor, speed = machine.rotor, float(state.speed)
     disk, journal = synchronous_response(rotor, state.stiffness, state.damping, speed)
     shapes = modes.mode_shapes(rotor, state.stiffness, state.damping)
     rest = resting(machine, state.film.position * machine.bearing.radial_clearance)
@@ -209,16 +210,20 @@ def _linear(
         start.disk_velocity - (1j * speed * disk).real,
         start.journal_velocity - (1j * speed * journal).real,
     ]
-    n = shapes.eigenvalues.shape[-1]
-    kept = {4: (0, 2), 6: (0, 1, 2), 8: (0, 1, 2, 3)}[n]
+    values = shapes.eigenvalues
+    kept = {4: (0, 2), 6: (0, 1, 2), 8: (0, 1, 2, 3)}[len(values)]
     shares = np.linalg.solve(
         shapes.vectors, np.concatenate([away[i] for i in kept]).astype(complex)
     )
+    # Each phasor turns at its λ, that of the forced motion at jΩ; of the free motion's conjugate
+    # pairs one stands for both.
+    one = values.imag >= 0.0
+    twice = np.where(values[one].imag > 0.0, 2.0, 1.0)
+    phasors = np.vstack([(twice * shares[one])[:, None] * shapes.journal[one], journal])
     with np.errstate(over="ignore", invalid="ignore"):
-        powers = np.exp(time[:, None] * shapes.eigenvalues)
-        free = powers @ (shares[:, None] * shapes.journal)
-    forced = np.exp(1j * speed * time)[:, None] * journal
-    return np.real(free + forced), orbit_points(*journal), _leading(shapes.eigenvalues)
+        turning = np.exp(time[:, None] * np.append(values[one], 1j * speed))
+        motion = np.real(turning @ phasors)
+    return motion, orbit_points(*journal), _leading(values)
 
 
 def _leading(values: ComplexArray) -> complex:

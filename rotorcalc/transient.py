@@ -48,7 +48,7 @@ MOST_SAMPLES = 2_000_000
 TOLERANCE = 1e-10
 _TOLERANCES = (1e-13, 1e-3)
 # A stretch after which progress is told and the wall is looked for [revolutions].
-_STRETCH = 10
+_STRETCH = 20
 
 
 @dataclass(frozen=True, eq=False)

@@ -51,6 +51,49 @@ def test_the_velocity_for_a_force_gives_that_force(eps, angle, velocity):
     assert found == pytest.approx(velocity, abs=1e-10)
 
 
+@given(
+    eps=st.floats(0.0, 0.995),
+    angle=st.floats(0.0, 2.0 * math.pi),
+    velocity=st.tuples(st.floats(-3.0, 3.0), st.floats(-3.0, 3.0)),
+    begins=st.floats(0.01, math.pi - 0.01),
+)
+def test_wherever_the_search_for_a_velocity_begins_it_ends_in_the_same(
+    eps, angle, velocity, begins
+):
+    position = (eps * math.cos(angle), eps * math.sin(angle))
+    found = short_motion.velocity(*position, *short_motion.force(*position, *velocity), [begins])
+    assert found == pytest.approx(velocity, abs=1e-10)
+
+
+def test_a_search_goes_on_from_the_last_and_then_looks_once(monkeypatch):
+    looks, near, impedance = [], [], short_motion._impedance
+    force = short_motion.force(0.3, -0.6, 0.1, 0.4)
+    monkeypatch.setattr(short_motion, "_impedance", lambda *at: looks.append(at) or impedance(*at))
+    counts = []
+    for _ in range(3):
+        looks.clear()
+        found = short_motion.velocity(0.3, -0.6, *force, near)
+        assert found == pytest.approx((0.1, 0.4), abs=1e-14)
+        counts.append(len(looks))
+    assert counts[0] > 2
+    assert counts[1:] == [1, 1]
+
+
+@pytest.mark.parametrize("b", [-0.9, -0.1, 0.0, 0.3, 0.55, 0.97, 0.985])
+def test_the_impedance_comes_with_its_own_slopes(b):
+    kappa2, h = 0.03, 1e-5  # from b = 0.87 on by the series
+    before, here, after = (short_motion._impedance(b + step, kappa2) for step in (-h, 0.0, h))
+    assert 2.0 * here[1] == pytest.approx((after[0] - before[0]) / (2.0 * h), rel=1e-6)
+    assert here[2] == pytest.approx((after[1] - before[1]) / h, rel=1e-6)
+
+
+@pytest.mark.parametrize("rpm", range(3000, 9000, 500))
+def test_a_massless_journal_rests_at_any_speed_as_still_as_rounding_lets_it(rpm):
+    motion = simulate(balanced(SHEET.rotor), rpm * RPM, revolutions=20)
+    rest = analyse(SHEET, rpm * RPM).journal_position
+    assert np.abs(motion.journal - rest).max() < 1e-13 * C
+
+
 @pytest.mark.parametrize("kind", ROTORS)
 def test_a_machine_without_imbalance_rests_in_its_equilibrium(kind):
     machine = balanced(ROTORS[kind])

@@ -48,7 +48,7 @@ class _FilmModel(Protocol):
 
 class _Velocity(Protocol):
     def __call__(
-        self, x: float, y: float, f_x: float, f_y: float, near: tuple[float, float] = ...
+        self, x: float, y: float, f_x: float, f_y: float, near: list[float] | None = ...
     ) -> tuple[float, float]: ...
 
 
@@ -189,7 +189,7 @@ def film_motion(bearing: JournalBearing) -> tuple[_Kernel, _Velocity]:
     -------
     force, velocity : callables
         Of plain floats: force (f_x, f_y) from (x, y, x', y'), and velocity (x', y') from
-        (x, y, f_x, f_y), and if need be a velocity to begin the search at; position in C, velocity
-        in CΩ, force in μΩRL³/C².
+        (x, y, f_x, f_y), and if need be a list that carries from one search to the next what makes
+        it short, empty at first; position in C, velocity in CΩ, force in μΩRL³/C².
     """
     return _MOTIONS[bearing.film]

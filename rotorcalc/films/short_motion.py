@@ -6,6 +6,11 @@ size V of the journal's velocity relative to half speed whirl, so it is V times 
 g_b) that depends on that velocity's direction only; and its inverse, the velocity for a force, is
 one equation for that direction.
 
+The power that the film takes is V² g_b, and its force is the gradient of half of that by the
+velocity (c_ij = c_ji at any position), so one function of b makes both: with W = g_b,
+
+    g_a = (a/2) W',    dg_b/dα = −a W' = −2 g_a,    dg_a/dα = (b W' − a² W'')/2.
+
 Units and axes as in `short`: position in C, velocity in CΩ, force in μΩRL³/C².
 """
 
@@ -14,7 +19,8 @@ import math
 # Closer to the wall than this the force is that of this distance: only a trial step that an
 # integrator then takes back comes there.
 _LEAST_KAPPA2 = 1e-10
-_SERIES = tuple(range(2, 16))
+_SERIES = tuple((3.0 / (2 * n + 1) - 1.0, 3.0 / (2 * n + 1) - 1.0 / (2 * n - 1), n)
+                for n in reversed(range(2, 16)))  # fmt: skip
 _SLACK = 0.2
 _MOST_ITERATIONS = 120
 _TOLERANCE = 4e-15
@@ -41,13 +47,13 @@ def force(x: float, y: float, dx: float, dy: float) -> tuple[float, float]:
     V = math.hypot(A, B)
     if V == 0.0:
         return 0.0, 0.0
-    sin, cos = A / V, -B / V
-    g_a, g_b = _impedance(x * cos + y * sin, -x * sin + y * cos, _kappa2(x, y))
-    return V * (g_a * cos - g_b * sin), V * (g_a * sin + g_b * cos)
+    W, half_slope, _ = _impedance(-(x * A + y * B) / V, 1.0 - x * x - y * y)
+    g_a = (y * A - x * B) / V * half_slope
+    return -g_a * B - W * A, g_a * A - W * B
 
 
 def velocity(
-    x: float, y: float, f_x: float, f_y: float, near: tuple[float, float] = (0.0, 0.0)
+    x: float, y: float, f_x: float, f_y: float, near: list[float] | None = None
 ) -> tuple[float, float]:
     """Return the velocity at which the film's force on the journal is the given one.
 
@@ -57,8 +63,9 @@ def velocity(
         Journal centre from the bearing's centre, in C.
     f_x, f_y : float
         Force of the film in X and Y, in μΩRL³/C².
-    near : (float, float)
-        A velocity at which the search begins, in CΩ; the nearer the sooner it ends.
+    near : list or None
+        The last search's memory, where this one begins, and which it changes; empty at first. The
+        nearer the two points the sooner it ends.
 
     Returns
     -------
@@ -72,66 +79,55 @@ def velocity(
 
     Notes
     -----
-    Force and impedance are at the same angle: arg f = α + arg(g_a + j g_b), with α that of the axis
-    a. As g_b is positive α lies within π below arg f; Newton's steps that leave the bracket or do
-    not halve the last step give way to halving the bracket.
+    What is sought is the angle ψ = arg f − α by which the axis a lies below the force: there g_a
+    and g_b are in the ratio of cos ψ and sin ψ. As g_b is positive ψ lies between 0 and π; Newton's
+    steps that leave the bracket or do not halve the last step give way to halving the bracket. Over
+    a motion ψ changes more slowly than either direction, so it is what a memory holds.
     """
     size = math.hypot(f_x, f_y)
     if size == 0.0:
         return -0.5 * y, 0.5 * x
-    kappa2, towards = _kappa2(x, y), math.atan2(f_y, f_x)
-    low, high = towards - math.pi, towards
-    alpha = towards - (towards - math.atan2(near[0] + 0.5 * y, 0.5 * x - near[1])) % math.pi
-    last = math.pi
+    kappa2 = 1.0 - x * x - y * y
+    along, beside = (x * f_x + y * f_y) / size, (y * f_x - x * f_y) / size
+    low, high, last = 0.0, math.pi, math.pi
+    psi = near[0] if near else 0.5 * math.pi
     for _ in range(_MOST_ITERATIONS):
-        cos, sin = math.cos(alpha), math.sin(alpha)
-        a, b = x * cos + y * sin, -x * sin + y * cos
-        g_a, g_b, slope_a, slope_b = _impedance_and_slope(a, b, kappa2)
-        size2 = g_a * g_a + g_b * g_b
-        error = alpha + math.atan2(g_b, g_a) - towards
-        step = -error / (1.0 + (g_a * slope_b - g_b * slope_a) / size2)
-        low, high = (low, alpha) if error > 0.0 else (alpha, high)
+        cos, sin = math.cos(psi), math.sin(psi)
+        a, b = along * cos - beside * sin, along * sin + beside * cos
+        W, half_slope, bend = _impedance(b, kappa2)
+        g_a, slope_a = a * half_slope, 0.5 * a * a * bend - b * half_slope  # its slope by ψ
+        error = W * cos - g_a * sin
+        step = error / ((W + slope_a) * sin - g_a * cos)
+        low, high = (psi, high) if error > 0.0 else (low, psi)
         if abs(step) <= _LAST_STEP or high - low <= _TOLERANCE:
-            alpha += step
-            V = size / math.hypot(g_a + step * slope_a, g_b + step * slope_b)
-            return V * math.sin(alpha) - 0.5 * y, -V * math.cos(alpha) + 0.5 * x
-        if not low < alpha + step < high or abs(step) > 0.5 * last:
-            step = 0.5 * (low + high) - alpha
-        alpha, last = alpha + step, abs(step)
+            if near is not None:
+                near[:] = (psi + step,)
+            cos, sin = cos - step * sin, sin + step * cos
+            g = math.hypot(g_a + step * slope_a, W + step * 2.0 * g_a)
+            return (f_y * cos - f_x * sin) / g - 0.5 * y, 0.5 * x - (f_x * cos + f_y * sin) / g
+        if not low < psi + step < high or abs(step) > 0.5 * last:
+            step = 0.5 * (low + high) - psi
+        psi, last = psi + step, abs(step)
     raise ArithmeticError(f"no velocity found for the film force ({f_x}, {f_y}) at ({x}, {y})")
 
 
-def _kappa2(x: float, y: float) -> float:
-    return max(1.0 - x * x - y * y, _LEAST_KAPPA2)
-
-
-def _impedance(a: float, b: float, kappa2: float) -> tuple[float, float]:
-    """Return g_a and g_b: the force along the axes a and b at V = 1."""
+def _impedance(b: float, kappa2: float) -> tuple[float, float, float]:
+    """Return W, W'/2 and W'': g_b, the force against the velocity at V = 1, and what makes g_a."""
+    kappa2 = kappa2 if kappa2 > _LEAST_KAPPA2 else _LEAST_KAPPA2  # noqa: FURB136 - max is slow
     kappa = math.sqrt(kappa2)
-    if b > 0.0 and kappa < _SLACK * b:  # both are small differences there: by their series
-        t2 = kappa2 / (b * b)
-        g_a = g_b = 0.0
-        for n in reversed(_SERIES):
-            g_a = (6.0 / (2 * n + 1) - 2.0) - t2 * g_a
-            g_b = (3.0 / (2 * n + 1) - 1.0 / (2 * n - 1)) - t2 * g_b
-        return 0.5 * a * g_a / b**4, g_b / b**3
-    G = 2.0 / kappa * math.atan2(kappa, b)
-    g_a = 0.5 * a * (3.0 * b * G - 4.0 - 2.0 * b * b / (kappa2 + b * b)) / (kappa2 * kappa2)
-    g_b = 0.5 * (G / kappa2 + 3.0 * b * (b * G - 2.0) / (kappa2 * kappa2))
-    return g_a, g_b
+    if kappa < _SLACK * b:  # all are small differences there: by their series
+        return _slack_impedance(b, kappa2 / (b * b))
+    G, q, half = 2.0 / kappa * math.atan2(kappa, b), b / (kappa2 + b * b), 0.5 / (kappa2 * kappa2)
+    slack, bq = 3.0 * (b * G - 2.0), 2.0 * b * q
+    W = half * (kappa2 * G + b * slack)
+    return W, half * (slack + 2.0 - bq), half * (6.0 * G - q * (20.0 - 4.0 * bq))
 
 
-def _impedance_and_slope(a: float, b: float, kappa2: float) -> tuple[float, float, float, float]:
-    """Return g_a and g_b, and their derivatives by α, where da/dα = b and db/dα = −a."""
-    kappa, b2 = math.sqrt(kappa2), b * b
-    wide = kappa2 + b2  # 1 − a²
-    G = 2.0 / kappa * math.atan2(kappa, b)
-    ratio, slack, half = a / wide, b * G - 2.0, 0.5 / (kappa2 * kappa2)
-    bracket = 3.0 * b * G - 4.0 - 2.0 * b2 / wide
-    d_slack = 2.0 * b * ratio - a * G
-    d_bracket = 3.0 * d_slack + 4.0 * b * ratio * (1.0 - b2 / wide)
-    d_g_a = half * (b * bracket + a * d_bracket)
-    d_g_b = half * (2.0 * ratio * kappa2 + 3.0 * (b * d_slack - a * slack))
-    if b > 0.0 and kappa < _SLACK * b:
-        return *_impedance(a, b, kappa2), d_g_a, d_g_b
-    return half * a * bracket, half * (G * kappa2 + 3.0 * b * slack), d_g_a, d_g_b
+def _slack_impedance(b: float, t2: float) -> tuple[float, float, float]:
+    """Return the same where κ ≪ b, from t² = κ²/b²: W in powers of t, and its derivatives."""
+    value = half_slope = bend = 0.0
+    for slope_n, value_n, n in _SERIES:
+        value = value_n - t2 * value
+        half_slope = slope_n - t2 * half_slope
+        bend = -4.0 * n * slope_n - t2 * bend
+    return value / b**3, half_slope / b**4, bend / b**5
