@@ -180,6 +180,43 @@ def refined_eigenvalues(rotor: Rotor, K: Array, C: Array, *, flexible: bool = Tr
         return np.where(np.abs(step) <= _SETTLED * np.abs(values), values, np.nan)
 
 
+def characteristic_polynomial(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> Array:
+    """Return the polynomial in λ whose roots are the eigenvalues of the free motion.
+
+    With Z = K + λC for the film and the rotor's D = 1 + s z, N = λ²M_j D + z, in the symbols of
+    `refined_eigenvalues`, det(D Z + N I) = D² det Z + D N tr Z + N².
+
+    Parameters
+    ----------
+    rotor : Rotor
+        The rotor.
+    K, C : array, (..., 2, 2)
+        The film's stiffness [N/m] and damping [N·s/m] in X, Y.
+    flexible : bool
+        Whether the shaft bends; a rigid shaft never does.
+
+    Returns
+    -------
+    array, (..., n+1)
+        Coefficients from the constant to that of λⁿ, n as in `state_matrix`. Where det K, det C
+        and so on are positive each is a sum of positive terms, and as good as they are.
+    """
+    s, m_j = 1.0 / rotor.shaft_stiffness if flexible else 0.0, rotor.journal_mass
+    D = np.array([1.0, s * rotor.disk_damping, s * rotor.disk_mass])
+    N = np.zeros(5)
+    N[2:] = m_j * D
+    N[1:3] += rotor.disk_damping, rotor.disk_mass
+    film = np.stack([*_determinant(K, C), _trace(K), _trace(C), np.ones(K.shape[:-2])], axis=-1)
+    of_rotor = np.zeros((6, 9))
+    for power in range(3):
+        of_rotor[power, power : power + 5] = np.convolve(D, D)
+    for power in range(2):
+        of_rotor[3 + power, power : power + 7] = np.convolve(D, N)
+    of_rotor[5] = np.convolve(N, N)
+    degree = 4 if s == 0.0 else 6 if m_j == 0.0 else 8
+    return film @ of_rotor[:, : degree + 1]
+
+
 def damped_frequency(eigenvalue: ArrayLike) -> Array:
     """Return the frequency of a mode, ω_d = |Im λ| [rad/s], shape (...) of `eigenvalue` [1/s]."""
     return np.abs(np.imag(eigenvalue))
@@ -311,16 +348,26 @@ def _first_guesses(rotor: Rotor, K: Array, C: Array, flexible: bool) -> ComplexA
 
 
 def _slow(K: Array, C: Array) -> ComplexArray:
-    """Return λ of K + λC: the roots of λ² det C + λ (K : adj C) + det K, (..., 2)."""
-
-    def both(A: Array, B: Array) -> Array:
-        return A[..., 0, 0] * B[..., 1, 1] - A[..., 0, 1] * B[..., 1, 0]
-
-    a, b, c = both(C, C), 0.5 * (both(K, C) + both(C, K)), both(K, K)
+    """Return λ of K + λC: the roots of its determinant, (..., 2)."""
+    c, twice_b, a = _determinant(K, C)
+    b = 0.5 * twice_b
     q = -b - np.copysign(np.sqrt(np.maximum(b * b - a * c, 0.0)), b)
     swing = 1j * np.sqrt(np.maximum(a * c - b * b, 0.0))
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.stack([(q + swing) / a, np.where(swing == 0.0, c / q, (q - swing) / a)], axis=-1)
+
+
+def _determinant(K: Array, C: Array) -> tuple[Array, Array, Array]:
+    """Return det(K + λC): det K, K : adj C and det C, of λ's powers 0, 1 and 2."""
+
+    def both(A: Array, B: Array) -> Array:
+        return A[..., 0, 0] * B[..., 1, 1] - A[..., 0, 1] * B[..., 1, 0]
+
+    return both(K, K), both(K, C) + both(C, K), both(C, C)
+
+
+def _trace(A: Array) -> Array:
+    return A[..., 0, 0] + A[..., 1, 1]
 
 
 def _newton_step(

@@ -6,7 +6,9 @@ threshold one mode whirls undamped, at the whirl ratio ω̄ = ω_s/Ω_s times th
 Source: San Andrés, Notes 5, Eqs. 5.41 to 5.50.
 """
 
+import functools
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,13 +16,9 @@ from numpy.typing import ArrayLike
 from scipy.optimize import minimize_scalar
 
 from rotorcalc import modes
-from rotorcalc.coefficients import (
-    Equilibrium,
-    equilibrium,
-    modified_sommerfeld,
-    stiffness_and_damping,
-)
-from rotorcalc.machine import Machine, Rotor
+from rotorcalc.coefficients import modified_sommerfeld, stiffness_and_damping
+from rotorcalc.films import film_coefficients, film_state
+from rotorcalc.machine import JournalBearing, Machine, Rotor
 from rotorcalc.roots import narrow_root
 from rotorcalc.typing import Array, ComplexArray
 
@@ -28,6 +26,12 @@ from rotorcalc.typing import Array, ComplexArray
 _POINTS_PER_DECADE = 30
 # It looks at so many at once, and no further than it must.
 _BLOCK = 64
+# To how much the coefficients of a characteristic polynomial are known, relative, with what Routh's
+# scheme rounds; and to which side Kharitonov's four polynomials differ from it, from λ⁰ on.
+_ROUNDING = 128 * float(np.finfo(float).eps)
+_KHARITONOV = np.tile([[-1, -1, 1, 1], [1, 1, -1, -1], [1, -1, -1, 1], [-1, 1, 1, -1]], 3)
+# How near to the onset, relative, the growth is a straight line over speed.
+_STRAIGHT = 1e-7
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,6 +73,9 @@ class Onset:
     speed: float
     whirl_frequency: float
     eccentricity_ratio: float
+
+
+_NO_ONSET = Onset(speed=math.inf, whirl_frequency=math.nan, eccentricity_ratio=math.nan)
 
 
 def whirl_onset(k: ArrayLike, c: ArrayLike) -> WhirlOnset:
@@ -140,6 +147,7 @@ def onset_speed(machine: Machine, flexible: bool = True) -> Onset:
 
     Found on the eigenvalues, each at its own speed's equilibrium, so it holds with midspan
     damping and journal mass too. Without either it is where Ω = Ω_s(ε(Ω)) of Eqs. 5.45 to 5.50.
+    Their polynomial tells sooner where all of them surely decay: there they are not computed.
 
     Parameters
     ----------
@@ -154,25 +162,23 @@ def onset_speed(machine: Machine, flexible: bool = True) -> Onset:
         Speed, whirl frequency and eccentricity ratio at the onset. Without load the direct
         stiffness vanishes (Eq. 5.37), and the onset is at speed 0: the machine whirls at any speed.
     """
-    speeds, growth = _search(machine, flexible)
-    if growth[0] > 0.0:
-        state = equilibrium(machine, float(speeds[0]))
-        return Onset(
-            speed=0.0,
-            whirl_frequency=0.0,
-            eccentricity_ratio=float(state.film.eccentricity_ratio),
-        )
-    bracket = _first_crossing(machine, flexible, speeds, growth)
+
+    def doubt(speed: Array) -> Array:
+        return _doubt(machine, speed, flexible)
+
+    speeds = _search(machine, flexible)
+    bracket = _first_crossing(doubt, speeds)
     if bracket is None:
-        return Onset(speed=math.inf, whirl_frequency=math.nan, eccentricity_ratio=math.nan)
-    speed = _crossing(machine, flexible, *bracket)
-    state = equilibrium(machine, speed)
-    whirl = _fastest(machine.rotor, state.stiffness, state.damping, flexible)
-    return Onset(
-        speed=speed,
-        whirl_frequency=float(modes.damped_frequency(whirl)),
-        eccentricity_ratio=float(state.film.eccentricity_ratio),
-    )
+        return _NO_ONSET
+    found = _sharp_crossing(machine, flexible, *bracket)
+    if found is None:
+        found = _crossing_beyond_doubt(machine, flexible, speeds[speeds >= bracket[0]])
+    speed, whirl_frequency = found
+    if math.isinf(speed):
+        return _NO_ONSET
+    sigma = modified_sommerfeld(machine, speed or float(speeds[0]))
+    eps = film_state(machine.bearing, sigma).eccentricity_ratio
+    return Onset(speed=speed, whirl_frequency=whirl_frequency, eccentricity_ratio=float(eps))
 
 
 def _elements(coefficients: ArrayLike) -> tuple[Array, Array, Array, Array]:
@@ -193,8 +199,55 @@ def _growth(machine: Machine, speed: ArrayLike, flexible: bool) -> Array:
     return _fastest(machine.rotor, K, C, flexible).real / np.asarray(speed)
 
 
-def _search(machine: Machine, flexible: bool) -> tuple[Array, Array]:
-    """Return speeds that span the first of all onsets there can be [rad/s], and the growth there.
+def _routh(polynomial: Array) -> Array:
+    """Return the first column of Routh's scheme, which is positive where all roots decay.
+
+    Hurwitz's matrix is totally nonnegative there, and so elimination in it is as good as the
+    coefficients are, each to its own size.
+
+    Parameters
+    ----------
+    polynomial : array, (..., n+1)
+        Coefficients from the constant to that of λⁿ, positive, n even.
+
+    Returns
+    -------
+    array, (n-2, ...)
+        What is left of the coefficients of λⁿ⁻² … λ [-]: of each at most 1. The product, which is
+        Hurwitz's last determinant, vanishes where a first pair of roots meets the imaginary axis.
+    """
+    falling = np.moveaxis(polynomial, -1, 0)[::-1]
+    above, row = falling[0::2], falling[1::2]
+    left: list[Array] = []
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        for whole in falling[2:-1]:
+            below = above[1:].copy()
+            below[: len(row) - 1] -= above[0] / row[0] * row[1:]
+            left.append(below[0] / whole)
+            above, row = row, below
+    return np.stack(left)
+
+
+def _polynomial(machine: Machine, speed: ArrayLike, flexible: bool) -> Array:
+    K, C = stiffness_and_damping(machine, speed)
+    return modes.characteristic_polynomial(machine.rotor, K, C, flexible=flexible)
+
+
+def _doubt(machine: Machine, speed: ArrayLike, flexible: bool) -> Array:
+    """Return a number that is negative where all modes surely decay, else 1, shape of `speed`.
+
+    Kharitonov: all polynomials whose coefficients differ from one's by no more than rounding decay
+    if four of them do.
+    """
+    polynomial = _polynomial(machine, speed, flexible)
+    signs = _KHARITONOV[:, : polynomial.shape[-1]]
+    left = _routh(polynomial[..., None, :] * (1.0 + _ROUNDING * signs))
+    decay = np.all(left > 0.0, axis=(0, -1)) & np.all(polynomial > 0.0, axis=-1)
+    return np.where(decay, -np.min(left[-1], axis=-1), 1.0)
+
+
+def _search(machine: Machine, flexible: bool) -> Array:
+    """Return speeds that span the first of all onsets there can be [rad/s].
 
     A film that cannot whirl feeds no mode, whatever the rotor, so the search begins at the last
     speed before the film can; near the wall, below σ = 1e-3, none can. Above σ = 10 the film is all
@@ -202,81 +255,127 @@ def _search(machine: Machine, flexible: bool) -> tuple[Array, Array]:
     begins far below every rate of the rotor, but not so far that the growth drowns in rounding.
     """
     unit = float(modified_sommerfeld(machine, 1.0))
-    lowest = 1e-3 / unit if math.isfinite(unit) else 1e-3 * _slowest_rate(machine, flexible)
-    centred = equilibrium(machine, 10.0 / unit if math.isfinite(unit) else lowest)
-    highest = 2.0 * max(float(centred.speed), _highest_onset(machine.rotor, centred, flexible))
+    limit = _whirl_limit(machine.bearing)
+    lowest = limit / unit if math.isfinite(unit) else 1e-3 * _slowest_rate(machine, flexible)
+    centred = 10.0 / unit if math.isfinite(unit) else lowest
+    highest = 2.0 * max(centred, _highest_onset(machine, centred, flexible))
     points = 1 + math.ceil(_POINTS_PER_DECADE * math.log10(highest / lowest))
-    speeds = np.geomspace(lowest, highest, points)
-    K, C = stiffness_and_damping(machine, speeds)
-    ratio = whirl_onset(K, C * speeds[:, None, None]).whirl_ratio
-    first = max(int(np.argmax(ratio > 0.0)) - 1, 0)
-    growth = np.empty(0)
-    for begin in range(first, points, _BLOCK):
-        block = slice(begin, begin + _BLOCK)
-        more = _fastest(machine.rotor, K[block], C[block], flexible).real / speeds[block]
-        growth = np.concatenate([growth, more])
-        if np.any(more > 0.0):
-            break
-    return speeds[first : first + len(growth)], growth
+    return np.geomspace(lowest, highest, points)
+
+
+@functools.lru_cache(maxsize=256)
+def _whirl_limit(bearing: JournalBearing) -> float:
+    """Return a modified Sommerfeld number up to which a bearing's film cannot whirl [-]."""
+    sigma = np.geomspace(1e-3, 10.0, 1 + 4 * _POINTS_PER_DECADE)
+    ratio = whirl_onset(*film_coefficients(bearing, sigma)).whirl_ratio
+    return float(sigma[max(int(np.argmax(ratio > 0.0)) - 1, 0)])
 
 
 def _slowest_rate(machine: Machine, flexible: bool) -> float:
     """Return the slowest of the rotor's own rates, or a rigid one's on a centred film [rad/s]."""
     rotor = machine.rotor
     if rotor.is_rigid or not flexible:
-        return float(np.trace(equilibrium(machine, 1.0).damping)) / rotor.half_mass
+        return float(np.trace(stiffness_and_damping(machine, 1.0)[1])) / rotor.half_mass
     k, C_s = rotor.shaft_stiffness, rotor.disk_damping
     return min(math.sqrt(k / rotor.half_mass), k / C_s if C_s > 0.0 else math.inf)
 
 
-def _highest_onset(rotor: Rotor, centred: Equilibrium, flexible: bool) -> float:
-    """Return a speed above every onset on a centred film [rad/s].
+def _highest_onset(machine: Machine, centred: float, flexible: bool) -> float:
+    """Return a speed above every onset on a film that is centred from a speed on [rad/s].
 
     The whirl's frequency is bounded by the rotor's: on the film's stiffness alone; with midspan
     damping, which can quench that whirl, also by that of the disk on the shaft and of the journal
     between shaft and film. The film feeds the whirl at the whirl ratio and more speed feeds it
     more, by so much as the midspan damping takes from the journal.
     """
-    film = whirl_onset(centred.stiffness, centred.damping * centred.speed)
-    C, C_s, m = float(np.trace(centred.damping)) / 2.0, rotor.disk_damping, rotor.disk_mass
+    stiffness, damping = stiffness_and_damping(machine, centred)
+    film, rotor = whirl_onset(stiffness, damping * centred), machine.rotor
+    C, C_s, m = float(np.trace(damping)) / 2.0, rotor.disk_damping, rotor.disk_mass
     squares = [max(float(film.equivalent_stiffness), 0.0) / rotor.half_mass]
     taken = C_s
     if flexible and not rotor.is_rigid and C_s > 0.0:
         k = rotor.shaft_stiffness
         squares.append(2.0 * k / m)
         if rotor.journal_mass > 0.0:
-            squares.append((float(np.trace(centred.stiffness)) + 2.0 * k) / rotor.journal_mass)
+            squares.append((float(np.trace(stiffness)) + 2.0 * k) / rotor.journal_mass)
         # Largest of k²C_s/|k + z|² over frequency; a light damper's is cut off, for it quenches
         # no whirl.
         taken = C_s if C_s**2 >= 2.0 * k * m else min(2.0 * k * m / C_s, 1e6 * C)
     return math.sqrt(max(squares)) * (1.0 + taken / C) / float(film.whirl_ratio)
 
 
-def _crossing(machine: Machine, flexible: bool, low: float, high: float) -> float:
-    """Return the speed between a stable and an unstable one at which the growth vanishes."""
-    if _growth(machine, low, flexible) >= 0.0:  # within a rounding error of the onset
-        return low
-    return narrow_root(lambda speed: _growth(machine, speed, flexible), low, high)
-
-
-def _first_crossing(
-    machine: Machine, flexible: bool, speeds: Array, growth: Array
+def _sharp_crossing(
+    machine: Machine, flexible: bool, low: float, high: float
 ) -> tuple[float, float] | None:
-    """Return a stable and an unstable speed around the lowest onset, or None where there is none.
+    """Return speed and whirl frequency of an onset between two speeds, or None.
 
-    A hump of the growth that hides between two speeds of the search is looked for at each of
-    its local maxima.
+    Where Hurwitz's last determinant vanishes, to its rounding; there the growth of the eigenvalue
+    that crosses is a straight line over speed. None where they do not cross so near to it.
     """
-    for i in range(1, len(speeds)):
-        if growth[i] > 0.0:
-            return float(speeds[i - 1]), float(speeds[i])
-        is_peak = i + 1 < len(speeds) and growth[i - 1] < growth[i] >= growth[i + 1]
-        if is_peak:
-            top = minimize_scalar(
-                lambda speed: -float(_growth(machine, speed, flexible)),
-                bounds=(speeds[i - 1], speeds[i + 1]),
-                method="bounded",
-            )
-            if top.fun < 0.0:
-                return float(speeds[i - 1]), float(top.x)
-    return None
+
+    def determinant(speed: Array) -> Array:
+        return np.prod(_routh(_polynomial(machine, speed, flexible)), axis=0)
+
+    try:
+        root = narrow_root(determinant, low, high) if low > 0.0 else math.nan
+    except ValueError:  # of one sign at both ends
+        root = math.nan
+    if math.isnan(root):
+        return None
+    near = root * np.array([1.0 - _STRAIGHT, 1.0 + _STRAIGHT])
+    K, C = stiffness_and_damping(machine, near)
+    stable, unstable = modes.refined_eigenvalues(machine.rotor, K, C, flexible=flexible)
+    after = unstable[np.nanargmax(unstable.real)]
+    if not (np.nanmax(stable.real) < 0.0 < after.real):
+        return None
+    before = stable[np.nanargmin(np.abs(stable - after))]
+    share = before.real / (before.real - after.real)
+    whirl = before + (after - before) * share
+    return float(near[0] + (near[1] - near[0]) * share), float(modes.damped_frequency(whirl))
+
+
+def _crossing_beyond_doubt(machine: Machine, flexible: bool, speeds: Array) -> tuple[float, float]:
+    """Return speed and frequency where the growth first vanishes, by the eigenvalues alone.
+
+    Speed 0 where it never does anything but grow, infinite where it always decays.
+    """
+
+    def growth(speed: Array) -> Array:
+        return _growth(machine, speed, flexible)
+
+    bracket = _first_crossing(growth, speeds)
+    if bracket is None:
+        return math.inf, math.nan
+    low, high = bracket
+    if low == 0.0:
+        return 0.0, 0.0
+    within_rounding = growth(np.array(low)) >= 0.0
+    speed = low if within_rounding else narrow_root(growth, low, high)
+    whirl = _fastest(machine.rotor, *stiffness_and_damping(machine, speed), flexible)
+    return speed, float(modes.damped_frequency(whirl))
+
+
+def _first_crossing(values: Callable[[Array], Array], speeds: Array) -> tuple[float, float] | None:
+    """Return speeds between which a function first turns positive, or None where it never does.
+
+    Speed 0 and the first of them where that is so from there on. A hump of the function that hides
+    between two speeds is looked for at each of its local maxima.
+    """
+    found = np.empty(0)
+    for begin in range(0, len(speeds), _BLOCK):
+        found = np.concatenate([found, values(speeds[begin : begin + _BLOCK])])
+        if np.any(found > 0.0):
+            break
+    first = int(np.argmax(found > 0.0)) if np.any(found > 0.0) else len(found)
+    is_peak = (found[:-2] < found[1:-1]) & (found[1:-1] >= found[2:])
+    for i in np.flatnonzero(is_peak[: max(first - 1, 0)]):
+        top = minimize_scalar(
+            lambda speed: -float(values(np.array(speed))),
+            bounds=(speeds[i], speeds[i + 2]),
+            method="bounded",
+        )
+        if top.fun < 0.0:
+            return float(speeds[i]), float(top.x)
+    if first == len(found):
+        return None
+    return float(speeds[first - 1]) if first > 0 else 0.0, float(speeds[first])

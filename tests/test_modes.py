@@ -1,6 +1,7 @@
 """Modes: eigenvalues against the equations of motion, and branches that keep their identity."""
 
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -68,6 +69,18 @@ def test_characteristic_polynomial_is_that_of_the_equations_of_motion(
     # Relative to the polynomial of the moduli, which no cancellation makes small.
     size = np.poly(-np.abs(lam)).real
     assert np.poly(lam).real / size == pytest.approx(monic / size, abs=1e-10)
+
+
+@given(machines(damped=True, journals=True), st.floats(-2, 2), st.booleans())
+def test_coefficients_of_the_characteristic_polynomial_are_the_exact_ones(machine, power, flexible):
+    """Each to rounding of its own; det K and the like to that of their terms."""
+    speed = 10.0**power * 600 * RPM
+    K, C = film(machine, speed)
+    found = modes.characteristic_polynomial(machine.rotor, K, C, flexible=flexible)
+    exact = characteristic_polynomial(machine.rotor, K, C, speed, flexible=flexible)[::-1]
+    unit = exact[0] / Fraction(float(found[0]))
+    per_speed = [float(c / unit / Fraction(speed) ** i) for i, c in enumerate(exact)]
+    assert found == pytest.approx(np.array(per_speed), rel=128 * EPS)
 
 
 @pytest.mark.parametrize(("machine", "flexible", "states"), MODELS)

@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, assume, example, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq, minimize_scalar
 
-from rotorcalc import JournalBearing, Machine, Onset, modes, onset_speed
+from rotorcalc import JournalBearing, Machine, Onset, modes, onset_speed, stability
 from rotorcalc.coefficients import equilibrium, modified_sommerfeld
 from rotorcalc.films import short
 from rotorcalc.stability import flexible_threshold, whirl_onset
@@ -18,8 +18,10 @@ from tests.machines import (
     BENDING,
     EPS,
     RIGID,
+    ROTORS,
     RPM,
     SHEET,
+    balanced,
     log_uniform,
     machines,
     unstable_roots,
@@ -415,6 +417,65 @@ def test_no_onset_has_no_whirl():
     assert none.speed == math.inf
     assert math.isnan(none.whirl_frequency)
     assert math.isnan(none.eccentricity_ratio)
+
+
+# Of a machine: what the search goes by
+
+
+@few
+@given(machines(damped=True, journals=True, load=loads), st.floats(-3, 3), st.booleans())
+def test_where_there_is_no_doubt_no_root_is_unstable(machine, power, flexible):
+    speed = 10.0**power / float(modified_sommerfeld(machine, 1.0))
+    count = unstable_roots(machine, speed, flexible=flexible)
+    if stability._doubt(machine, np.array(speed), flexible) < 0:
+        assert count == 0
+
+
+@pytest.mark.parametrize("rotor", ROTORS.values(), ids=ROTORS)
+def test_there_is_no_doubt_but_beside_the_onset(rotor):
+    machine = balanced(rotor)
+    onset = onset_speed(machine).speed
+    speeds = onset * np.array([0.01, 0.1, 0.5, 1 - 1e-9, 1 + 1e-9, 1.05, 1.2, 1.5, 2, 5, 10])
+    doubt = stability._doubt(machine, speeds, True)
+    unstable = [unstable_roots(machine, speed) > 0 for speed in speeds]
+    assert unstable[:5] == [False, False, False, False, True]
+    assert list(doubt > 0) == unstable
+
+
+def test_kharitonovs_polynomials_are_the_four_that_there_are():
+    """Even and odd part each lowest and highest on the imaginary axis, in every pair."""
+    signs = stability._KHARITONOV
+    assert np.all(signs[:, 2:] == -signs[:, :-2])
+    assert {tuple(row) for row in signs[:, :2]} == {(1, 1), (1, -1), (-1, 1), (-1, -1)}
+
+
+@pytest.mark.parametrize("rotor", ROTORS.values(), ids=ROTORS)
+@pytest.mark.parametrize("load", [None, 1.0, 0.0])
+def test_the_eigenvalues_alone_find_the_same_onset(monkeypatch, rotor, load):
+    """As they must where rounding leaves the polynomial in doubt at every speed."""
+    machine = replace(balanced(rotor), load=load)
+    onset = onset_speed(machine)
+    monkeypatch.setattr(stability, "_ROUNDING", 1.0)
+    monkeypatch.setattr(stability, "_sharp_crossing", lambda *_: None)
+    alone = onset_speed(machine)
+    for name in ("speed", "whirl_frequency", "eccentricity_ratio"):
+        assert getattr(alone, name) == pytest.approx(getattr(onset, name), rel=1e-12), name
+
+
+@given(st.floats(0.02, 0.98))
+def test_a_hump_between_two_speeds_is_found(place):
+    """Narrower than their distance, and lower than what follows."""
+    speeds = np.arange(1.0, 11.0)
+
+    def values(speed):
+        hump = 1.001 - (speed - 4.0 - place) ** 2
+        return np.where(speed < 9.5, np.maximum(hump, -1.0 - 0.1 * (speed - 7) ** 2) - 1.0, 1.0)
+
+    low, high = stability._first_crossing(values, speeds)
+    assert values(np.array(low)) < 0 < values(np.array(high))
+    assert high < 6
+    assert stability._first_crossing(lambda s: values(s) - 0.01, speeds) == (9.0, 10.0)
+    assert stability._first_crossing(lambda s: values(s) - 9.0, speeds) is None
 
 
 # Without load
