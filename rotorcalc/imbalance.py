@@ -14,18 +14,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotorcalc import modes
 from rotorcalc.analysis import Sweep
 from rotorcalc.coefficients import checked_speed, equilibrium, stiffness_and_damping
 from rotorcalc.design import has_closed_form
+from rotorcalc.hurwitz import is_unstable
 from rotorcalc.machine import Machine, Rotor
 from rotorcalc.response import (
     OrbitEllipse,
     ResponsePeaks,
+    Rotors,
+    disk_peak_speeds,
     orbit_ellipse,
     orbit_points,
+    orbit_sizes,
     phase_lag,
-    response_peaks,
     synchronous_response,
 )
 from rotorcalc.typing import Array, BoolArray, ComplexArray, IntArray
@@ -187,9 +189,11 @@ def response_curves(
         Curves and point.
     """
     machine = sweep.machine
-    speed = _with_near(sweep.speed, np.concatenate([disk_peaks.speed, journal_peaks.speed]))
-    pair = synchronous_response(machine.rotor, *stiffness_and_damping(machine, speed), speed)
-    disk, journal = _body(pair[0]), _body(pair[1])
+    near = _near(sweep.speed, np.concatenate([disk_peaks.speed, journal_peaks.speed]))
+    there = synchronous_response(machine.rotor, *stiffness_and_damping(machine, near), near)
+    speed, order = np.unique(np.concatenate([sweep.speed, near]), return_index=True)
+    known = sweep.disk_response, sweep.journal_response
+    disk, journal = (_body(np.concatenate(pair)[order]) for pair in zip(known, there, strict=True))
     return ResponseCurves(
         speed=speed,
         disk=disk,
@@ -307,19 +311,21 @@ def response_family(
     ValueError
         Where a speed is not positive and finite.
     """
-    speeds = checked_speed(speed)
-    machines = [replace(machine, rotor=rotor, load=machine.static_load) for rotor in rotors]
-    peaks = [response_peaks(other, speeds, at="disk").speed for other in machines]
-    denser = _with_near(speeds, np.concatenate(peaks))
-    K, C = stiffness_and_damping(machine, denser)
-    pairs = [synchronous_response(rotor, K, C, denser) for rotor in rotors]
-    values = [modes.eigenvalues(rotor, K, C) for rotor in rotors]
+    speeds, group = checked_speed(speed), Rotors.of(rotors)
+    film = stiffness_and_damping(machine, speeds)
+    sizes = orbit_sizes(*synchronous_response(group, *film, speeds))
+    near = _near(speeds, disk_peak_speeds(machine, group, speeds, sizes[0]))
+    film_there = stiffness_and_damping(machine, near)
+    sizes_there = orbit_sizes(*synchronous_response(group, *film_there, near))
+    denser, order = np.unique(np.concatenate([speeds, near]), return_index=True)
+    disk, journal = np.concatenate([sizes, sizes_there], axis=-1)[..., order]
+    K, C = (np.concatenate(pair)[order] for pair in zip(film, film_there, strict=True))
     return ResponseFamily(
         rotors=tuple(rotors),
         speed=denser,
-        disk=np.array([_ellipse(disk).semi_major for disk, _ in pairs]),
-        journal=np.array([_ellipse(journal).semi_major for _, journal in pairs]),
-        unstable=np.array([_fastest_growth(of_rotor) > 0.0 for of_rotor in values]),
+        disk=disk,
+        journal=journal,
+        unstable=np.array([is_unstable(rotor, K, C) for rotor in rotors]),
     )
 
 
@@ -398,7 +404,7 @@ def _crossings(speeds: Array, growth: Array, i: IntArray, j: IntArray) -> Array:
     return speeds[i] + part * (speeds[j] - speeds[i])
 
 
-def _with_near(speeds: Array, peaks: Array) -> Array:
-    """Return rising speeds with more of them around each peak."""
+def _near(speeds: Array, peaks: Array) -> Array:
+    """Return speeds around each peak within rising speeds, denser than those."""
     near = peaks[:, None] + (speeds[1] - speeds[0]) * _NEAR
-    return np.unique(np.concatenate([speeds, near[(near > 0.0) & (near <= speeds[-1])]]))
+    return near[(near > 0.0) & (near <= speeds[-1])]

@@ -8,15 +8,15 @@ Source: San Andrés, Notes 5, Eq. 5.38, and the calculation sheet's synchronous 
 flexible rotor, with midspan damping and journal mass added.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from rotorcalc.coefficients import checked_speed, stiffness_and_damping
 from rotorcalc.machine import Machine, Rotor
-from rotorcalc.typing import Array, ComplexArray, IntArray
+from rotorcalc.typing import Array, BoolArray, ComplexArray, IntArray
 
 # The imbalance (cos Ωt, sin Ωt) as phasors.
 _FORWARD = np.array([1.0, -1.0j])
@@ -65,15 +65,38 @@ class ResponsePeaks:
     amplitude: Array
 
 
+@dataclass(frozen=True, eq=False)
+class Rotors:
+    """Several rotors as one: their fields of the same names in `Rotor`, each of shape (...)."""
+
+    shaft_stiffness: Array
+    disk_mass: Array
+    disk_damping: Array
+    journal_mass: Array
+    imbalance: Array
+
+    @classmethod
+    def of(cls, rotors: Sequence[Rotor]) -> "Rotors":
+        """Return m rotors over any number of speeds: fields of shape (m, 1)."""
+        return cls(**{
+            name: np.array([[getattr(rotor, name)] for rotor in rotors])
+            for name in cls.__dataclass_fields__
+        })  # fmt: skip
+
+    def at(self, places: IntArray) -> "Rotors":
+        """Return those of the m rotors at some places, of shape (p,)."""
+        return Rotors(**{name: values[places, 0] for name, values in vars(self).items()})
+
+
 def synchronous_response(
-    rotor: Rotor, K: Array, C: Array, speed: ArrayLike
+    rotor: Rotor | Rotors, K: Array, C: Array, speed: ArrayLike
 ) -> tuple[ComplexArray, ComplexArray]:
     """Return the response of disk and journal to the rotor's imbalance.
 
     Parameters
     ----------
-    rotor : Rotor
-        The rotor.
+    rotor : Rotor or Rotors
+        The rotor, or some, whose fields broadcast with the speed.
     K, C : array, (..., 2, 2)
         The film's stiffness [N/m] and damping [N·s/m] in X, Y.
     speed : array_like, (...)
@@ -93,15 +116,21 @@ def synchronous_response(
 
     which holds for the rigid shaft too, s = 0.
     """
-    speed = checked_speed(speed)[..., None, None]
-    identity = np.eye(2)
+    speed = checked_speed(speed)
     s = 1.0 / rotor.shaft_stiffness
-    Z = K + 1j * speed * C - speed**2 * rotor.journal_mass * identity
-    z = 1j * speed * rotor.disk_damping - speed**2 * rotor.disk_mass
-    force = rotor.disk_mass * rotor.imbalance * speed**2 * _FORWARD[:, None]
-    journal = cast("ComplexArray", np.linalg.solve(Z + z * identity + s * z * Z, force))
-    disk = journal + s * (Z @ journal)
-    return disk[..., 0], journal[..., 0]
+    z = speed * (1j * rotor.disk_damping - speed * rotor.disk_mass)
+    bent, inertia = 1.0 + s * z, speed**2 * rotor.journal_mass
+
+    def film(i: int, j: int) -> ComplexArray:
+        return K[..., i, j] + 1j * speed * C[..., i, j]
+
+    Z_xx, Z_xy, Z_yx, Z_yy = film(0, 0) - inertia, film(0, 1), film(1, 0), film(1, 1) - inertia
+    W_xx, W_xy, W_yx, W_yy = Z_xx * bent + z, Z_xy * bent, Z_yx * bent, Z_yy * bent + z
+    force = rotor.disk_mass * rotor.imbalance * speed**2
+    unit = force / (W_xx * W_yy - W_xy * W_yx)  # times adj W (1, −j)
+    x, y = unit * (W_yy + 1j * W_xy), -unit * (W_yx + 1j * W_xx)
+    disk = np.stack([x + s * (Z_xx * x + Z_xy * y), y + s * (Z_yx * x + Z_yy * y)], axis=-1)
+    return disk, np.stack([x, y], axis=-1)
 
 
 def orbit_ellipse(x: ArrayLike, y: ArrayLike) -> OrbitEllipse:
@@ -232,33 +261,64 @@ def both_peaks(
     ValueError
         Where a speed is not positive and finite.
     """
-    speeds = checked_speed(speed)
-    size = _orbit_sizes(machine, speeds) if responses is None else _sizes(responses)
-    is_peak = (size[:, 1:-1] > size[:, :-2]) & (size[:, 1:-1] >= size[:, 2:])
-    body, place = np.nonzero(is_peak)
+    speeds, rotor = checked_speed(speed), machine.rotor
+    size = _orbit_sizes(machine, rotor, speeds) if responses is None else orbit_sizes(*responses)
+    body, place = np.nonzero(_is_peak(size))
     if not len(body):
         none = ResponsePeaks(speed=np.empty(0), amplitude=np.empty(0))
         return none, none
-    tops = _tops(machine, speeds[place], speeds[place + 2], body)
-    sizes = _orbit_sizes(machine, tops)
+    tops = _tops(machine, rotor, body, speeds[place], speeds[place + 2])
+    sizes = _orbit_sizes(machine, rotor, tops)
     disk, journal = (
         ResponsePeaks(speed=tops[body == i], amplitude=sizes[i, body == i]) for i in (0, 1)
     )
     return disk, journal
 
 
-def _orbit_sizes(machine: Machine, speed: ArrayLike) -> Array:
-    """Return the semi-major axes of the disk's orbit and the journal's, shape (2, ...)."""
+def disk_peak_speeds(machine: Machine, rotors: Rotors, speed: Array, size: Array) -> Array:
+    """Return the speeds of all peaks of several rotors' disks in one machine's bearings.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; its own rotor counts by its load only.
+    rotors : Rotors, (m, 1)
+        The rotors.
+    speed : array, (n,)
+        Rising speeds, Ω [rad/s], dense enough to show each peak.
+    size : array, (m, n)
+        Semi-major axes of the disks' orbits at these speeds.
+
+    Returns
+    -------
+    array, (peaks,)
+        As `response_peaks` gives them, the first rotor's first [rad/s].
+    """
+    which, place = np.nonzero(_is_peak(size))
+    if not len(which):
+        return np.empty(0)
+    disk = np.zeros_like(which)
+    return _tops(machine, rotors.at(which), disk, speed[place], speed[place + 2])
+
+
+def orbit_sizes(disk: ComplexArray, journal: ComplexArray) -> Array:
+    """Return the semi-major axes of the disk's orbit and the journal's, (2, ...), of (..., 2)."""
+    x, jy = (np.stack([disk[..., i], journal[..., i]]) * unit for i, unit in ((0, 0.5), (1, 0.5j)))
+    return np.abs(x + jy) + np.abs(x - jy)
+
+
+def _orbit_sizes(machine: Machine, rotor: Rotor | Rotors, speed: Array) -> Array:
     K, C = stiffness_and_damping(machine, speed)
-    return _sizes(synchronous_response(machine.rotor, K, C, speed))
+    return orbit_sizes(*synchronous_response(rotor, K, C, speed))
 
 
-def _sizes(responses: tuple[ComplexArray, ComplexArray]) -> Array:
-    orbits = np.stack(responses)
-    return orbit_ellipse(orbits[..., 0], orbits[..., 1]).semi_major
+def _is_peak(size: Array) -> BoolArray:
+    return (size[:, 1:-1] > size[:, :-2]) & (size[:, 1:-1] >= size[:, 2:])
 
 
-def _tops(machine: Machine, low: Array, high: Array, body: IntArray) -> Array:
+def _tops(
+    machine: Machine, rotor: Rotor | Rotors, body: IntArray, low: Array, high: Array
+) -> Array:
     """Return the speeds of the peaks between two speeds each, all at once.
 
     `body` is 0 for a peak of the disk, 1 for one of the journal. A zoom goes into the two intervals
@@ -269,7 +329,7 @@ def _tops(machine: Machine, low: Array, high: Array, body: IntArray) -> Array:
     before = largest = after = np.zeros(len(low))
     for _ in range(_ZOOMS):
         grid = np.linspace(low, high, _ZOOM_POINTS)
-        size = _orbit_sizes(machine, grid)[body, :, columns].T
+        size = _orbit_sizes(machine, rotor, grid)[body, :, columns].T
         top = size[1:-1].argmax(axis=0) + 1
         low, high = grid[top - 1, columns], grid[top + 1, columns]
         before, largest, after = (size[top + step, columns] for step in (-1, 0, 1))

@@ -10,8 +10,16 @@ from hypothesis import strategies as st
 
 from rotorcalc import PRESETS, analyse, orbit_ellipse
 from rotorcalc.coefficients import equilibrium
-from rotorcalc.response import orbit_points, phase_lag, response_peaks, synchronous_response
-from tests.machines import BENDING, EPS, RPM, SHEET, machines, with_rotor
+from rotorcalc.response import (
+    Rotors,
+    disk_peak_speeds,
+    orbit_points,
+    orbit_sizes,
+    phase_lag,
+    response_peaks,
+    synchronous_response,
+)
+from tests.machines import BENDING, EPS, ROTORS, RPM, SHEET, machines, with_rotor
 
 phasors = st.complex_numbers(max_magnitude=1e3, allow_nan=False, allow_subnormal=False).map(
     lambda z: z if abs(z) > 1e-100 else 0j
@@ -277,6 +285,24 @@ def test_no_peak_is_left_out():
     tops = np.flatnonzero((size[1:-1] > size[:-2]) & (size[1:-1] > size[2:])) + 1
     peaks = response_peaks(machine, sweep)
     assert peaks.speed == pytest.approx(sweep[tops], abs=sweep[1] - sweep[0])
+
+
+def test_several_rotors_at_once_have_each_its_own_response_and_peaks():
+    rotors = list(ROTORS.values())
+    sweep = np.linspace(500 * RPM, 20000 * RPM, 400)
+    state = equilibrium(SHEET, sweep)
+    pair = synchronous_response(Rotors.of(rotors), state.stiffness, state.damping, sweep)
+    sizes, peaks = orbit_sizes(*pair), []
+    for i, rotor in enumerate(rotors):
+        alone = replace(SHEET, rotor=rotor)
+        for of_all, of_one in zip(pair, response(alone, sweep), strict=True):
+            assert np.array_equal(of_all[i], of_one)
+        for at, size in zip(("disk", "journal"), sizes, strict=True):
+            assert size[i] == pytest.approx(size_of(alone, sweep, at), rel=4 * EPS)
+        peaks += [*response_peaks(alone, sweep).speed]
+    assert len(peaks) > 2
+    found = disk_peak_speeds(SHEET, Rotors.of(rotors), sweep, sizes[0])
+    assert found == pytest.approx(np.array(peaks), rel=1e-9)
 
 
 def test_a_sweep_without_a_peak_has_none():
