@@ -79,6 +79,14 @@ def test_a_search_goes_on_from_the_last_and_then_looks_once(monkeypatch):
     assert counts[1:] == [1, 1]
 
 
+@pytest.mark.parametrize("force", [(math.nan, 1.0), (0.0, math.inf), (math.inf, math.nan)])
+def test_no_velocity_is_found_for_a_force_that_is_no_number_and_the_memory_stays(force):
+    near = [1.0]
+    with pytest.raises(ArithmeticError, match="no velocity found"):
+        short_motion.velocity(0.3, -0.6, *force, near)
+    assert near == [1.0]
+
+
 @pytest.mark.parametrize("b", [-0.9, -0.1, 0.0, 0.3, 0.55, 0.97, 0.985])
 def test_the_impedance_comes_with_its_own_slopes(b):
     kappa2, h = 0.03, 1e-5  # from b = 0.87 on by the series

@@ -98,7 +98,10 @@ def velocity(
         g_a, slope_a = a * half_slope, 0.5 * a * a * bend - b * half_slope  # its slope by ψ
         error = W * cos - g_a * sin
         step = error / ((W + slope_a) * sin - g_a * cos)
-        low, high = (psi, high) if error > 0.0 else (low, psi)
+        if error > 0.0:
+            low = psi
+        elif error <= 0.0:  # neither for what is no number: that search does not end
+            high = psi
         if abs(step) <= _LAST_STEP or high - low <= _TOLERANCE:
             if near is not None:
                 near[:] = (psi + step,)
