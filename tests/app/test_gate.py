@@ -46,6 +46,37 @@ def test_who_steps_aside_lets_the_others_in_and_comes_back_alone() -> None:
     assert seen == ["second", "first"]
 
 
+def test_who_came_first_goes_first_after_stepping_aside_too() -> None:
+    passage, seen = Gate(), []
+    steps = [threading.Event() for _ in range(3)]  # the first is aside; may come back; may go on
+
+    def go(number: int) -> None:
+        if number == 0:
+            with passage.through():
+                with passage.aside():
+                    steps[0].set()
+                    steps[1].wait(10.0)
+                seen.append("first")
+            return
+        steps[0].wait(10.0)
+        time.sleep(0.05 * number)
+        with passage.through():
+            if number == 1:
+                steps[2].wait(10.0)
+            seen.append(("second", "third")[number - 1])
+
+    threads = [threading.Thread(target=go, args=(i,)) for i in range(3)]
+    for thread in threads:
+        thread.start()
+    time.sleep(0.3)  # the second is in, the third waits
+    steps[1].set()
+    time.sleep(0.1)  # so does the first
+    steps[2].set()
+    for thread in threads:
+        thread.join(10.0)
+    assert seen == ["second", "first", "third"]
+
+
 def test_what_fails_inside_or_aside_leaves_the_gate_open() -> None:
     passage = Gate()
     with pytest.raises(RuntimeError), passage.through():
