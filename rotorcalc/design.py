@@ -6,7 +6,8 @@ A machine with massless journals and no midspan damping goes unstable where Ω =
     σ² (1/p_s² + (Γ/C) ω̄²) = s²/(M C F_o)        (Eqs. 5.8, 5.45, 5.46 and 5.50)
 
 whose left side is the film's alone but for the static sag, and rises with σ. So whole grids of
-machines are solved at once. Any other machine's onset is sought on its eigenvalues, one by one.
+machines are solved at once. Other machines' onsets are sought on their characteristic polynomials,
+and where these leave doubt on the eigenvalues, one by one.
 
 Inputs are named by the fields of the records, "bearing.radial_clearance" or "radial_clearance".
 
@@ -24,6 +25,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq, elementwise, minimize_scalar
 
 from rotorcalc.films import film_coefficients, film_state
+from rotorcalc.fleet import sure_onsets
 from rotorcalc.machine import JournalBearing, Machine, Oil, Rotor
 from rotorcalc.roots import narrow_root
 from rotorcalc.stability import Onset, onset_speed, whirl_onset
@@ -52,6 +54,8 @@ _ONE_CURVE = frozenset({"short"})
 # is all but centred, where the left side of the equation grows as σ².
 _SIGMA = np.geomspace(1e-3, 1e3, 241)
 _ROOT: Any = {"xatol": 0.0, "xrtol": 1e-15, "fatol": 0.0, "frtol": 0.0}
+# From so many machines on their onsets are sooner found together than one by one.
+_FLEET = 4
 # Values at which `solve_onset` looks before it closes in: where the onset is cheap, where not.
 _SCAN, _SLOW_SCAN = 200, 24
 # An onset this near to the target, relative, is the target.
@@ -269,15 +273,21 @@ def onset_speeds(machines: Sequence[Machine]) -> Array:
     RuntimeError
         Where the search does not end.
     """
-    speeds = np.empty(len(machines))
+    speeds = np.full(len(machines), np.nan)
     films: dict[str, list[int]] = {}
+    others: list[int] = []
     for i, machine in enumerate(machines):
         if has_closed_form(machine):
             films.setdefault(machine.bearing.film, []).append(i)
-        else:
-            speeds[i] = onset_speed(machine).speed
+        elif machine.bearing.film in _ONE_CURVE:
+            others.append(i)
     for indices in films.values():
         speeds[indices] = _closed_onsets([machines[i] for i in indices])
+    if len(others) >= _FLEET:
+        speeds[others] = sure_onsets([machines[i] for i in others])
+    for i, machine in enumerate(machines):
+        if math.isnan(speeds[i]):
+            speeds[i] = onset_speed(machine).speed
     return speeds
 
 

@@ -201,20 +201,30 @@ def characteristic_polynomial(rotor: Rotor, K: Array, C: Array, *, flexible: boo
         Coefficients from the constant to that of λⁿ, n as in `state_matrix`. Where det K, det C
         and so on are positive each is a sum of positive terms, and as good as they are.
     """
+    return film_terms(K, C) @ rotor_terms(rotor, flexible=flexible)
+
+
+def film_terms(K: Array, C: Array) -> Array:
+    """Return the film's part in `characteristic_polynomial`: of det Z, tr Z and 1, (..., 6)."""
+    one = np.ones(K.shape[:-2])
+    return np.stack([*_determinant(K, C), _trace(K), _trace(C), one], axis=-1)
+
+
+def rotor_terms(rotor: Rotor, *, flexible: bool = True) -> Array:
+    """Return the rotor's part in `characteristic_polynomial`: of D², D N and N², (6, n+1)."""
     s, m_j = 1.0 / rotor.shaft_stiffness if flexible else 0.0, rotor.journal_mass
     D = np.array([1.0, s * rotor.disk_damping, s * rotor.disk_mass])
     N = np.zeros(5)
     N[2:] = m_j * D
     N[1:3] += rotor.disk_damping, rotor.disk_mass
-    film = np.stack([*_determinant(K, C), _trace(K), _trace(C), np.ones(K.shape[:-2])], axis=-1)
-    of_rotor = np.zeros((6, 9))
+    terms = np.zeros((6, 9))
     for power in range(3):
-        of_rotor[power, power : power + 5] = np.convolve(D, D)
+        terms[power, power : power + 5] = np.convolve(D, D)
     for power in range(2):
-        of_rotor[3 + power, power : power + 7] = np.convolve(D, N)
-    of_rotor[5] = np.convolve(N, N)
+        terms[3 + power, power : power + 7] = np.convolve(D, N)
+    terms[5] = np.convolve(N, N)
     degree = 4 if s == 0.0 else 6 if m_j == 0.0 else 8
-    return film @ of_rotor[:, : degree + 1]
+    return terms[:, : degree + 1]
 
 
 def damped_frequency(eigenvalue: ArrayLike) -> Array:

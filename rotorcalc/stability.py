@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import minimize_scalar
 
-from rotorcalc import modes
+from rotorcalc import modes, routh
 from rotorcalc.coefficients import modified_sommerfeld, stiffness_and_damping
 from rotorcalc.films import film_coefficients, film_state
 from rotorcalc.machine import JournalBearing, Machine, Rotor
@@ -26,10 +26,6 @@ from rotorcalc.typing import Array, ComplexArray
 _POINTS_PER_DECADE = 30
 # It looks at so many at once, and no further than it must.
 _BLOCK = 64
-# To how much the coefficients of a characteristic polynomial are known, relative, with what Routh's
-# scheme rounds; and to which side Kharitonov's four polynomials differ from it, from λ⁰ on.
-_ROUNDING = 128 * float(np.finfo(float).eps)
-_KHARITONOV = np.tile([[-1, -1, 1, 1], [1, 1, -1, -1], [1, -1, -1, 1], [-1, 1, 1, -1]], 3)
 # How near to the onset, relative, the growth is a straight line over speed.
 _STRAIGHT = 1e-7
 
@@ -164,9 +160,9 @@ def onset_speed(machine: Machine, flexible: bool = True) -> Onset:
     """
 
     def doubt(speed: Array) -> Array:
-        return _doubt(machine, speed, flexible)
+        return routh.doubt(_polynomial(machine, speed, flexible))
 
-    speeds = _search(machine, flexible)
+    speeds = search_speeds(machine, flexible)
     bracket = _first_crossing(doubt, speeds)
     if bracket is None:
         return _NO_ONSET
@@ -199,55 +195,13 @@ def _growth(machine: Machine, speed: ArrayLike, flexible: bool) -> Array:
     return _fastest(machine.rotor, K, C, flexible).real / np.asarray(speed)
 
 
-def _routh(polynomial: Array) -> Array:
-    """Return the first column of Routh's scheme, which is positive where all roots decay.
-
-    Hurwitz's matrix is totally nonnegative there, and so elimination in it is as good as the
-    coefficients are, each to its own size.
-
-    Parameters
-    ----------
-    polynomial : array, (..., n+1)
-        Coefficients from the constant to that of λⁿ, positive, n even.
-
-    Returns
-    -------
-    array, (n-2, ...)
-        What is left of the coefficients of λⁿ⁻² … λ [-]: of each at most 1. The product, which is
-        Hurwitz's last determinant, vanishes where a first pair of roots meets the imaginary axis.
-    """
-    falling = np.moveaxis(polynomial, -1, 0)[::-1]
-    above, row = falling[0::2], falling[1::2]
-    left: list[Array] = []
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        for whole in falling[2:-1]:
-            below = above[1:].copy()
-            below[: len(row) - 1] -= above[0] / row[0] * row[1:]
-            left.append(below[0] / whole)
-            above, row = row, below
-    return np.stack(left)
-
-
 def _polynomial(machine: Machine, speed: ArrayLike, flexible: bool) -> Array:
     K, C = stiffness_and_damping(machine, speed)
     return modes.characteristic_polynomial(machine.rotor, K, C, flexible=flexible)
 
 
-def _doubt(machine: Machine, speed: ArrayLike, flexible: bool) -> Array:
-    """Return a number that is negative where all modes surely decay, else 1, shape of `speed`.
-
-    Kharitonov: all polynomials whose coefficients differ from one's by no more than rounding decay
-    if four of them do.
-    """
-    polynomial = _polynomial(machine, speed, flexible)
-    signs = _KHARITONOV[:, : polynomial.shape[-1]]
-    left = _routh(polynomial[..., None, :] * (1.0 + _ROUNDING * signs))
-    decay = np.all(left > 0.0, axis=(0, -1)) & np.all(polynomial > 0.0, axis=-1)
-    return np.where(decay, -np.min(left[-1], axis=-1), 1.0)
-
-
-def _search(machine: Machine, flexible: bool) -> Array:
-    """Return speeds that span the first of all onsets there can be [rad/s].
+def search_speeds(machine: Machine, flexible: bool = True) -> Array:
+    """Return speeds that span the first of all onsets there can be [rad/s], by equal ratios.
 
     A film that cannot whirl feeds no mode, whatever the rotor, so the search begins at the last
     speed before the film can; near the wall, below σ = 1e-3, none can. Above σ = 10 the film is all
@@ -314,7 +268,7 @@ def _sharp_crossing(
     """
 
     def determinant(speed: Array) -> Array:
-        return np.prod(_routh(_polynomial(machine, speed, flexible)), axis=0)
+        return routh.determinant(_polynomial(machine, speed, flexible))
 
     try:
         root = narrow_root(determinant, low, high) if low > 0.0 else math.nan
