@@ -56,6 +56,8 @@ _SIGMA = np.geomspace(1e-3, 1e3, 241)
 _ROOT: Any = {"xatol": 0.0, "xrtol": 1e-15, "fatol": 0.0, "frtol": 0.0}
 # From so many machines on their onsets are sooner found together than one by one.
 _FLEET = 4
+# Blocks of rows, or one more, by which a map that is not solved in one go tells its progress.
+_BLOCKS = 3
 # Values at which `solve_onset` looks before it closes in: where the onset is cheap, where not.
 _SCAN, _SLOW_SCAN = 200, 24
 # An onset this near to the target, relative, is the target.
@@ -311,7 +313,7 @@ def onset_map(  # noqa: PLR0913 - two axes, each a name and its values
     xs, ys : array_like, (n,), (m,)
         Their values in SI.
     progress : callable, optional
-        Told the share that is done, 0 to 1, after each row.
+        Told the share that is done, 0 to 1, after each block of rows.
 
     Returns
     -------
@@ -330,11 +332,13 @@ def onset_map(  # noqa: PLR0913 - two axes, each a name and its values
     made = [row_machine for row in rows for row_machine in row if row_machine is not None]
     whole = all(has_closed_form(one) for one in made)
     speed = np.empty((len(ys), len(xs)))
-    # In one go where that is cheapest, else row by row, so that the progress can be told.
-    for part in [slice(None)] if whole else [slice(i, i + 1) for i in range(len(ys))]:
+    # In one go where that is cheapest, else by blocks of rows, so that the progress can be told.
+    height = max(1, len(ys) if whole else len(ys) // _BLOCKS)
+    for top in range(0, len(ys), height):
+        part = slice(top, top + height)
         speed[part] = _onsets_where_made(rows[part])
         if progress is not None:
-            progress(1.0 if whole else part.stop / len(ys))
+            progress(min(1.0, (top + height) / len(ys)))
     return OnsetMap(x=x, y=y, xs=xs, ys=ys, speed=speed)
 
 

@@ -203,6 +203,24 @@ def test_a_map_with_damping_tells_its_progress() -> None:
             assert found.speed[i, j] == pytest.approx(onset_speed(cell).speed, rel=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("rows", "told"), [(1, [1.0]), (4, [0.25, 0.5, 0.75, 1.0]), (8, 4), (11, 4)]
+)
+def test_a_map_of_many_rows_tells_its_progress_by_blocks(
+    rows: int, told: list[float] | int
+) -> None:
+    heard: list[float] = []
+    axes = {"xs": [60e-6], "ys": np.linspace(1e3, 1e4, rows)}
+    found = design.onset_map(
+        SHEET, x="radial_clearance", y="disk_damping", progress=heard.append, **axes
+    )
+    assert heard == sorted(heard)
+    assert heard[-1] == 1.0
+    assert (len(heard) if isinstance(told, int) else heard) == told
+    onsets = [onset_speed(design.varied(SHEET, {"disk_damping": c})).speed for c in found.ys]
+    np.testing.assert_allclose(found.speed[:, 0], onsets, rtol=1e-9)
+
+
 def test_a_map_has_a_gap_where_the_values_make_no_machine() -> None:
     xs, ys = [0.0, 60.0, 200.0], [100.0, 1000.0]
     found = design.onset_map(SHEET, x="journal_mass", xs=xs, y="mass", ys=ys)
