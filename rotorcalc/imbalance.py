@@ -14,10 +14,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rotorcalc import modes, routh
 from rotorcalc.analysis import Sweep
 from rotorcalc.coefficients import checked_speed, equilibrium, stiffness_and_damping
 from rotorcalc.design import has_closed_form
-from rotorcalc.hurwitz import is_unstable
 from rotorcalc.machine import Machine, Rotor
 from rotorcalc.response import (
     OrbitEllipse,
@@ -325,7 +325,9 @@ def response_family(
         speed=denser,
         disk=disk,
         journal=journal,
-        unstable=np.array([is_unstable(rotor, K, C) for rotor in rotors]),
+        unstable=np.array(
+            [~routh.decays(modes.characteristic_polynomial(rotor, K, C)) for rotor in rotors]
+        ),
     )
 
 

@@ -17,6 +17,11 @@ _ROUNDING = 128 * float(np.finfo(float).eps)
 _KHARITONOV = np.tile([[-1, -1, 1, 1], [1, 1, -1, -1], [1, -1, -1, 1], [-1, 1, 1, -1]], 3)
 
 
+def decays(polynomial: Array) -> BoolArray:
+    """Return whether all roots of polynomials decay: whether Routh's first column is positive."""
+    return np.all(polynomial > 0.0, axis=-1) & np.all(_left(polynomial) > 0.0, axis=0)
+
+
 def determinant(polynomial: Array) -> Array:
     """Return Hurwitz's last determinant, over what it were had Routh's scheme nothing to take away.
 
