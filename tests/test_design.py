@@ -203,12 +203,8 @@ def test_a_map_with_damping_tells_its_progress() -> None:
             assert found.speed[i, j] == pytest.approx(onset_speed(cell).speed, rel=1e-9)
 
 
-@pytest.mark.parametrize(
-    ("rows", "told"), [(1, [1.0]), (4, [0.25, 0.5, 0.75, 1.0]), (8, 4), (11, 4)]
-)
-def test_a_map_of_many_rows_tells_its_progress_by_blocks(
-    rows: int, told: list[float] | int
-) -> None:
+@pytest.mark.parametrize(("rows", "blocks"), [(1, 1), (3, 3), (4, 4), (8, 4), (11, 4)])
+def test_a_map_of_many_rows_tells_its_progress_by_blocks(rows: int, blocks: int) -> None:
     heard: list[float] = []
     axes = {"xs": [60e-6], "ys": np.linspace(1e3, 1e4, rows)}
     found = design.onset_map(
@@ -216,7 +212,7 @@ def test_a_map_of_many_rows_tells_its_progress_by_blocks(
     )
     assert heard == sorted(heard)
     assert heard[-1] == 1.0
-    assert (len(heard) if isinstance(told, int) else heard) == told
+    assert len(heard) == blocks
     onsets = [onset_speed(design.varied(SHEET, {"disk_damping": c})).speed for c in found.ys]
     np.testing.assert_allclose(found.speed[:, 0], onsets, rtol=1e-9)
 
