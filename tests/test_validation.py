@@ -67,10 +67,10 @@ def test_a_broken_formula_fails_its_check(monkeypatch, module, name, factor, che
 
 
 def test_the_misprints_of_the_source_would_be_found(monkeypatch):
-    def printed(eps, radial, tangential):
-        k = right(eps, radial, tangential)
-        fr2 = 16 * eps**2 / (16 * eps**2 + np.pi**2 * (1 - eps**2))
-        k[..., 1, 1] = radial / (1 - eps**2) * (fr2 + 1 - eps**2)
+    def printed(eps, s2, radial, tangential):
+        k = right(eps, s2, radial, tangential)
+        fr2 = 16 * eps**2 / (16 * eps**2 + np.pi**2 * s2)
+        k[..., 1, 1] = radial / s2 * (fr2 + s2)
         return k
 
     right = short._xy_stiffness
