@@ -27,7 +27,7 @@ pid {folder}/nginx.pid;
 error_log {folder}/error.log;
 events {{ worker_connections 1024; }}
 http {{
-    include /etc/nginx/mime.types;
+    include {types};
     client_body_temp_path {folder}/body;
     proxy_temp_path {folder}/proxy;
     fastcgi_temp_path {folder}/fastcgi;
@@ -69,25 +69,41 @@ class Site:
 
 
 @pytest.fixture(scope="session")
-def nginx() -> str:
-    """Path of nginx; without one the tests are left out, but not in CI."""
-    found = shutil.which("nginx", path=f"{os.environ['PATH']}:/usr/sbin")
-    if found:
-        return found
+def nginx(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Path of nginx: the machine's own, or Debian's, fetched and not installed.
+
+    Where neither is to be had the tests are left out, but not in CI.
+    """
+    if found := shutil.which("nginx", path=f"{os.environ['PATH']}:/usr/sbin"):
+        return Path(found)
+    if fetched := _fetched_nginx(tmp_path_factory.mktemp("debian")):
+        return fetched
     if os.environ.get("CI"):
         pytest.fail("nginx is not installed (Debian: apt install nginx-light)", pytrace=False)
     pytest.skip("nginx is not installed (Debian: apt install nginx-light)")
 
 
+def _fetched_nginx(folder: Path) -> Path | None:
+    """Return nginx unpacked from Debian's packages, which takes no rights, or nothing elsewhere."""
+    apt, dpkg = shutil.which("apt-get"), shutil.which("dpkg")
+    if apt is None or dpkg is None:
+        return None
+    subprocess.run([apt, "download", "-q", "nginx", "nginx-common"], cwd=folder, check=False)
+    for package in folder.glob("*.deb"):
+        subprocess.run([dpkg, "-x", str(package), str(folder)], check=True)
+    program = folder / "usr/sbin/nginx"
+    return program if program.exists() else None
+
+
 @pytest.fixture(scope="session")
-def site(nginx: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Site]:
+def site(nginx: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Site]:
     """The site, as deploy/ describes it."""
     folder = tmp_path_factory.mktemp("nginx")
     served.publish(folder / "www", BASE)
     replicas = {name: _replica(name, free_port()) for name in NAMES}
     site = Site(free_port(), folder, replicas)
-    _configure(site)
-    command = [nginx, "-p", str(folder), "-c", str(folder / "nginx.conf")]
+    _configure(site, nginx)
+    command = [str(nginx), "-p", str(folder), "-c", str(folder / "nginx.conf")]
     subprocess.run([*command, "-t", "-q"], check=True)
     server = subprocess.Popen(command)
     try:
@@ -112,8 +128,10 @@ def _replica(name: str, port: int) -> Replica:
     )
 
 
-def _configure(site: Site) -> None:
+def _configure(site: Site, nginx: Path) -> None:
     """Write the project's configuration with this machine's ports and folders in it."""
+    beside = nginx.parents[2] / "etc/nginx/mime.types"  # where a package was unpacked
+    types = beside if beside.exists() else "/etc/nginx/mime.types"
     ours = (ROOT / "deploy/nginx.conf").read_text()
     changes = {
         "listen 80": f"listen 127.0.0.1:{site.port}",
@@ -127,7 +145,9 @@ def _configure(site: Site) -> None:
     (site.folder / "rotorcalc.conf").write_text(ours)
     # Started by root, nginx would read the test's folder as another user, who may not.
     user = "user root;" if os.geteuid() == 0 else ""
-    (site.folder / "nginx.conf").write_text(_AROUND.format(folder=site.folder, user=user))
+    (site.folder / "nginx.conf").write_text(
+        _AROUND.format(folder=site.folder, types=types, user=user)
+    )
 
 
 def _wait_for(site: Site) -> None:
