@@ -5,7 +5,8 @@ Streamlit imports this file once, for the server, and runs it for a visitor of t
 
 import streamlit as st
 
-from ui import home, log, server
+from ui.serving import log, server
+from ui.words import home
 
 if __name__ == "__main__":
     home.draw()

@@ -2,7 +2,7 @@ import streamlit as st
 
 from rotorcalc.figures import equilibrium as place
 from rotorcalc.figures import film
-from ui.page import Page, show
+from ui.frame.page import Page, show
 
 
 def content(page: Page) -> None:

@@ -6,8 +6,8 @@ import streamlit as st
 from rotorcalc.analysis import Axes
 from rotorcalc.coefficients import BULK_FLOW, LAMINAR
 from rotorcalc.figures import coefficients as draw
-from ui import coefficients as words
-from ui.page import Page, show
+from ui.frame.page import Page, show
+from ui.words import coefficients as words
 
 
 def content(page: Page) -> None:

@@ -1,10 +1,10 @@
 import streamlit as st
 
-from rotorcalc import whirl
+from rotorcalc import whirl_energy
 from rotorcalc.figures import design as what_if
 from rotorcalc.figures import stability as figures
-from ui import stability as ask
-from ui.page import Page, show
+from ui.frame.page import Page, show
+from ui.words import stability as ask
 
 
 def content(page: Page) -> None:
@@ -20,7 +20,7 @@ def content(page: Page) -> None:
 
 def over_speed(draw, units):
     return lambda v: draw(
-        whirl.thresholds(v.sweep), whirl.thresholds(v.point), ask.crossing(v), units
+        whirl_energy.thresholds(v.sweep), whirl_energy.thresholds(v.point), ask.crossing(v), units
     )
 
 

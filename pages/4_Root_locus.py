@@ -2,10 +2,10 @@ from functools import partial
 
 import streamlit as st
 
-from rotorcalc.figures import locus as locus_figures
 from rotorcalc.figures import modes as figures
-from ui import modes as words
-from ui.page import Page, show
+from rotorcalc.figures import root_locus as locus_figures
+from ui.frame.page import Page, show
+from ui.words import root_locus as words
 
 
 def content(page: Page) -> None:

@@ -3,8 +3,8 @@ from typing import Literal
 import streamlit as st
 
 from rotorcalc.figures import response as draw
-from ui import response as words
-from ui.page import Page, show
+from ui.frame.page import Page, show
+from ui.words import response as words
 
 
 def content(page: Page) -> None:

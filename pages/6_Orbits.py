@@ -3,9 +3,9 @@ from functools import partial
 import streamlit as st
 
 from rotorcalc.figures import orbits as draw
-from rotorcalc.release import Release
-from ui import orbits as ask
-from ui.page import Page, show
+from rotorcalc.nonlinear.release import Release
+from ui.frame.page import Page, show
+from ui.words import orbits as ask
 
 
 def content(shown: Page) -> None:

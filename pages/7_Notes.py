@@ -1,8 +1,8 @@
 import streamlit as st
 
-from rotorcalc.figures.notes import conventions
+from rotorcalc.figures.conventions import conventions
 from ui import notes
-from ui.page import Page, show
+from ui.frame.page import Page, show
 
 
 def content(page: Page) -> None:

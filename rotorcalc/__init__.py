@@ -4,17 +4,19 @@ SI units throughout, temperature in °C. X points along the static load, Y at +9
 rotation. `analyse(machine, speed)` computes the whole chain; the modules hold its links.
 """
 
-from rotorcalc import coefficients, films, frames, modes, response, signals, stability
+from rotorcalc import coefficients, films, frames, modes, stability, unbalance_response
 from rotorcalc.analysis import FilmCurves, Sweep, analyse, film_curves
-from rotorcalc.cycles import Bifurcation, BifurcationError, bifurcation
-from rotorcalc.energy import EnergyBalance, energy_balance
 from rotorcalc.machine import JournalBearing, Machine, Oil, Rotor
-from rotorcalc.normal_form import Hopf, hopf
-from rotorcalc.onset_check import Onsets, onsets
+from rotorcalc.nonlinear import signals
+from rotorcalc.nonlinear.energy import EnergyBalance, energy_balance
+from rotorcalc.nonlinear.hopf import Hopf, hopf
+from rotorcalc.nonlinear.limit_cycles import Bifurcation, BifurcationError, bifurcation
+from rotorcalc.nonlinear.measured_onset import Onsets, onsets
+from rotorcalc.nonlinear.transient import Start, Transient, TransientError, simulate, start_on_mode
+from rotorcalc.onset.search import Onset, onset_speed
+from rotorcalc.onset.whirl import WhirlOnset, whirl_onset
 from rotorcalc.presets import PRESETS, Preset
-from rotorcalc.response import OrbitEllipse, orbit_ellipse
-from rotorcalc.stability import Onset, WhirlOnset, onset_speed, whirl_onset
-from rotorcalc.transient import Start, Transient, TransientError, simulate, start_on_mode
+from rotorcalc.unbalance_response import OrbitEllipse, orbit_ellipse
 
 __version__ = "0.1.0"
 
@@ -50,10 +52,10 @@ __all__ = [
     "onset_speed",
     "onsets",
     "orbit_ellipse",
-    "response",
     "signals",
     "simulate",
     "stability",
     "start_on_mode",
+    "unbalance_response",
     "whirl_onset",
 ]

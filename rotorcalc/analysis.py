@@ -11,13 +11,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotorcalc import modes
+from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.films import FilmState, film_state
 from rotorcalc.frames import rotate
 from rotorcalc.machine import JournalBearing, Machine
-from rotorcalc.response import synchronous_response
-from rotorcalc.stability import WhirlOnset, flexible_threshold, whirl_onset
-from rotorcalc.typing import Array, ComplexArray
+from rotorcalc.onset.whirl import WhirlOnset, flexible_threshold, whirl_onset
+from rotorcalc.unbalance_response import synchronous_response
 
 Axes: TypeAlias = Literal["XY", "rt"]
 

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rotorcalc.arrays import Array, BoolArray, real_array
 from rotorcalc.films import FilmState, film_added_mass, film_coefficients, film_pressure, film_state
 from rotorcalc.machine import Machine
-from rotorcalc.typing import Array, BoolArray, real_array
 
 # Factors α_m of the film's inertia: a parabolic velocity profile, and a flat one.
 LAMINAR, BULK_FLOW = 6.0 / 5.0, 1.0

@@ -1,35 +1,25 @@
 """What if: how the onset speed follows from the inputs, for many machines at once.
 
-A machine with massless journals and no midspan damping goes unstable where Ω = Ω_sf(ε(Ω)). With
-σ = sΩ/F_o, s = μLR(L/C)²/4, that is the root in σ of
-
-    σ² (1/p_s² + (Γ/C) ω̄²) = s²/(M C F_o)        (Eqs. 5.8, 5.45, 5.46 and 5.50)
-
-whose left side is the film's alone but for the static sag, and rises with σ. So whole grids of
-machines are solved at once. Other machines' onsets are sought on their characteristic polynomials,
-and where these leave doubt on the eigenvalues, one by one.
+Whole grids of machines are solved at once where a closed form holds, by their characteristic
+polynomials where none does, and one by one where these leave doubt.
 
 Inputs are named by the fields of the records, "bearing.radial_clearance" or "radial_clearance".
 
 Source: San Andrés, Notes 5.
 """
 
-import functools
-import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, fields, replace
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq, elementwise, minimize_scalar
+from scipy.optimize import brentq, minimize_scalar
 
-from rotorcalc.films import film_coefficients, film_state
-from rotorcalc.fleet import sure_onsets
-from rotorcalc.machine import JournalBearing, Machine, Oil, Rotor
-from rotorcalc.roots import narrow_root
-from rotorcalc.stability import Onset, onset_speed, whirl_onset
-from rotorcalc.typing import Array
+from rotorcalc.arrays import Array
+from rotorcalc.machine import Machine
+from rotorcalc.onset.closed_form import has_closed_form
+from rotorcalc.onset.many import onset_speeds
+from rotorcalc.variation import address, value_of, varied
 
 # What moves an onset: the inputs that `sensitivities` moves.
 INPUTS = (
@@ -45,21 +35,20 @@ INPUTS = (
     "rotor.disk_damping",
     "rotor.journal_mass",
 )
+
+
 # A temperature has no natural zero of which to take a share: it is moved by degrees.
 TEMPERATURE_STEP = 5.0
 
-# Film models whose k and c depend on σ alone, so that one curve serves every bearing.
-_ONE_CURVE = frozenset({"short"})
-# Modified Sommerfeld numbers between which a root is bracketed. Below no film can whirl, above it
-# is all but centred, where the left side of the equation grows as σ².
-_SIGMA = np.geomspace(1e-3, 1e3, 241)
-_ROOT: Any = {"xatol": 0.0, "xrtol": 1e-15, "fatol": 0.0, "frtol": 0.0}
-# From so many machines on their onsets are sooner found together than one by one.
-_FLEET = 4
+
 # Blocks of rows, or one more, by which a map that is not solved in one go tells its progress.
 _BLOCKS = 3
+
+
 # Values at which `solve_onset` looks before it closes in: where the onset is cheap, where not.
 _SCAN, _SLOW_SCAN = 200, 24
+
+
 # An onset this near to the target, relative, is the target.
 _HIT = 1e-6
 
@@ -150,149 +139,6 @@ class OnsetSolution:
         return float(self.onset.min()), float(self.onset.max())
 
 
-def value_of(machine: Machine, field: str) -> float:
-    """Return the value of an input.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    field : str
-        The input, "bearing.radial_clearance" or "radial_clearance".
-
-    Returns
-    -------
-    float
-        Its value in SI; for a load that follows the rotor's weight, half that weight.
-
-    Raises
-    ------
-    ValueError
-        Where there is no such input.
-    """
-    record, name = _address(field)
-    if name == "load":
-        return machine.static_load
-    return float(getattr(getattr(machine, record) if record else machine, name))
-
-
-def varied(machine: Machine, values: Mapping[str, float]) -> Machine:
-    """Return a machine with other values of some inputs.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine; a load of None goes on following the rotor's mass.
-    values : mapping of str to float
-        Inputs and their values in SI.
-
-    Returns
-    -------
-    Machine
-        The other machine.
-
-    Raises
-    ------
-    ValueError
-        Where there is no such input, or the values make no machine.
-
-    Examples
-    --------
-    >>> from rotorcalc import PRESETS
-    >>> varied(PRESETS["sheet-1e8"].machine, {"radial_clearance": 80e-6}).bearing.radial_clearance
-    8e-05
-    """
-    changes: dict[str, dict[str, float]] = {}
-    for field, value in values.items():
-        record, name = _address(field)
-        changes.setdefault(record, {})[name] = value
-    own = changes.pop("", {})
-    records = {record: replace(getattr(machine, record), **new) for record, new in changes.items()}
-    return replace(machine, **own, **records)
-
-
-def has_closed_form(machine: Machine) -> bool:
-    """Return whether Eqs. 5.45 to 5.50 give the machine's onset, and no eigenvalues are needed."""
-    rotor = machine.rotor
-    massless = rotor.journal_mass == 0.0 or rotor.is_rigid
-    return massless and rotor.disk_damping == 0.0 and machine.bearing.film in _ONE_CURVE
-
-
-def closed_form_onset(machine: Machine, *, flexible: bool = True) -> Onset:
-    """Return the onset of a machine by the module's equation, without its eigenvalues.
-
-    Parameters
-    ----------
-    machine : Machine
-        A machine with `has_closed_form`; with a rigid shaft it may have journal mass.
-    flexible : bool
-        Whether the shaft bends; a rigid shaft never does.
-
-    Returns
-    -------
-    Onset
-        As `onset_speed` gives it.
-
-    Raises
-    ------
-    ValueError
-        Where the machine has midspan damping, or journal mass on a shaft that bends.
-    """
-    if not flexible:
-        machine = replace(machine, rotor=replace(machine.rotor, shaft_stiffness=math.inf))
-    if not has_closed_form(machine):
-        raise ValueError("no closed form for a machine with midspan damping or journal mass")
-    M, K_rot, F, s, C = _numbers(machine)
-    if F == 0.0:
-        return Onset(speed=0.0, whirl_frequency=0.0, eccentricity_ratio=0.0)
-    film, sag, wanted = machine.bearing.film, F / (K_rot * C), s**2 / (M * C * F)
-    low, high = _bracket(film, sag=np.array([sag]), wanted=np.array([wanted]))
-    sigma = narrow_root(lambda sigma: _residual(film, sigma, sag, wanted), low[0], high[0])
-    state = film_state(machine.bearing, sigma)
-    speed = sigma * F / s
-    return Onset(
-        speed=speed,
-        whirl_frequency=float(whirl_onset(state.k, state.c).whirl_ratio) * speed,
-        eccentricity_ratio=float(state.eccentricity_ratio),
-    )
-
-
-def onset_speeds(machines: Sequence[Machine]) -> Array:
-    """Return the onset speeds of many machines.
-
-    Parameters
-    ----------
-    machines : sequence of Machine, n
-        The machines.
-
-    Returns
-    -------
-    array, (n,)
-        Onset speed, Ω_s [rad/s], as `onset_speed` gives it for each.
-
-    Raises
-    ------
-    RuntimeError
-        Where the search does not end.
-    """
-    speeds = np.full(len(machines), np.nan)
-    films: dict[str, list[int]] = {}
-    others: list[int] = []
-    for i, machine in enumerate(machines):
-        if has_closed_form(machine):
-            films.setdefault(machine.bearing.film, []).append(i)
-        elif machine.bearing.film in _ONE_CURVE:
-            others.append(i)
-    for indices in films.values():
-        speeds[indices] = _closed_onsets([machines[i] for i in indices])
-    if len(others) >= _FLEET:
-        speeds[others] = sure_onsets([machines[i] for i in others])
-    for i, machine in enumerate(machines):
-        if math.isnan(speeds[i]):
-            speeds[i] = onset_speed(machine).speed
-    return speeds
-
-
 def onset_map(  # noqa: PLR0913 - two axes, each a name and its values
     machine: Machine,
     *,
@@ -325,7 +171,7 @@ def onset_map(  # noqa: PLR0913 - two axes, each a name and its values
     ValueError
         Where there is no such input, or both are the same.
     """
-    if _address(x) == _address(y):
+    if address(x) == address(y):
         raise ValueError(f"y = {y!r}: must differ from x")
     xs, ys = np.asarray(xs, dtype=float), np.asarray(ys, dtype=float)
     rows = [[_machine_or_none(machine, {x: a, y: b}) for a in xs] for b in ys]
@@ -444,34 +290,12 @@ def solve_onset(
     )
 
 
-@functools.cache
-def _address(field: str) -> tuple[str, str]:
-    """Return the record and the name of an input; the machine's own record is ""."""
-    known = {
-        (record, item.name)
-        for record, cls in (
-            ("", Machine),
-            ("oil", Oil),
-            ("bearing", JournalBearing),
-            ("rotor", Rotor),
-        )
-        for item in fields(cls)
-        if item.name not in ("oil", "bearing", "rotor", "film")
-    }
-    record, _, name = field.rpartition(".")
-    for address in known:
-        if address == (record, name) or (not record and address[1] == name):
-            return address
-    names = ", ".join(sorted(".".join(filter(None, address)) for address in known))
-    raise ValueError(f"{field[:80]!r}: no input of a machine; known are {names}")
-
-
 def _machine_or_none(machine: Machine, values: Mapping[str, float]) -> Machine | None:
     try:
         return varied(machine, values)
     except ValueError:
         for field in values:
-            _address(field)  # an unknown input is an error, values that make no machine are not
+            address(field)  # an unknown input is an error, values that make no machine are not
         return None
 
 
@@ -482,74 +306,10 @@ def _onsets_where_made(rows: Sequence[Sequence[Machine | None]]) -> Array:
     return speed
 
 
-def _closed_onsets(machines: Sequence[Machine]) -> Array:
-    """Return the onsets of machines with one film model and a closed form."""
-    numbers = np.array([_numbers(machine) for machine in machines])
-    speeds = np.zeros(len(machines))  # without load the onset is at speed 0
-    loaded = numbers[:, 2] > 0.0
-    M, K_rot, F, s, C = numbers[loaded].T
-    sigma = _root(machines[0].bearing.film, sag=F / (K_rot * C), wanted=s**2 / (M * C * F))
-    speeds[loaded] = sigma * F / s
-    return speeds
-
-
-def _numbers(machine: Machine) -> tuple[float, ...]:
-    """Return M, K_rot, F_o, s = σF_o/Ω, C of a machine."""
-    bearing, rotor = machine.bearing, machine.rotor
-    L, C = bearing.length, bearing.radial_clearance
-    s = machine.viscosity * L * bearing.radius * (L / C) ** 2 / 4.0
-    return rotor.half_mass, rotor.shaft_stiffness, machine.static_load, s, C
-
-
-def _root(film: str, *, sag: Array, wanted: Array) -> Array:
-    """Return the lowest σ at which the left side of the module's equation is the right one."""
-
-    def residual(sigma: Array, sag: Array, wanted: Array) -> Array:
-        return _residual(film, sigma, sag, wanted)
-
-    bracket = _bracket(film, sag=sag, wanted=wanted)
-    # The stubs lack what find_root returns for arrays of arguments.
-    found: Any = elementwise.find_root(residual, bracket, args=(sag, wanted), tolerances=_ROOT)
-    if not np.all(found.success):
-        raise RuntimeError("no onset found within the search's iterations")
-    return np.asarray(found.x, dtype=float)
-
-
-def _bracket(film: str, *, sag: Array, wanted: Array) -> tuple[Array, Array]:
-    """Return σ below and above the root, where the left side first passes the right one."""
-    rigid, flexible = _curve(film)
-    table = rigid + sag[:, None] * flexible
-    first = np.argmax(table >= wanted[:, None], axis=1)
-    beyond = table[:, -1] < wanted  # where the film is centred
-    far = 2.0 * _SIGMA[-1] * np.sqrt(wanted / table[:, -1])
-    low = np.where(beyond, _SIGMA[-1], _SIGMA[np.maximum(first - 1, 0)])
-    high = np.where(beyond, far, _SIGMA[first])
-    return low, high
-
-
-def _residual(film: str, sigma: Any, sag: Any, wanted: Any) -> Any:
-    """Return how far the left side is above the right one, relative; of floats or arrays."""
-    rigid, flexible = _left_side(film, sigma)
-    return (rigid + sag * flexible) / wanted - 1.0
-
-
-@functools.cache
-def _curve(film: str) -> tuple[Array, Array]:
-    return _left_side(film, _SIGMA)
-
-
-def _left_side(film: str, sigma: Array) -> tuple[Array, Array]:
-    """Return σ²/p_s² and σ²ω̄², the two terms of the module's equation."""
-    any_bearing = JournalBearing(diameter=1.0, length=1.0, radial_clearance=1.0, film=film)
-    k, c = film_coefficients(any_bearing, sigma)
-    onset = whirl_onset(k, c)  # p_s² in film units, not in the load's
-    return sigma / (4.0 * onset.critical_mass), (sigma * onset.whirl_ratio) ** 2
-
-
 def _moved(machine: Machine, field: str, share: float) -> tuple[str, float, float]:
     """Return an input with the values to which it is moved, down and up."""
     value = value_of(machine, field)
-    if _address(field)[1] in ("temperature", "reference_temperature"):
+    if address(field)[1] in ("temperature", "reference_temperature"):
         return field, value - TEMPERATURE_STEP, value + TEMPERATURE_STEP
     return field, value * (1.0 - share), value * (1.0 + share)
 

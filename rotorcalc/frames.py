@@ -7,7 +7,7 @@ centres, at the attitude angle φ from X, and t at +90° from r. Source: notes, 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotorcalc.typing import Array
+from rotorcalc.arrays import Array
 
 
 def matrix(xx: ArrayLike, xy: ArrayLike, yx: ArrayLike, yy: ArrayLike) -> Array:

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linear_sum_assignment
 
+from rotorcalc.arrays import Array, BoolArray, ComplexArray
 from rotorcalc.machine import Rotor
-from rotorcalc.typing import Array, BoolArray, ComplexArray
 
 _I = np.eye(2)
 # Newton's steps from an eigenvalue that is all but right, at most, and the size of the last of

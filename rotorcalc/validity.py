@@ -9,7 +9,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from rotorcalc.analysis import Sweep
-from rotorcalc.response import orbit_ellipse
+from rotorcalc.unbalance_response import orbit_ellipse
 
 Level: TypeAlias = Literal["good", "caution", "outside"]
 

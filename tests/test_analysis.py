@@ -13,8 +13,8 @@ from rotorcalc.analysis import film_curves, force_coefficients
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.films import short
 from rotorcalc.frames import rotate
-from rotorcalc.response import synchronous_response
-from rotorcalc.stability import whirl_onset
+from rotorcalc.onset.whirl import whirl_onset
+from rotorcalc.unbalance_response import synchronous_response
 from tests.machines import ALWAYS_STABLE, EPS, RPM, SHEET, machines, with_rotor
 
 RIGID = with_rotor(shaft_stiffness=math.inf)

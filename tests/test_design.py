@@ -9,8 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
-from rotorcalc import PRESETS, Machine, analyse, design, onset_speed
+from rotorcalc import PRESETS, Machine, analyse, design, onset_speed, variation
 from rotorcalc.machine import JournalBearing, Oil, Rotor
+from rotorcalc.onset import closed_form
+from rotorcalc.onset.many import onset_speeds
 
 SHEET = PRESETS["sheet-1e8"].machine
 RPM = math.pi / 30
@@ -48,8 +50,8 @@ machines = st.builds(
 
 @given(machine=machines)
 def test_the_closed_form_is_the_crossing_of_the_eigenvalues(machine: Machine) -> None:
-    assert design.has_closed_form(machine)
-    [speed] = design.onset_speeds([machine])
+    assert closed_form.has_closed_form(machine)
+    [speed] = onset_speeds([machine])
     below, above = speed * (1.0 - 1e-11), speed * (1.0 + 1e-11)
     assert analyse(machine, below).flexible_threshold > below
     assert analyse(machine, above).flexible_threshold < above
@@ -60,9 +62,9 @@ def test_the_closed_form_is_the_crossing_of_the_eigenvalues(machine: Machine) ->
 
 @given(machine=machines, flexible=st.booleans())
 def test_one_machine_is_solved_as_many_are(machine: Machine, flexible: bool) -> None:
-    onset = design.closed_form_onset(machine, flexible=flexible)
+    onset = closed_form.closed_form_onset(machine, flexible=flexible)
     bends = machine if flexible else _rigid(machine)
-    [speed] = design.onset_speeds([bends])
+    [speed] = onset_speeds([bends])
     assert onset.speed == pytest.approx(speed, rel=1e-13)
     there = analyse(machine, onset.speed)
     # Eq. 5.46 gives ω̄² as a difference of numbers of order one.
@@ -78,7 +80,7 @@ def _rigid(machine: Machine) -> Machine:
 @pytest.mark.parametrize("machine", [SHEET, replace(SHEET, load=0.0), PRESETS["sheet-1e7"].machine])
 @pytest.mark.parametrize("flexible", [True, False])
 def test_the_closed_form_is_the_onset_on_the_eigenvalues(machine: Machine, flexible: bool) -> None:
-    onset = design.closed_form_onset(machine, flexible=flexible)
+    onset = closed_form.closed_form_onset(machine, flexible=flexible)
     found = onset_speed(machine, flexible=flexible)
     for name in ("speed", "whirl_frequency", "eccentricity_ratio"):
         assert getattr(onset, name) == pytest.approx(getattr(found, name), rel=1e-9), name
@@ -86,13 +88,13 @@ def test_the_closed_form_is_the_onset_on_the_eigenvalues(machine: Machine, flexi
 
 def test_no_closed_form_is_said_in_words() -> None:
     with pytest.raises(ValueError, match="no closed form for a machine with midspan damping or"):
-        design.closed_form_onset(DAMPED)
+        closed_form.closed_form_onset(DAMPED)
 
 
-@pytest.mark.parametrize("film", sorted(design._ONE_CURVE))
+@pytest.mark.parametrize("film", sorted(closed_form.ONE_CURVE))
 def test_one_film_has_one_onset(film: str) -> None:
     """Both terms of the equation rise with σ, so it has one root whatever the static sag."""
-    for term in design._curve(film):
+    for term in closed_form._curve(film):
         whirls = term > 0.0
         assert np.all(np.diff(term[whirls]) > 0.0)
         assert np.all(np.diff(whirls.astype(int)) >= 0)
@@ -101,8 +103,8 @@ def test_one_film_has_one_onset(film: str) -> None:
 def test_machines_of_all_kinds_are_solved_in_their_order() -> None:
     many = [SHEET, DAMPED, replace(SHEET, load=0.0), PRESETS["fig-5-2"].machine]
     expected = [onset_speed(machine).speed for machine in many]
-    np.testing.assert_allclose(design.onset_speeds(many), expected, rtol=1e-9)
-    assert len(design.onset_speeds([])) == 0
+    np.testing.assert_allclose(onset_speeds(many), expected, rtol=1e-9)
+    assert len(onset_speeds([])) == 0
 
 
 @pytest.mark.parametrize(
@@ -118,8 +120,8 @@ def test_machines_of_all_kinds_are_solved_in_their_order() -> None:
 )
 def test_which_machines_have_a_closed_form(rotor: dict[str, float], closed: bool) -> None:
     machine = replace(SHEET, rotor=replace(SHEET.rotor, **rotor))
-    assert design.has_closed_form(machine) is closed
-    [speed] = design.onset_speeds([machine])
+    assert closed_form.has_closed_form(machine) is closed
+    [speed] = onset_speeds([machine])
     assert speed == pytest.approx(onset_speed(machine).speed, rel=1e-9)
 
 
@@ -128,27 +130,27 @@ def test_which_machines_have_a_closed_form(rotor: dict[str, float], closed: bool
 
 def test_an_input_goes_by_its_path_or_its_name() -> None:
     for field in ("bearing.radial_clearance", "radial_clearance"):
-        assert design.value_of(SHEET, field) == 60e-6
-        other = design.varied(SHEET, {field: 80e-6})
+        assert variation.value_of(SHEET, field) == 60e-6
+        other = variation.varied(SHEET, {field: 80e-6})
         assert other == replace(SHEET, bearing=replace(SHEET.bearing, radial_clearance=80e-6))
 
 
 def test_several_inputs_of_one_record_change_at_once() -> None:
-    other = design.varied(SHEET, {"mass": 10.0, "rotor.journal_mass": 4.0, "temperature": 20.0})
+    other = variation.varied(SHEET, {"mass": 10.0, "rotor.journal_mass": 4.0, "temperature": 20.0})
     assert (other.rotor.mass, other.rotor.journal_mass, other.temperature) == (10.0, 4.0, 20.0)
 
 
 def test_the_load_follows_the_mass_until_it_is_given() -> None:
-    heavier = design.varied(SHEET, {"mass": 2.0 * SHEET.rotor.mass})
+    heavier = variation.varied(SHEET, {"mass": 2.0 * SHEET.rotor.mass})
     assert heavier.static_load == pytest.approx(2.0 * SHEET.static_load)
-    assert design.value_of(SHEET, "load") == SHEET.static_load
-    loaded = design.varied(SHEET, {"load": 500.0})
-    assert design.varied(loaded, {"mass": 1000.0}).static_load == 500.0
+    assert variation.value_of(SHEET, "load") == SHEET.static_load
+    loaded = variation.varied(SHEET, {"load": 500.0})
+    assert variation.varied(loaded, {"mass": 1000.0}).static_load == 500.0
 
 
 @pytest.mark.parametrize("field", ["clearance", "bearing.mass", "film", "oil", "rotor.", ""])
 def test_an_unknown_input_is_named(field: str) -> None:
-    for ask in (design.value_of, lambda m, f: design.varied(m, {f: 1.0})):
+    for ask in (variation.value_of, lambda m, f: variation.varied(m, {f: 1.0})):
         with pytest.raises(ValueError, match="no input of a machine"):
             ask(SHEET, field)
     with pytest.raises(ValueError, match="no input of a machine"):
@@ -186,7 +188,7 @@ def test_a_map_is_the_onset_of_each_machine_on_it(key: str, x: str, y: str) -> N
     assert found.speed.shape == (60, 60)
     draw = np.random.default_rng(5)
     for i, j in draw.integers(60, size=(8, 2)):
-        cell = design.varied(machine, {x: float(found.xs[j]), y: float(found.ys[i])})
+        cell = variation.varied(machine, {x: float(found.xs[j]), y: float(found.ys[i])})
         assert found.speed[i, j] == pytest.approx(onset_speed(cell).speed, rel=1e-9)
 
 
@@ -199,7 +201,9 @@ def test_a_map_with_damping_tells_its_progress() -> None:
     assert told == pytest.approx([1 / 3, 2 / 3, 1.0])
     for j, C in enumerate(xs):
         for i, C_s in enumerate(ys):
-            cell = design.varied(SHEET, {"radial_clearance": float(C), "disk_damping": float(C_s)})
+            cell = variation.varied(
+                SHEET, {"radial_clearance": float(C), "disk_damping": float(C_s)}
+            )
             assert found.speed[i, j] == pytest.approx(onset_speed(cell).speed, rel=1e-9)
 
 
@@ -213,7 +217,7 @@ def test_a_map_of_many_rows_tells_its_progress_by_blocks(rows: int, blocks: int)
     assert heard == sorted(heard)
     assert heard[-1] == 1.0
     assert len(heard) == blocks
-    onsets = [onset_speed(design.varied(SHEET, {"disk_damping": c})).speed for c in found.ys]
+    onsets = [onset_speed(variation.varied(SHEET, {"disk_damping": c})).speed for c in found.ys]
     np.testing.assert_allclose(found.speed[:, 0], onsets, rtol=1e-9)
 
 
@@ -238,7 +242,7 @@ def test_sensitivities_are_onsets_of_moved_machines(machine: Machine) -> None:
     moves = []
     for one in found.inputs:
         for value, onset in ((one.low, one.onset_low), (one.high, one.onset_high)):
-            moved = design.varied(machine, {one.field: value})
+            moved = variation.varied(machine, {one.field: value})
             assert onset == pytest.approx(onset_speed(moved).speed, rel=1e-9)
         moves.append(max(abs(one.onset_low - found.onset), abs(one.onset_high - found.onset)))
     assert moves == sorted(moves, reverse=True)
@@ -260,9 +264,9 @@ def test_inputs_without_a_share_of_their_value_are_left_out() -> None:
 
 def test_the_small_clearance_and_the_large_load_raise_the_onset() -> None:
     """Ω_s ∝ √(F_o/MC) at a fixed film: half a tenth of a rigid rotor's onset."""
-    rigid = design.varied(PRESETS["fig-5-2"].machine, {"length": 0.15})  # nearly centred
+    rigid = variation.varied(PRESETS["fig-5-2"].machine, {"length": 0.15})  # nearly centred
     by_field = {one.field: one for one in design.sensitivities(rigid).inputs}
-    onset = design.onset_speeds([rigid])[0]
+    onset = onset_speeds([rigid])[0]
     assert by_field["bearing.radial_clearance"].onset_low / onset == pytest.approx(
         0.9**-0.5, rel=2e-3
     )
@@ -291,7 +295,7 @@ def test_solutions_put_the_onset_at_the_target(
     least, most = found.reachable
     for value in found.solutions:
         assert low <= value <= high
-        onset = onset_speed(design.varied(SHEET, {vary: float(value)})).speed
+        onset = onset_speed(variation.varied(SHEET, {vary: float(value)})).speed
         assert onset == pytest.approx(rpm * RPM, rel=1e-9)
     assert (len(found.solutions) > 0) == (least <= rpm * RPM <= most)
 
@@ -307,7 +311,7 @@ def test_both_solutions_beside_an_extreme_are_found() -> None:
     """Closer to the lowest onset than the scan sees."""
     span = {"vary": "radial_clearance", "low": 1e-5, "high": 5e-4}
     least = minimize_scalar(
-        lambda C: design.onset_speeds([design.varied(SHEET, {"radial_clearance": C})])[0],
+        lambda C: onset_speeds([variation.varied(SHEET, {"radial_clearance": C})])[0],
         bounds=(1e-4, 5e-4),
         method="bounded",
         options={"xatol": 1e-10},
@@ -324,7 +328,7 @@ def test_no_solution_tells_what_can_be_reached() -> None:
     found = design.solve_onset(SHEET, vary="temperature", target=20000 * RPM, low=0.0, high=150.0)
     assert len(found.solutions) == 0
     onsets = [
-        onset_speed(design.varied(SHEET, {"temperature": T})).speed for T in (0.0, 75.0, 150.0)
+        onset_speed(variation.varied(SHEET, {"temperature": T})).speed for T in (0.0, 75.0, 150.0)
     ]
     least, most = found.reachable
     assert least <= min(onsets) * (1 + 1e-9)
@@ -336,7 +340,7 @@ def test_a_damped_machine_is_solved_on_its_eigenvalues() -> None:
         DAMPED, vary="radial_clearance", target=7200 * RPM, low=4e-5, high=2e-4
     )
     assert len(found.solutions) == 1
-    solved = design.varied(DAMPED, {"radial_clearance": float(found.solutions[0])})
+    solved = variation.varied(DAMPED, {"radial_clearance": float(found.solutions[0])})
     assert onset_speed(solved).speed == pytest.approx(7200 * RPM, rel=1e-9)
 
 

@@ -7,8 +7,10 @@ from pkgutil import resolve_name
 import numpy as np
 import pytest
 
-from rotorcalc import modes, stability, validation
+from rotorcalc import modes, validation
 from rotorcalc.films import short
+from rotorcalc.films.short import force_coefficients
+from rotorcalc.onset import search, whirl
 from rotorcalc.validation import Case
 from ui import notes
 from ui.notes.equations import EQUATIONS
@@ -48,7 +50,7 @@ def scaled(function, factor):
         (short, "added_mass", 1.01, "Trace of the added mass and ∫dθ/H"),
         (short, "stiffness", 1.001, "p_s² at ε = 1e-6"),
         (short, "damping", np.array([[1.0, 1.0], [1.0, 1.001]]), "Whirl ratio"),
-        (stability, "flexible_threshold", 1.0, None),
+        (whirl, "flexible_threshold", 1.0, None),
         (modes, "eigenvalues", 1.001, "|Im λ|/Ω there"),
         (modes, "undamped_frequency", 1.001, "√(K_rot/M), K_rot = 1e8 N/m"),
         (modes, "state_matrix", 1.001, "A v and λ v, 6 states"),
@@ -73,22 +75,22 @@ def test_the_misprints_of_the_source_would_be_found(monkeypatch):
         k[..., 1, 1] = radial / s2 * (fr2 + s2)
         return k
 
-    right = short._xy_stiffness
-    monkeypatch.setattr(short, "_xy_stiffness", printed)
+    right = force_coefficients.xy_stiffness
+    monkeypatch.setattr(force_coefficients, "xy_stiffness", printed)
     assert "K_XX + K_YY and K_rr + K_tt" in failed()
 
 
 def test_a_squared_sag_would_be_found(monkeypatch):
-    right = stability.onset_speed
+    right = search.onset_speed
 
     def wrong(machine, flexible=True):
         found = right(machine, flexible)
-        return stability.Onset(
+        return search.Onset(
             speed=found.speed * 0.99, whirl_frequency=found.whirl_frequency,
             eccentricity_ratio=found.eccentricity_ratio,
         )  # fmt: skip
 
-    monkeypatch.setattr(stability, "onset_speed", wrong)
+    monkeypatch.setattr(search, "onset_speed", wrong)
     assert "Onset, sheet's rotor, K_rot = 1e7 N/m" in failed()
 
 

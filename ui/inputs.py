@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from rotorcalc import PRESETS, JournalBearing, Machine, Oil, Preset, Rotor
 from rotorcalc.figures import style
-from rotorcalc.figures.units import SI, Unit, Units
+from rotorcalc.units import SI, Unit, Units
 
 # The least of a positive value: below it what is divided by it has no room.
 _LEAST = 1e-290

@@ -14,11 +14,11 @@ import streamlit as st
 from plotly.basedatatypes import BaseFigure
 
 from rotorcalc.figures import Chart, themed
-from rotorcalc.figures.units import Units
-from ui import settings
-from ui.follow import Drawn
+from rotorcalc.units import Units
 from ui.inputs import INPUTS, Input, Values, input_named
-from ui.state import mirror, state
+from ui.preview import Drawn
+from ui.serving import settings
+from ui.session import mirror, state
 
 
 class _Checked(BaseFigure):

@@ -4,6 +4,6 @@ Each function takes result records and returns one dict; `figure` makes a `go.Fi
 """
 
 from rotorcalc.figures.style import Chart, figure, themed, with_baseline
-from rotorcalc.figures.units import SI, SYSTEMS, US, Unit, Units
+from rotorcalc.units import SI, SYSTEMS, US, Unit, Units
 
 __all__ = ["SI", "SYSTEMS", "US", "Chart", "Unit", "Units", "figure", "themed", "with_baseline"]

@@ -10,11 +10,11 @@ from typing import Literal
 import numpy as np
 
 from rotorcalc.analysis import ForceCoefficients, Sweep
+from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.coefficients import AddedMass, Unloading
 from rotorcalc.figures import style
 from rotorcalc.figures.style import Axis, Chart, Trace
-from rotorcalc.figures.units import Unit, Units
-from rotorcalc.typing import Array, BoolArray
+from rotorcalc.units import Unit, Units
 
 _COLOURS = {
     (0, 0): style.XX,

@@ -7,12 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from rotorcalc.arrays import Array
 from rotorcalc.design import OnsetMap, OnsetSolution, Sensitivities
 from rotorcalc.figures import style
 from rotorcalc.figures.stability import LEGEND, MARGIN, near
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
-from rotorcalc.figures.units import Unit, Units
-from rotorcalc.typing import Array
+from rotorcalc.units import Unit, Units
 
 # Onset speeds [rpm] at which a map changes colour: always the same, so that maps compare.
 _LADDER = np.array([500, 700, 1e3, 1.5e3, 2e3, 3e3, 5e3, 7e3, 1e4, 1.5e4, 2e4, 3e4, 5e4])

@@ -5,12 +5,12 @@ import math
 import numpy as np
 
 from rotorcalc.analysis import FilmCurves, Sweep
+from rotorcalc.arrays import Array
 from rotorcalc.coefficients import Equilibrium
 from rotorcalc.figures import plane, style, text
 from rotorcalc.figures.plane import Part
 from rotorcalc.figures.style import Axis, Chart, Trace
-from rotorcalc.figures.units import Unit, Units
-from rotorcalc.typing import Array
+from rotorcalc.units import Unit, Units
 
 HEIGHT = 440
 SMALL_HEIGHT = 300

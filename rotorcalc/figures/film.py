@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 
 from rotorcalc.analysis import Sweep
+from rotorcalc.arrays import BoolArray
 from rotorcalc.coefficients import FilmForces, PressureField
 from rotorcalc.figures import plane, style, text
 from rotorcalc.figures.plane import Part
 from rotorcalc.figures.style import Axis, Chart, Trace
-from rotorcalc.figures.units import Units
-from rotorcalc.typing import BoolArray
+from rotorcalc.units import Units
 
 HEIGHT = 440
 

@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotorcalc.analysis import Sweep
+from rotorcalc.arrays import Array
 from rotorcalc.coefficients import PressureField
 from rotorcalc.figures import style
 from rotorcalc.figures.style import Chart, Trace
-from rotorcalc.figures.units import Units
-from rotorcalc.typing import Array
+from rotorcalc.units import Units
 
 # Share of the bore's radius that the clearance takes where the film is exaggerated.
 EXAGGERATED = 0.3

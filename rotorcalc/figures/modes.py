@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 
 from rotorcalc import modes
+from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.figures import style
-from rotorcalc.figures.locus import HARDLY_SWINGS, points, whirl_frequency, window
+from rotorcalc.figures.root_locus import HARDLY_SWINGS, points, whirl_frequency, window
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
-from rotorcalc.figures.units import Units
-from rotorcalc.locus import Locus
 from rotorcalc.modes import ModeShapes
-from rotorcalc.stability import Onset
-from rotorcalc.typing import Array, ComplexArray
+from rotorcalc.onset.search import Onset
+from rotorcalc.root_locus import Locus
+from rotorcalc.units import Units
 
 COLOURS = (style.BLUE, style.OCHRE, style.GREEN, style.PURPLE, style.GREY, style.RED)
 Item = dict[str, Any]

@@ -10,15 +10,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rotorcalc.cycles import Bifurcation
+from rotorcalc.arrays import Array
 from rotorcalc.figures import plane, style, text
-from rotorcalc.figures.scrub import playable, scrubbed
+from rotorcalc.figures.animation import playable, scrubbed
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
-from rotorcalc.figures.units import Unit, Units
-from rotorcalc.onset_check import Onsets
-from rotorcalc.release import Release
-from rotorcalc.signals import Waterfall
-from rotorcalc.typing import Array
+from rotorcalc.nonlinear.limit_cycles import Bifurcation
+from rotorcalc.nonlinear.measured_onset import Onsets
+from rotorcalc.nonlinear.release import Release
+from rotorcalc.nonlinear.signals import Waterfall
+from rotorcalc.units import Unit, Units
 
 LINEAR = style.PURPLE
 UP, DOWN = style.GREEN, style.OCHRE

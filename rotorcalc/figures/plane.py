@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rotorcalc.arrays import Array
 from rotorcalc.figures import style
 from rotorcalc.figures.style import Axis, Chart, Trace
-from rotorcalc.typing import Array
 
 Part = dict[str, Any]
 

@@ -11,13 +11,19 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.figures import style
 from rotorcalc.figures.style import Axis, Chart, Trace
-from rotorcalc.figures.units import Unit, Units
-from rotorcalc.imbalance import BodyResponse, ClearanceOrbit, Orbits, ResponseCurves, ResponseFamily
 from rotorcalc.machine import Rotor
-from rotorcalc.response import ResponsePeaks
-from rotorcalc.typing import Array, BoolArray
+from rotorcalc.unbalance_curves import (
+    BodyResponse,
+    ClearanceOrbit,
+    Orbits,
+    ResponseCurves,
+    ResponseFamily,
+)
+from rotorcalc.unbalance_response import ResponsePeaks
+from rotorcalc.units import Unit, Units
 
 _HEIGHT = 470
 # Room above the highest peak, for its label.

@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotorcalc.analysis import FilmCurves
+from rotorcalc.arrays import Array
 from rotorcalc.figures import style
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
-from rotorcalc.figures.units import Unit, Units
-from rotorcalc.stability import Onset
-from rotorcalc.typing import Array
-from rotorcalc.whirl import Thresholds, WhirlEnergy
+from rotorcalc.onset.search import Onset
+from rotorcalc.units import Unit, Units
+from rotorcalc.whirl_energy import Thresholds, WhirlEnergy
 
 Item = dict[str, Any]
 

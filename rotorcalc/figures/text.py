@@ -5,7 +5,7 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 from rotorcalc.figures import style
-from rotorcalc.figures.units import Unit
+from rotorcalc.units import Unit
 
 
 def amount(unit: Unit, value: ArrayLike) -> str:

@@ -12,10 +12,11 @@ from typing import Protocol, TypeAlias
 
 from numpy.typing import ArrayLike
 
-from rotorcalc.films import short, short_motion
+from rotorcalc.arrays import Array
+from rotorcalc.films import short
+from rotorcalc.films.short import motion
 from rotorcalc.films.state import FilmField, FilmState
 from rotorcalc.machine import JournalBearing
-from rotorcalc.typing import Array
 
 __all__ = [
     "FilmField",
@@ -54,9 +55,7 @@ class _Velocity(Protocol):
 
 # Force from position and velocity, velocity from position and force, point by point.
 _Kernel: TypeAlias = Callable[[float, float, float, float], tuple[float, float]]
-_MOTIONS: dict[str, tuple[_Kernel, _Velocity]] = {
-    "short": (short_motion.force, short_motion.velocity)
-}
+_MOTIONS: dict[str, tuple[_Kernel, _Velocity]] = {"short": (motion.force, motion.velocity)}
 _MODELS: dict[str, _FilmModel] = {"short": short}
 
 

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.frames import vector
-from rotorcalc.typing import Array, BoolArray
 
 
 @dataclass(frozen=True, eq=False)

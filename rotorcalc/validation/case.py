@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotorcalc.typing import Array, ComplexArray
+from rotorcalc.arrays import Array, ComplexArray
 
 
 @dataclass(frozen=True)

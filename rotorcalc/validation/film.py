@@ -7,10 +7,10 @@ from collections.abc import Callable
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
 
-from rotorcalc import stability
+from rotorcalc.arrays import Array
 from rotorcalc.films import short
 from rotorcalc.frames import rotate, vector
-from rotorcalc.typing import Array
+from rotorcalc.onset import whirl
 from rotorcalc.validation.case import Case, alike
 
 # Where the identities of the film are tried.
@@ -98,7 +98,7 @@ def limits() -> list[Case]:
     """Return the checks of the centred bearing."""
     group, eps = "Limits of the centred bearing", 1e-6
     k, c = short.stiffness(eps), short.damping(eps)
-    onset = stability.whirl_onset(k, c)
+    onset = whirl.whirl_onset(k, c)
     K, C = short.film_stiffness(0.0), short.film_damping(0.0)
     series = "series of Eq. 5.35 for small ε"
     limits = (
@@ -147,7 +147,7 @@ def energy() -> list[Case]:
 def threshold() -> list[Case]:
     """Return the checks of the threshold of whirl."""
     group = "Threshold of whirl"
-    half = stability.whirl_onset(short.stiffness(0.5), short.damping(0.5))
+    half = whirl.whirl_onset(short.stiffness(0.5), short.damping(0.5))
     printed = "Eqs. 5.45 and 5.46 at ε = 0.5, recorded"
     edge = float(brentq(_ratio_squared, 0.7, 0.8, xtol=1e-15))
     lowest = minimize_scalar(_p_s, bounds=(0.3, 0.6), method="bounded", options={"xatol": 1e-9})
@@ -170,14 +170,14 @@ def threshold() -> list[Case]:
 
 
 def _p_s(eps: float) -> float:
-    onset = stability.whirl_onset(short.stiffness(eps), short.damping(eps))
+    onset = whirl.whirl_onset(short.stiffness(eps), short.damping(eps))
     return float(onset.threshold_speed)
 
 
 def _ratio_squared(eps: float) -> float:
     """Return what changes sign where whirl ends: ω̄² of Eq. 5.46, negative beyond, times det c."""
     k, c = short.stiffness(eps), short.damping(eps)
-    k_eq = stability.whirl_onset(k, c).equivalent_stiffness
+    k_eq = whirl.whirl_onset(k, c).equivalent_stiffness
     return float(np.linalg.det(k - k_eq * np.eye(2)))
 
 
@@ -185,7 +185,7 @@ def _determinant() -> float:
     """Return the largest |Δ| of Eq. 5.44 at the threshold, relative to its terms."""
     eps = _EPS[_EPS < 0.75]
     k, c = short.stiffness(eps), short.damping(eps)
-    onset = stability.whirl_onset(k, c)
+    onset = whirl.whirl_onset(k, c)
     w = onset.whirl_ratio[:, None, None]
     Z = k + 1j * w * c - onset.critical_mass[:, None, None] * w**2 * np.eye(2)
     return float(np.max(np.abs(np.linalg.det(Z)) / np.linalg.norm(Z, axis=(1, 2)) ** 2))

@@ -6,13 +6,14 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import brentq
 
-from rotorcalc import modes, stability
+from rotorcalc import modes
 from rotorcalc.analysis import analyse
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.films import short
 from rotorcalc.machine import Machine
+from rotorcalc.onset import search, whirl
 from rotorcalc.presets import PRESETS
-from rotorcalc.response import orbit_ellipse, synchronous_response
+from rotorcalc.unbalance_response import orbit_ellipse, synchronous_response
 from rotorcalc.validation.case import Case, alike
 
 _RPM = math.pi / 30.0
@@ -29,7 +30,7 @@ def onset() -> list[Case]:
         ("friswell-5-5-1", True, "Friswell's bearing"),
     ):
         machine = PRESETS[key].machine
-        found, closed = stability.onset_speed(machine, flexible), _closed_onset(machine, flexible)
+        found, closed = search.onset_speed(machine, flexible), _closed_onset(machine, flexible)
         cases.append(
             Case(
                 group, f"Onset, {name}", found.speed / _RPM, closed / _RPM, 1e-9 * closed / _RPM,
@@ -37,14 +38,14 @@ def onset() -> list[Case]:
             )
         )  # fmt: skip
     machine = PRESETS["sheet-1e8"].machine
-    found = stability.onset_speed(machine, flexible=False)
+    found = search.onset_speed(machine, flexible=False)
     state = equilibrium(machine, found.speed)
     values = modes.eigenvalues(machine.rotor, state.stiffness, state.damping, flexible=False)
     crossing = values[np.argmax(values.real)]
     ratio = float(analyse(machine, found.speed).whirl_ratio)
     growth = float(crossing.real) / found.speed
     axis = "an eigenvalue lies on the imaginary axis"
-    bare = stability.onset_speed(_unloaded(machine), flexible=False)
+    bare = search.onset_speed(_unloaded(machine), flexible=False)
     return [
         *cases,
         Case(group, "Re λ/Ω at the rigid onset", growth, 0.0, 1e-9, axis),
@@ -67,7 +68,7 @@ def _closed_onset(machine: Machine, flexible: bool) -> float:
     aspect = (b.length / b.radial_clearance) ** 2
 
     def excess(eps: float) -> float:
-        onset = stability.whirl_onset(short.stiffness(eps), short.damping(eps))
+        onset = whirl.whirl_onset(short.stiffness(eps), short.damping(eps))
         softened = onset.critical_mass / (1.0 + onset.equivalent_stiffness * sag)
         threshold = math.sqrt(float(softened) * F / (M * b.radial_clearance))
         return math.log(threshold / speed(eps))
@@ -149,9 +150,9 @@ def sheet() -> list[Case]:
     clearance, M = stiff.bearing.radial_clearance, stiff.rotor.half_mass
     point = analyse(stiff, 6000.0 * _RPM)
     onsets = (
-        ("rigid", stability.onset_speed(stiff, flexible=False), 10651.9, 5332.6),
-        ("K_rot = 1e8 N/m", stability.onset_speed(stiff), 8919.3, None),
-        ("K_rot = 1e7 N/m", stability.onset_speed(soft), 4627.1, None),
+        ("rigid", search.onset_speed(stiff, flexible=False), 10651.9, 5332.6),
+        ("K_rot = 1e8 N/m", search.onset_speed(stiff), 8919.3, None),
+        ("K_rot = 1e7 N/m", search.onset_speed(soft), 4627.1, None),
     )
     alone = [
         float(modes.undamped_frequency(m.rotor.shaft_stiffness, M)) / _RPM for m in (stiff, soft)
@@ -170,11 +171,11 @@ def sheet() -> list[Case]:
         ("Side flow at 6000 rpm", float(point.side_flow) * 6e4, 0.67957, 5e-6, "recorded", "l/min"),
         ("Power at 6000 rpm", float(point.power_loss) / 1e3, 11.1735, 5e-5, "recorded", "kW"),
     ]
-    for name, onset, speed, whirl in onsets:
+    for name, onset, speed, frequency in onsets:
         rows.append((f"Onset, {name}", onset.speed / _RPM, speed, 0.05, "recorded", "rpm"))
-        if whirl is not None:
+        if frequency is not None:
             rows.append(
-                (f"Whirl, {name}", onset.whirl_frequency / _RPM, whirl, 0.05, "recorded", "rpm")
+                (f"Whirl, {name}", onset.whirl_frequency / _RPM, frequency, 0.05, "recorded", "rpm")
             )
     return [Case(group, *row) for row in rows]
 

@@ -8,9 +8,9 @@ from typing import Any
 
 from streamlit.testing.v1 import AppTest
 
+from ui.frame.page import PAGES
 from ui.inputs import INPUTS
-from ui.page import PAGES
-from ui.state import State
+from ui.session import State
 
 ROOT = Path(__file__).resolve().parents[2]
 TIMEOUT = 60  # seconds; a run takes 0.05, but the machine may be busy

@@ -6,8 +6,8 @@ import time
 import pytest
 
 from tests.app.session import visit
-from ui import gate
-from ui.gate import Gate
+from ui.serving import one_at_a_time
+from ui.serving.one_at_a_time import Gate
 
 
 def test_one_thread_is_in_at_a_time() -> None:
@@ -101,7 +101,7 @@ def test_a_page_waits_for_the_one_before_and_lets_the_next_in(rpm: str) -> None:
         visit("pages/5_Response.py", rpm=rpm)
         ended.append(number)
 
-    with gate.PAGES.through():
+    with one_at_a_time.PAGES.through():
         thread = threading.Thread(target=go, args=(1,))
         thread.start()
         thread.join(1.0)

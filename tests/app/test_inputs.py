@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rotorcalc import PRESETS
-from rotorcalc.figures.units import SI, SYSTEMS, US
+from rotorcalc.units import SI, SYSTEMS, US
 from ui.inputs import GROUPS, INPUTS, PRESET_VALUES, machine_of, speeds_of, values_of
 
 

@@ -8,8 +8,9 @@ import pytest
 
 from rotorcalc import onset_speed
 from tests.machines import SHEET
-from ui import jobs
-from ui.jobs import Kept, Turns, size_of
+from ui.jobs import queue
+from ui.jobs.cache import Kept, size_of
+from ui.jobs.queue import Turns
 
 
 class Here:
@@ -86,7 +87,7 @@ def test_a_process_left_in_the_middle_of_something_is_ended_and_another_hired() 
 
 def test_who_would_wait_too_long_is_told_and_not_kept_waiting(monkeypatch) -> None:
     said: list[str] = []
-    monkeypatch.setattr(jobs.st, "warning", said.append)
+    monkeypatch.setattr(queue.st, "warning", said.append)
 
     class StoppedError(Exception):
         pass
@@ -94,8 +95,8 @@ def test_who_would_wait_too_long_is_told_and_not_kept_waiting(monkeypatch) -> No
     def stop() -> None:
         raise StoppedError
 
-    monkeypatch.setattr(jobs.st, "stop", stop)
-    monkeypatch.setattr(jobs, "_nobody_looks", lambda: False)
+    monkeypatch.setattr(queue.st, "stop", stop)
+    monkeypatch.setattr(queue, "_nobody_looks", lambda: False)
     turns = Turns(1, longest=0, hire=Here)
     with turns.turn():
         found: list[type] = []
@@ -111,7 +112,7 @@ def test_who_would_wait_too_long_is_told_and_not_kept_waiting(monkeypatch) -> No
         thread.start()
         thread.join()
     assert found == [StoppedError]
-    assert said == [jobs.BUSY]
+    assert said == [queue.BUSY]
 
 
 def test_two_who_ask_for_the_same_at_once_compute_it_once() -> None:

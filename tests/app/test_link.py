@@ -8,9 +8,9 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from rotorcalc import PRESETS
-from rotorcalc.figures.units import SYSTEMS
-from ui import link
+from rotorcalc.units import SYSTEMS
 from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, Input, Values, machine_of
+from ui.sharing import address
 
 
 def _number(item: Input) -> st.SearchStrategy[float | None]:
@@ -38,18 +38,18 @@ def _values(draw: st.DrawFn, preset: str) -> Values:
 @given(data=st.data(), units=st.sampled_from(sorted(SYSTEMS)))
 def test_what_is_written_is_read(preset: str, data: st.DataObject, units: str) -> None:
     values = data.draw(_values(preset))
-    params = link.write(preset, values, units)
-    again = link.read(params)
+    params = address.write(preset, values, units)
+    again = address.read(params)
     assert again.problems == []
     assert (again.preset, again.units) == (preset, units)
     assert again.values == values
-    assert link.write(again.preset, again.values, again.units) == params
+    assert address.write(again.preset, again.values, again.units) == params
 
 
 @pytest.mark.parametrize("preset", PRESETS)
 def test_a_presets_link_names_only_the_preset(preset: str) -> None:
     expected = {} if preset == DEFAULT_PRESET else {"preset": preset}
-    assert link.write(preset, PRESET_VALUES[preset], "SI") == expected
+    assert address.write(preset, PRESET_VALUES[preset], "SI") == expected
 
 
 @pytest.mark.parametrize("key", INPUTS)
@@ -59,7 +59,7 @@ def test_a_presets_link_names_only_the_preset(preset: str) -> None:
 )
 def test_a_value_that_cannot_be_used_is_named_and_the_rest_is_kept(key: str, word: str) -> None:
     other = "T" if key != "T" else "D"
-    read = link.read({key: word, other: "77"})
+    read = address.read({key: word, other: "77"})
     if key == "k" and word in ("1e999", "9" * 400):
         assert read.values["k"] == math.inf  # beyond every float: the word for a rigid shaft
         return
@@ -77,13 +77,13 @@ def test_both_ends_are_in_and_beyond_them_is_out(key: str) -> None:
         given_values = (
             {key: repr(float(end)), "mass": "2000"} if key == "mj" else {key: repr(float(end))}
         )
-        assert link.read(given_values).problems == []
+        assert address.read(given_values).problems == []
         outside = math.nextafter(end, beyond)
-        assert len(link.read({key: repr(outside)}).problems) == 1
+        assert len(address.read({key: repr(outside)}).problems) == 1
 
 
 def test_a_journal_mass_that_leaves_no_disk_is_named() -> None:
-    read = link.read({"mj": "140", "C": "80"})
+    read = address.read({"mj": "140", "C": "80"})
     (problem,) = read.problems
     assert "journal_mass" in problem
     assert "140" in problem
@@ -91,9 +91,9 @@ def test_a_journal_mass_that_leaves_no_disk_is_named() -> None:
 
 
 def test_a_mass_that_leaves_no_disk_makes_a_machine_all_the_same() -> None:
-    read = link.read({"mass": "10", "mj": "4"})
+    read = address.read({"mass": "10", "mj": "4"})
     assert read.problems == []
-    read = link.read({"mass": "10", "mj": "5"})
+    read = address.read({"mass": "10", "mj": "5"})
     assert len(read.problems) == 1
     machine_of(read.values)
 
@@ -101,7 +101,7 @@ def test_a_mass_that_leaves_no_disk_makes_a_machine_all_the_same() -> None:
 @pytest.mark.parametrize("word", ["none", "", "<script>", "sheet-1e9", "x" * 5000])
 def test_an_unknown_preset_or_system_of_units_is_named(word: str) -> None:
     for key in ("preset", "units"):
-        read = link.read({key: word, "C": "80"})
+        read = address.read({key: word, "C": "80"})
         (problem,) = read.problems
         assert problem.startswith(f"{key} = ")
         assert len(problem) < 250
@@ -111,7 +111,7 @@ def test_an_unknown_preset_or_system_of_units_is_named(word: str) -> None:
 
 
 def test_the_weight_can_be_named() -> None:
-    assert link.read({"preset": "friswell-5-5-1", "load": "weight"}).values["load"] is None
+    assert address.read({"preset": "friswell-5-5-1", "load": "weight"}).values["load"] is None
 
 
 @given(
@@ -123,7 +123,7 @@ def test_the_weight_can_be_named() -> None:
 @example({"C": "1_0"})
 @example({"C": "١٢٠"})
 def test_no_link_whatever_breaks_the_program(params: dict[str, str]) -> None:
-    read = link.read(params)
+    read = address.read(params)
     machine_of(read.values)
     assert all(not item.problem(read.values[key]) for key, item in INPUTS.items())
     named = " ".join(read.problems)
@@ -133,7 +133,7 @@ def test_no_link_whatever_breaks_the_program(params: dict[str, str]) -> None:
 
 @given(st.text(max_size=300))
 def test_what_a_visitor_typed_cannot_be_markup(word: str) -> None:
-    shown = link.quoted(word)
+    shown = address.quoted(word)
     assert shown.startswith("`")
     assert shown.endswith("`")
     assert "`" not in shown[1:-1]

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from tests.app.session import HOME, PAGES, faults, kept, slider_keys, visit
-from ui import settings
 from ui.inputs import INPUTS
 from ui.live.chart import encoded
+from ui.serving import settings
 from ui.widgets import _moved
 
 

@@ -19,8 +19,8 @@ from tests.app.session import (
     tours,
     visit,
 )
-from ui import link
 from ui.inputs import PRESET_VALUES, machine_of, values_of
+from ui.sharing import address
 
 GREY = "#7d7d7d"
 
@@ -203,7 +203,7 @@ def test_the_shared_link_holds_the_whole_machine() -> None:
     at = visit(HOME, preset="sheet-1e7", C="81.3", u="3.7")
     open_part(at, "share")
     query = dict(part.split("=") for part in at.code[0].value.split("?")[1].split("&"))
-    again = link.read(query)
+    again = address.read(query)
     assert again.problems == []
     assert (again.preset, again.values) == (kept(at).preset, kept(at).values)
 

@@ -10,9 +10,9 @@ import pytest
 
 from rotorcalc import TransientError
 from tests.machines import SHEET
-from ui import heavy
-from ui.log import described
-from ui.worker import Worker, WorkerError
+from ui.jobs import work
+from ui.jobs.process import Worker, WorkerError
+from ui.serving.log import described
 
 LONG = (SHEET, 600.0, 0.3, 600)
 
@@ -26,14 +26,14 @@ def worker() -> Iterator[Worker]:
 
 def test_it_answers_what_this_process_would(worker: Worker) -> None:
     asked = SHEET, 600.0, 0.3, 20
-    there, here = worker.run(heavy.release, asked, None), heavy.release(*asked)
+    there, here = worker.run(work.release, asked, None), work.release(*asked)
     assert np.array_equal(there.motion.journal, here.motion.journal)
     assert there.stopped == here.stopped
 
 
 def test_its_progress_is_told(worker: Worker) -> None:
     told: list[float] = []
-    worker.run(heavy.release, LONG, told.append)
+    worker.run(work.release, LONG, told.append)
     assert len(told) > 10
     assert told == sorted(told)
     assert told[-1] == 1.0
@@ -50,7 +50,7 @@ def test_what_the_listener_raises_ends_the_computation_and_not_the_process(worke
         raise LeftError
 
     with pytest.raises(LeftError):
-        worker.run(heavy.release, LONG, leave)
+        worker.run(work.release, LONG, leave)
     assert len(told) == 1
     assert worker.idle
     assert worker.run(np.zeros, (3,), None).shape == (3,)
@@ -58,8 +58,8 @@ def test_what_the_listener_raises_ends_the_computation_and_not_the_process(worke
 
 def test_what_it_raises_is_raised_here_with_its_places(worker: Worker) -> None:
     with pytest.raises(ValueError, match="radial clearance") as caught:
-        worker.run(heavy.release, (SHEET, 600.0, 5.0, 20), None)
-    assert any("heavy.py" in place for place in described(caught.value)["places"])
+        worker.run(work.release, (SHEET, 600.0, 5.0, 20), None)
+    assert any("work.py" in place for place in described(caught.value)["places"])
     assert worker.run(np.zeros, (3,), None).shape == (3,)
 
 
@@ -87,6 +87,6 @@ def test_it_ends_with_the_process_that_began_it() -> None:
 
 def break_off() -> None:
     """Raise what an integration raises that ends early."""
-    motion = heavy.release(SHEET, 600.0, 0.3, 20).motion
+    motion = work.release(SHEET, 600.0, 0.3, 20).motion
     part = replace(motion, time=motion.time[:5])
     raise TransientError("stopped after 1 s", part)

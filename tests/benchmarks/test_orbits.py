@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 
 from rotorcalc import bifurcation, onsets, simulate
 from rotorcalc.films import short
-from rotorcalc.signals import waterfall
+from rotorcalc.nonlinear.signals import waterfall
 from tests.machines import ROTORS, RPM, C, balanced
 
 SPEED = 6000 * RPM

@@ -16,8 +16,8 @@ from streamlit.runtime.scriptrunner import script_runner
 
 from rotorcalc.figures import Chart
 from tests.app.session import PAGES, slider, tours, visit
-from ui.page import Page
-from ui.view import View
+from ui.computed import View
+from ui.frame.page import Page
 
 ROUNDS, WARMUP = 30, 3
 CLEARANCE = "input_C_SI_slider"

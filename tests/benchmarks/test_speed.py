@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 
 from rotorcalc import PRESETS, Sweep, analyse, onset_speed
+from rotorcalc.arrays import ComplexArray
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.modes import state_matrix
-from rotorcalc.typing import ComplexArray
 from tests.machines import SHEET, with_rotor
 
 ROOT = Path(__file__).resolve().parents[2]

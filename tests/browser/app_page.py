@@ -13,7 +13,7 @@ from google.protobuf.message import DecodeError
 from playwright.sync_api import ConsoleMessage, Locator, Page, Request, WebSocket, expect
 from streamlit.proto.ForwardMsg_pb2 import ForwardMsg
 
-from ui.page import PAGES
+from ui.frame.page import PAGES
 
 # Address of each page, by its name in the navigation.
 PATHS = {

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
+from deploy import publish
 from tests.load.client import Visitor
 from tests.load.replicas import ROOT, Replica, free_port
-from ui import served
 
 HOST = "rotor.example.org"
 BASE = "rotorcalc"
@@ -99,7 +99,7 @@ def _fetched_nginx(folder: Path) -> Path | None:
 def site(nginx: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Site]:
     """The site, as deploy/ describes it."""
     folder = tmp_path_factory.mktemp("nginx")
-    served.publish(folder / "www", BASE)
+    publish.publish(folder / "www", BASE)
     replicas = {name: _replica(name, free_port()) for name in NAMES}
     site = Site(free_port(), folder, replicas)
     _configure(site, nginx)

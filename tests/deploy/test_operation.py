@@ -12,7 +12,7 @@ import rotorcalc
 from tests.deploy.test_replicas import finished
 from tests.load.client import Visitor
 from tests.load.replicas import ROOT, Replica
-from ui import health, log, settings, version
+from ui.serving import health, log, settings, version
 
 ENTERED = "81.2345"  # stands for what a visitor entered
 

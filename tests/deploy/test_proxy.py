@@ -103,7 +103,7 @@ def test_the_host_reads_metrics_and_health_at_the_replica(site: Site) -> None:
     address = site.replicas["1"].address
     with urlopen(f"{address}/_stcore/metrics") as answer:
         assert b"active_sessions" in answer.read()
-    command = [sys.executable, "-m", "ui.health", f"{address}/healthz"]
+    command = [sys.executable, "-m", "ui.serving.health", f"{address}/healthz"]
     assert subprocess.run(command, cwd=ROOT, check=False).returncode == 0
     command[-1] = f"{address}/no-such-page-at-all"
     assert subprocess.run(command, cwd=ROOT, check=False, capture_output=True).returncode == 1

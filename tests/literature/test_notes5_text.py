@@ -13,7 +13,7 @@ import pytest
 
 from rotorcalc import PRESETS, analyse, onset_speed, orbit_ellipse
 from rotorcalc.films import short
-from rotorcalc.stability import flexible_threshold, whirl_onset
+from rotorcalc.onset.whirl import flexible_threshold, whirl_onset
 
 SHEET = PRESETS["sheet-1e8"].machine
 FIG_5_2 = PRESETS["fig-5-2"].machine

@@ -9,7 +9,7 @@ import random
 import time
 
 from tests.load.client import ServerError, Visitor
-from ui.page import NO_MACHINE, PAGES
+from ui.frame.page import NO_MACHINE, PAGES
 
 EVERY = 3.0  # seconds from one action to the next
 # Shares of the actions; the rest goes to another page.

@@ -6,7 +6,7 @@ ROTORCALC_LIVE=off nothing here is used, and pages have Streamlit's own charts a
 """
 
 from ui.live.chart import show as show_chart
-from ui.live.feed import show as show_feed
+from ui.live.preview import show as show_feed
 from ui.live.slider import Slider
 from ui.live.slider import show as show_sliders
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from streamlit.components.v2 import component
 
 from ui.live import assets
-from ui.live.sent import Move, echo, taken
+from ui.live.message import Move, echo, taken
 
 _component = component("rotorcalc.sliders", js=assets.module("slider"), isolate_styles=False)
 

@@ -129,19 +129,19 @@ EQUATIONS: dict[str, tuple[Equation, ...]] = {
         Equation(
             "5.41–5.44", "Whirl without damping at the threshold",
             r"\det\left[k-p_s^2\bar\omega^2 I+j\bar\omega c\right] = 0",
-            ("stability.whirl_onset",), "Stability",
+            ("onset.whirl_onset",), "Stability",
         ),
         Equation(
             "5.45", "Equivalent stiffness",
             r"p_s^2\bar\omega^2 = k_{eq} = \frac{k_{XX}c_{YY}+k_{YY}c_{XX}-c_{YX}k_{XY}-c_{XY}k_{YX}}"
             r"{c_{XX}+c_{YY}}",
-            ("stability.whirl_onset",), "Stability",
+            ("onset.whirl_onset",), "Stability",
         ),
         Equation(
             "5.46", "Whirl frequency ratio",
             r"\bar\omega^2 = \left(\frac{\omega_s}{\Omega_s}\right)^2 = \frac{(k_{eq}-k_{XX})"
             r"(k_{eq}-k_{YY})-k_{XY}k_{YX}}{c_{XX}c_{YY}-c_{XY}c_{YX}}",
-            ("stability.whirl_onset",), "Stability",
+            ("onset.whirl_onset",), "Stability",
         ),
         Equation(
             "5.47", "It whirls at its natural frequency", r"\omega_s = \sqrt{K_{eq}/M} = \omega_n",
@@ -150,12 +150,12 @@ EQUATIONS: dict[str, tuple[Equation, ...]] = {
         Equation(
             "5.48, 5.49", "Half speed, and so twice the natural frequency at most",
             r"\bar\omega\to\tfrac12,\qquad \Omega_{max} = 2\omega_n\qquad(\varepsilon\to0)",
-            ("stability.whirl_onset",), "Stability",
+            ("onset.whirl_onset",), "Stability",
         ),
         Equation(
             "5.50", "Threshold of the flexible rotor; Γ = Fₒ/K_rot",
             r"p_{sf}^2 = \frac{p_s^2}{1+k_{eq}\,\Gamma/C}",
-            ("stability.flexible_threshold", "stability.onset_speed"), "Stability",
+            ("onset.flexible_threshold", "onset.onset_speed"), "Stability",
         ),
     ),
     "Modes and response": (
@@ -164,14 +164,14 @@ EQUATIONS: dict[str, tuple[Equation, ...]] = {
             r"M\begin{bmatrix}\ddot X\\\ddot Y\end{bmatrix}+C\begin{bmatrix}\dot X\\\dot Y\end{bmatrix}"
             r"+K\begin{bmatrix}X\\Y\end{bmatrix} = Mu\Omega^2\begin{bmatrix}\cos\Omega t\\"
             r"\sin\Omega t\end{bmatrix}",
-            ("modes.state_matrix", "response.synchronous_response"), "Root locus, Response",
+            ("modes.state_matrix", "unbalance_response.synchronous_response"), "Root locus, Response",
         ),
         Equation(
             "Calculation sheet", "Disk (capital) and journal (small) of the flexible rotor",
             r"\begin{aligned}&(M-M_j)\ddot X+C_s\dot X+K_{rot}(X-x)\\"
             r"&\qquad = (M-M_j)u\Omega^2\cos\Omega t\\"
             r"&M_j\ddot x+(C\dot x)_X+(Kx)_X+K_{rot}(x-X) = 0\end{aligned}",
-            ("modes.state_matrix", "modes.mode_shapes", "response.synchronous_response"),
+            ("modes.state_matrix", "modes.mode_shapes", "unbalance_response.synchronous_response"),
             "Root locus, Response",
         ),
         Equation(
@@ -184,7 +184,7 @@ EQUATIONS: dict[str, tuple[Equation, ...]] = {
             "Beyond the notes", "Ellipse of an orbit",
             r"f = \tfrac12(X+jY),\quad b = \tfrac12\overline{(X-jY)},\quad "
             r"\text{semi-axes}\ |f|+|b|,\ |f|-|b|",
-            ("response.orbit_ellipse",), "Response",
+            ("unbalance_response.orbit_ellipse",), "Response",
         ),
     ),
     "Nonlinear motion": (
@@ -193,13 +193,13 @@ EQUATIONS: dict[str, tuple[Equation, ...]] = {
             r"M\begin{bmatrix}\ddot X\\\ddot Y\end{bmatrix} = "
             r"\mathbf F(X,Y,\dot X,\dot Y)+\begin{bmatrix}F_o\\0\end{bmatrix}"
             r"+Mu\Omega^2\begin{bmatrix}\cos\Omega t\\\sin\Omega t\end{bmatrix}",
-            ("films.short.film_force", "transient.simulate", "energy.energy_balance"), "Orbits",
+            ("films.short.film_force", "nonlinear.transient.simulate", "nonlinear.energy.energy_balance"), "Orbits",
         ),
         Equation(
             "Beyond the notes", "Size a of the whirl near its onset",
             r"\dot a = (\mathrm{Re}\,\lambda)\,a+\ell\left(\frac aC\right)^2 a,\qquad "
             r"\ell>0\ \text{below}\ \varepsilon = 0.1411\ \text{(rigid rotor)}",
-            ("normal_form.hopf", "cycles.bifurcation"), "Orbits",
+            ("nonlinear.hopf.hopf", "nonlinear.limit_cycles.bifurcation"), "Orbits",
         ),
     ),
 }  # fmt: skip

@@ -1,0 +1,56 @@
+"""The short bearing's force at any position and velocity of the journal."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rotorcalc.arrays import Array, real_array
+from rotorcalc.frames import vector
+
+
+def film_force(position: ArrayLike, velocity: ArrayLike) -> Array:
+    """Return the nonlinear force of the film on the journal in X, Y.
+
+    The film carries over the half circumference that the journal's rotation and motion together
+    put under pressure. With x, y in C and ' = d/d(Ωt): A = x' + y/2, B = y' − x/2,
+    V = √(A² + B²); a and b are the position along and across the axis on which that half film is
+    centred. The force vanishes with V: at half speed whirl about the centre.
+
+    Parameters
+    ----------
+    position : array_like, (..., 2)
+        Journal centre from the bearing's centre, (x, y) in C, inside the clearance circle.
+    velocity : array_like, (..., 2)
+        Its velocity, (x', y') in CΩ.
+
+    Returns
+    -------
+    array, (..., 2)
+        Force in μΩRL³/C².
+
+    Raises
+    ------
+    ValueError
+        Where the position lies outside the clearance circle or the velocity is not finite.
+
+    Notes
+    -----
+    Source: Eq. 5.25 integrated over its positive half, 0 < z' < π, for any velocity; its value at
+    rest is Eq. 5.5 and its derivatives are Eqs. 5.30 and 5.31.
+    """
+    x, y = np.moveaxis(real_array("position", position), -1, 0)
+    dx, dy = np.moveaxis(real_array("velocity", velocity), -1, 0)
+    kappa2 = 1.0 - x**2 - y**2
+    if not np.all(kappa2 > 0.0):
+        raise ValueError("position: must lie inside the clearance circle, x² + y² < 1")
+    A, B = dx + y / 2.0, dy - x / 2.0
+    V = np.hypot(A, B)
+    if not np.all(np.isfinite(V)):
+        raise ValueError("velocity: must be finite")
+    still = V == 0.0
+    sin, cos = A / np.where(still, 1.0, V), -B / np.where(still, 1.0, V)
+    a, b = x * cos + y * sin, -x * sin + y * cos
+    kappa = np.sqrt(kappa2)
+    G = 2.0 / kappa * np.arctan2(kappa, b)  # π/2 − atan(b/κ)
+    F_a = V / 2.0 * a * (3.0 * b * G - 4.0 - 2.0 * b**2 / (1.0 - a**2)) / kappa2**2
+    F_b = V / 2.0 * (G / kappa2 + 3.0 * b * (b * G - 2.0) / kappa2**2)
+    return vector(F_a * cos - F_b * sin, F_a * sin + F_b * cos)

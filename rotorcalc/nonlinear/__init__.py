@@ -1,0 +1,1 @@
+"""Motions and limit cycles on the film's full force."""

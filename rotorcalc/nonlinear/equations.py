@@ -1,0 +1,241 @@
+"""The equations of motion on the film's full force, over the angle of rotation.
+
+Model: the film's force at any position and velocity of the journal; a rigid rotor, a disk on a
+flexible shaft with massless journals, or the same with journal masses; midspan damping; imbalance
+turning forward. The load acts on the disk. Massless journals move at the velocity with which the
+film's force balances the shaft's, solved at every step. Speed may run up or down.
+
+Source: San Andrés, Notes 5, Eq. 5.1 with imbalance forward, and the calculation sheet's flexible
+rotor with the film's force in place of its linear coefficients.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, TypeAlias, cast
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy.integrate import odeint
+
+from rotorcalc.arrays import Array
+from rotorcalc.films import film_motion
+from rotorcalc.machine import Machine
+
+# The rates of a state at an angle of rotation.
+Motion: TypeAlias = Callable[[Array, float], list[float]]
+
+_MOST_STEPS = 20_000  # between two angles
+# The longest step [rad]: at rest longer ones, of high order, blow rounding errors up to the
+# tolerance many times over before the error control sees them.
+_LONGEST_STEP = 0.25
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """A state to start from, each of shape (2,), in X, Y from the bearing's centre [m], [m/s]."""
+
+    journal: Array
+    disk: Array
+    journal_velocity: Array
+    disk_velocity: Array
+
+
+class Equations:
+    """The equations of motion over the angle of rotation θ, in clearances.
+
+    dq/dθ = (dq/dt)/Ω. The state holds disk position and velocity, then the journal's position where
+    the shaft bends, then its velocity where it has mass; velocities are by time, in CΩ_0.
+    """
+
+    def __init__(self, machine: Machine, first: float, last: float, *, turned: float) -> None:
+        rotor, bearing = machine.rotor, machine.bearing
+        C = bearing.radial_clearance
+        self.machine, self.C, self.turned = machine, C, turned
+        self.first, self.acceleration = first, (last**2 - first**2) / (2.0 * turned)
+        self.flexible = not rotor.is_rigid
+        self.massless = self.flexible and rotor.journal_mass == 0.0
+        self.mass = rotor.disk_mass if self.flexible else rotor.half_mass
+        # Forces in units of M C Ω_0² with M the mass they move; the film's at Ω_0.
+        unit = C * first**2
+        self.film_unit = machine.viscosity * first * bearing.radius * bearing.length**3 / C**2
+        self.film = self.film_unit / (self.mass * unit)
+        self.shaft = rotor.shaft_stiffness * C / (self.mass * unit) if self.flexible else 0.0
+        self.damper = rotor.disk_damping / (self.mass * first)
+        self.load = machine.static_load / (self.mass * unit)
+        self.imbalance = rotor.disk_mass * rotor.imbalance / (self.mass * C)
+        self.journal_ratio = self.mass / rotor.journal_mass if rotor.journal_mass > 0.0 else 0.0
+        self.force, self.velocity = film_motion(bearing)
+
+    def speed(self, angle: ArrayLike) -> Array:
+        """Return the running speed at an angle of rotation [rad/s]."""
+        return np.sqrt(self.first**2 + 2.0 * self.acceleration * np.asarray(angle, dtype=float))
+
+    def time(self, angle: ArrayLike) -> Array:
+        """Return the time at an angle of rotation [s]."""
+        return 2.0 * np.asarray(angle, dtype=float) / (self.first + self.speed(angle))
+
+    def initial(self, start: Start) -> Array:
+        """Return the state vector of a start."""
+        C, unit = self.C, self.C * self.first
+        parts = [start.disk / C, start.disk_velocity / unit]
+        if self.flexible:
+            parts.append(start.journal / C)
+        if self.flexible and not self.massless:
+            parts.append(start.journal_velocity / unit)
+        return np.concatenate(parts)
+
+    def motion(self) -> Motion:
+        """Return the function of state and angle that LSODA integrates."""
+        if not self.flexible:
+            return self._rigid()
+        return self._massless() if self.massless else self._with_journal_mass()
+
+    def _drive(self) -> Callable[[float], tuple[float, float, float]]:
+        """Return imbalance force and speed ratio ν = Ω/Ω_0 over the angle."""
+        u, twice = self.imbalance, 2.0 * self.acceleration / self.first**2
+        spin = 0.5 * twice  # Ω̇/Ω_0²
+        cos, sin, sqrt = math.cos, math.sin, math.sqrt
+
+        def steady(angle: float) -> tuple[float, float, float]:
+            return u * cos(angle), u * sin(angle), 1.0
+
+        def drive(angle: float) -> tuple[float, float, float]:
+            nu2 = 1.0 + twice * angle
+            c, s = cos(angle), sin(angle)
+            return u * (nu2 * c + spin * s), u * (nu2 * s - spin * c), sqrt(nu2)
+
+        return drive if twice else steady
+
+    def _rigid(self) -> Motion:
+        film, damper, load, force, drive = (
+            self.film, self.damper, self.load, self.force, self._drive(),
+        )  # fmt: skip
+
+        def motion(state: Array, angle: float) -> list[float]:
+            x, y, vx, vy = state.tolist()
+            u_x, u_y, nu = drive(angle)
+            f_x, f_y = force(x, y, vx / nu, vy / nu)
+            scale = film * nu
+            a_x = scale * f_x - damper * vx + load + u_x
+            a_y = scale * f_y - damper * vy + u_y
+            return [vx / nu, vy / nu, a_x / nu, a_y / nu]
+
+        return motion
+
+    def _massless(self) -> Motion:
+        film, shaft, damper, load, velocity, drive = (
+            self.film, self.shaft, self.damper, self.load, self.velocity, self._drive(),
+        )  # fmt: skip
+        near: list[float] = []  # the last search, from which the next begins
+
+        def motion(state: Array, angle: float) -> list[float]:
+            X, Y, vX, vY, x, y = state.tolist()
+            u_x, u_y, nu = drive(angle)
+            s_x, s_y = shaft * (X - x), shaft * (Y - y)
+            scale = film * nu
+            vx, vy = velocity(x, y, -s_x / scale, -s_y / scale, near)  # already by the angle
+            a_x = -s_x - damper * vX + load + u_x
+            a_y = -s_y - damper * vY + u_y
+            return [vX / nu, vY / nu, a_x / nu, a_y / nu, vx, vy]
+
+        return motion
+
+    def _with_journal_mass(self) -> Motion:
+        film, shaft, damper, load, force, drive, ratio = (
+            self.film, self.shaft, self.damper, self.load, self.force, self._drive(),
+            self.journal_ratio,
+        )  # fmt: skip
+
+        def motion(state: Array, angle: float) -> list[float]:
+            X, Y, vX, vY, x, y, vx, vy = state.tolist()
+            u_x, u_y, nu = drive(angle)
+            s_x, s_y = shaft * (X - x), shaft * (Y - y)
+            f_x, f_y = force(x, y, vx / nu, vy / nu)
+            scale = film * nu
+            a_x = -s_x - damper * vX + load + u_x
+            a_y = -s_y - damper * vY + u_y
+            b_x, b_y = ratio * (s_x + scale * f_x), ratio * (s_y + scale * f_y)
+            return [vX / nu, vY / nu, a_x / nu, a_y / nu, vx / nu, vy / nu, b_x / nu, b_y / nu]
+
+        return motion
+
+    def journal(self, states: Array) -> Array:
+        """Return the journal's positions in states, in C."""
+        return states[..., 4:6] if self.flexible else states[..., :2]
+
+    def journal_velocity(self, angles: Array, states: Array) -> Array:
+        """Return the journal's velocities in states at angles of rotation [m/s]."""
+        unit = self.C * self.first
+        if not self.flexible:
+            return states[:, 2:4] * unit
+        if not self.massless:
+            return states[:, 6:8] * unit
+        motion, nu = self.motion(), self.speed(angles) / self.first
+        rates = [motion(state, angle) for state, angle in zip(states, angles, strict=True)]
+        return np.array(rates)[:, 4:6] * nu[:, None] * unit
+
+
+def resting(machine: Machine, position: Array) -> Start:
+    """Return a state at rest, the shaft carrying its static sag.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    position : array, (2,)
+        The journal's, in X, Y from the bearing's centre [m].
+
+    Returns
+    -------
+    Start
+        The disk hangs below the journal by the sag.
+    """
+    still = np.zeros(2)
+    sag = np.array([machine.static_sag, 0.0])
+    return Start(journal=position, disk=position + sag, journal_velocity=still, disk_velocity=still)
+
+
+def integrated(
+    motion: Motion, state: Array, angles: Array, *, tolerance: float
+) -> tuple[Array, str]:
+    """Return the states at angles of rotation, and in words what ended the integration early.
+
+    Parameters
+    ----------
+    motion : callable
+        The rates of a state at an angle.
+    state : array, (m,)
+        The state at the first angle.
+    angles : array, (n,)
+        Rising angles of rotation [rad].
+    tolerance : float
+        Error allowed in each step: relative to each component, and a hundredth of it in its unit.
+
+    Returns
+    -------
+    states : array, (n, m)
+        As good as they are up to where it ended.
+    message : str
+        Empty where it did not end early.
+
+    Raises
+    ------
+    ArithmeticError
+        Where the motion has no rates at a state.
+    """
+    states, report = cast(
+        "tuple[Array, dict[str, Any]]",
+        odeint(  # pyright: ignore[reportCallIssue] - it takes a list of rates as well
+            motion,  # pyright: ignore[reportArgumentType]
+            state,
+            angles,
+            rtol=tolerance,
+            atol=tolerance * 1e-2,
+            mxstep=_MOST_STEPS,
+            hmax=_LONGEST_STEP,
+            full_output=True,
+        ),
+    )
+    message = str(report["message"])
+    return states, "" if message == "Integration successful." else message

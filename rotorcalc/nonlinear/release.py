@@ -1,0 +1,238 @@
+"""A journal let go: its nonlinear motion, and the linear theory's for the same start.
+
+The linear motion is that of the equations of motion with the film's stiffness and damping in place
+of its force: the synchronous ellipse, and all modes of the free motion, each with the share that
+the start gives it.
+
+Source: San Andrés, Notes 5, Eq. 5.38; the nonlinear motion as in `transient`.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from rotorcalc import modes
+from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.coefficients import Equilibrium, equilibrium
+from rotorcalc.films import film_gap
+from rotorcalc.machine import Machine
+from rotorcalc.nonlinear.equations import Start, resting
+from rotorcalc.nonlinear.signals import Spectrum, poincare_points, spectrum
+from rotorcalc.nonlinear.transient import TOLERANCE, Transient, TransientError, simulate
+from rotorcalc.unbalance_response import orbit_points, synchronous_response
+
+# The share of a motion at its end that is taken for what it came to.
+_SETTLED = 0.25
+# Beyond this, in clearances from the bearing's centre, a linear orbit is drawn no further.
+_FAR = 1.5
+
+
+@dataclass(frozen=True, eq=False)
+class Release:
+    """The motion of a released journal beside the linear theory's; n samples.
+
+    Attributes
+    ----------
+    motion : Transient
+        The nonlinear motion.
+    clearance : float
+        C [m].
+    rest : array, (2,)
+        Where the journal would rest, in X, Y from the bearing's centre [m].
+    linear : array, (n, 2)
+        The journal's places by the linear theory [m]; not a number from where it is far outside.
+    ellipse : array, (m, 2)
+        The synchronous orbit by the linear theory [m].
+    whirl : complex
+        Growth rate + j frequency [1/s] of the linear theory's least damped whirl.
+    film : array, (n,)
+        Thinnest film [m].
+    spectrum : Spectrum
+        Of the last quarter of the motion.
+    points : array, (k, 2)
+        The journal's places once a revolution [m].
+    stopped : str
+        What ended the motion early, in words; empty where nothing did.
+    """
+
+    motion: Transient
+    clearance: float
+    rest: Array
+    linear: Array
+    ellipse: Array
+    whirl: complex
+    film: Array
+    spectrum: Spectrum
+    points: Array
+    stopped: str
+
+    @property
+    def size(self) -> Array:
+        """Distance of the journal from where it would rest, (n,) [m]."""
+        return np.hypot(*(self.motion.journal - self.rest).T)
+
+    @property
+    def first_size(self) -> float:
+        """Largest distance from rest over the first two revolutions [m]."""
+        return float(self.size[self.motion.angle <= 4.0 * math.pi].max())
+
+    @property
+    def last_size(self) -> float:
+        """Largest distance from rest over the last quarter of the motion [m]."""
+        return float(self.size[-self.settled :].max())
+
+    @property
+    def revolutions(self) -> Array:
+        """Revolutions since the release, (n,) [-]."""
+        return self.motion.angle / (2.0 * math.pi)
+
+    @property
+    def peaks(self) -> tuple[Array, Array]:
+        """Revolutions, and the largest distance from rest over each two of them [m], (n/2,)."""
+        two = int(np.searchsorted(self.motion.angle, 4.0 * math.pi))
+        rows = len(self.size) // two
+        largest = self.size[: rows * two].reshape(rows, two).max(axis=1)
+        return 2.0 * np.arange(rows, dtype=float) + 1.0, largest
+
+    @property
+    def predicted_peaks(self) -> Array:
+        """The linear theory's growth or decay of the first of the peaks, (n/2,) [m]."""
+        at, largest = self.peaks
+        time = 2.0 * math.pi * (at - at[0]) / self.motion.speed[0]
+        with np.errstate(over="ignore"):
+            return largest[0] * np.exp(self.whirl.real * time)
+
+    @property
+    def settled(self) -> int:
+        """Samples in the last quarter of the motion."""
+        return max(int(_SETTLED * len(self.motion.time)), 1)
+
+
+def release(  # noqa: PLR0913 - from where, for how long, how exactly
+    machine: Machine,
+    speed: float,
+    *,
+    kick: float,
+    revolutions: int,
+    samples_per_revolution: int = 64,
+    tolerance: float = TOLERANCE,
+    progress: Callable[[float], object] | None = None,
+) -> Release:
+    """Return what becomes of a journal that is let go off its rest.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : float
+        Running speed, Ω [rad/s].
+    kick : float
+        How far above its rest the journal is let go, against the load [m], zero or more.
+    revolutions, samples_per_revolution, tolerance, progress
+        As in `simulate`; 16 revolutions or more.
+
+    Returns
+    -------
+    Release
+        Where the integration cannot go on, as far as it came.
+
+    Raises
+    ------
+    ValueError
+        As `simulate`, with the place in words where the kick leads out of the clearance.
+    """
+    if revolutions < 16:
+        raise ValueError(f"revolutions = {revolutions}: must be 16 or more")
+    C = machine.bearing.radial_clearance
+    state = equilibrium(machine, speed)
+    rest = state.film.position * C
+    start = resting(machine, rest - np.array([kick, 0.0]))
+    stopped = ""
+    try:
+        motion = simulate(
+            machine, speed, revolutions=revolutions, start=start, tolerance=tolerance,
+            samples_per_revolution=samples_per_revolution, progress=progress,
+        )  # fmt: skip
+    except TransientError as error:
+        if len(error.partial.time) <= 16 * samples_per_revolution:
+            raise
+        motion, stopped = error.partial, str(error)
+    linear, ellipse, whirl = _linear(machine, state, start, motion.time)
+    return Release(
+        motion=motion,
+        clearance=C,
+        rest=rest,
+        linear=rest + _drawn(linear, rest, C),
+        ellipse=rest + ellipse,
+        whirl=whirl,
+        film=C * film_gap(machine.bearing, motion.journal / C),
+        spectrum=spectrum(motion, last=max(int(_SETTLED * revolutions), 4)),
+        points=poincare_points(motion),
+        stopped=stopped,
+    )
+
+
+def linear_motion(machine: Machine, speed: float, start: Start, time: Array) -> Array:
+    """Return the journal's motion by the linear theory, about its rest.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : float
+        Running speed, Ω [rad/s].
+    start : Start
+        The state at t = 0.
+    time : array, (n,)
+        t [s].
+
+    Returns
+    -------
+    array, (n, 2)
+        Displacement from rest in X, Y [m].
+    """
+    return _linear(machine, equilibrium(machine, speed), start, time)[0]
+
+
+def _linear(
+    machine: Machine, state: Equilibrium, start: Start, time: Array
+) -> tuple[Array, Array, complex]:
+    """Return the journal's linear motion, its synchronous orbit, and the least damped whirl's λ."""
+    rotor, speed = machine.rotor, float(state.speed)
+    disk, journal = synchronous_response(rotor, state.stiffness, state.damping, speed)
+    shapes = modes.mode_shapes(rotor, state.stiffness, state.damping)
+    rest = resting(machine, state.film.position * machine.bearing.radial_clearance)
+    away = [
+        start.disk - rest.disk - disk.real,
+        start.journal - rest.journal - journal.real,
+        start.disk_velocity - (1j * speed * disk).real,
+        start.journal_velocity - (1j * speed * journal).real,
+    ]
+    values = shapes.eigenvalues
+    kept = {4: (0, 2), 6: (0, 1, 2), 8: (0, 1, 2, 3)}[len(values)]
+    shares = np.linalg.solve(
+        shapes.vectors, np.concatenate([away[i] for i in kept]).astype(complex)
+    )
+    # Each phasor turns at its λ, that of the forced motion at jΩ; of the free motion's conjugate
+    # pairs one stands for both.
+    one = values.imag >= 0.0
+    twice = np.where(values[one].imag > 0.0, 2.0, 1.0)
+    phasors = np.vstack([(twice * shares[one])[:, None] * shapes.journal[one], journal])
+    with np.errstate(over="ignore", invalid="ignore"):
+        turning = np.exp(time[:, None] * np.append(values[one], 1j * speed))
+        motion = np.real(turning @ phasors)
+    return motion, orbit_points(*journal), _leading(values)
+
+
+def _leading(values: ComplexArray) -> complex:
+    waves = values[values.imag > 0.0]
+    return complex(waves[np.argmax(waves.real)]) if len(waves) else complex(math.nan, math.nan)
+
+
+def _drawn(linear: Array, rest: Array, C: float) -> Array:
+    """Return a linear motion up to where it first is far outside the clearance."""
+    far = ~(np.hypot(*(linear + rest).T) < _FAR * C)
+    end = int(np.argmax(far)) if far.any() else len(linear)
+    return np.where(np.arange(len(linear))[:, None] < end, linear, np.nan)

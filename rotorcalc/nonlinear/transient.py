@@ -1,0 +1,319 @@
+"""Nonlinear orbits: the rotor's motion integrated in time on the film's full force.
+
+Model: the film's force at any position and velocity of the journal; a rigid rotor, a disk on a
+flexible shaft with massless journals, or the same with journal masses; midspan damping; imbalance
+from t = 0, turning forward. The load acts on the disk. Massless journals move at the velocity with
+which the film's force balances the shaft's, solved at every step. Speed may run up or down.
+
+Integrator: LSODA (ODEPACK, through SciPy), which turns to an implicit method where the film makes
+the motion stiff; its error control is relative to the motion and to a billionth of the clearance.
+
+Source: San Andrés, Notes 5, Eq. 5.1 with imbalance forward, and the calculation sheet's flexible
+rotor with the film's force in place of its linear coefficients.
+"""
+
+import math
+import numbers
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property, partial
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rotorcalc import modes
+from rotorcalc.arrays import Array
+from rotorcalc.coefficients import checked_speed, equilibrium
+from rotorcalc.machine import Machine
+from rotorcalc.nonlinear.equations import Equations, Motion, Start, integrated, resting
+from rotorcalc.nonlinear.limit_cycles import bifurcation
+
+__all__ = [
+    "MOST_REVOLUTIONS",
+    "MOST_SAMPLES",
+    "TOLERANCE",
+    "Start",
+    "Transient",
+    "TransientError",
+    "bifurcation",  # what these motions end on, beside them
+    "last_state",
+    "resting",
+    "simulate",
+    "start_on_mode",
+]
+
+MOST_REVOLUTIONS = 5000
+MOST_SAMPLES = 2_000_000
+# Of LSODA's own steps, relative; a hundredth of it in clearances.
+TOLERANCE = 1e-10
+_TOLERANCES = (1e-13, 1e-3)
+# A stretch after which progress is told and the wall is looked for [revolutions].
+_STRETCH = 20
+
+
+@dataclass(frozen=True, eq=False)
+class Transient:
+    """A motion over time, from the bearing's centre.
+
+    Attributes
+    ----------
+    time : array, (n,)
+        t [s].
+    journal, disk : array, (n, 2)
+        Positions in X, Y [m]; the disk's with its static sag. Equal for a rigid shaft.
+    disk_velocity : array, (n, 2)
+        The disk's velocity in X, Y [m/s].
+    speed : array, (n,)
+        Running speed, Ω [rad/s].
+    angle : array, (n,)
+        Angle through which the imbalance has turned [rad].
+    """
+
+    time: Array
+    journal: Array
+    disk: Array
+    disk_velocity: Array
+    speed: Array
+    angle: Array
+    _journal_velocity: Callable[[], Array]
+
+    @cached_property
+    def journal_velocity(self) -> Array:
+        """The journal's velocity in X, Y [m/s], (n, 2); computed when first asked for.
+
+        Without journal mass it is solved from the film's force, sample by sample.
+        """
+        return self._journal_velocity()
+
+
+class TransientError(RuntimeError):
+    """The integration could not go on; `partial` holds the motion computed so far."""
+
+    def __init__(self, message: str, partial: Transient) -> None:
+        super().__init__(message)
+        self.partial = partial
+
+    def __reduce__(self) -> tuple[type, tuple[str, Transient]]:
+        """Return what another process makes it of."""
+        return type(self), (str(self), self.partial)
+
+
+def simulate(  # noqa: PLR0913 - how long, from where, to which speed
+    machine: Machine,
+    speed: float,
+    *,
+    revolutions: int,
+    samples_per_revolution: int = 64,
+    start: ArrayLike | Start | None = None,
+    final_speed: float | None = None,
+    tolerance: float = TOLERANCE,
+    progress: Callable[[float], object] | None = None,
+) -> Transient:
+    """Return the nonlinear motion of a machine, integrated in time.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : float
+        Running speed, Ω [rad/s], positive; at t = 0 where it runs up or down.
+    revolutions : int
+        Number of revolutions, 1 to 5000.
+    samples_per_revolution : int
+        Samples in each, evenly spaced in the angle of rotation, 1 or more.
+    start : array_like (2,), Start or None
+        The journal's position from the bearing's centre [m], at rest, the shaft carrying its static
+        sag; or the whole state; None for the static equilibrium.
+    final_speed : float or None
+        Speed at the end of a linear run-up or run-down [rad/s]; None for constant speed.
+    tolerance : float
+        Relative error allowed in each of the integrator's steps, 1e-13 to 1e-3. The default keeps
+        a motion over 200 revolutions to better than 1e-6.
+    progress : callable or None
+        Called now and then with the share done, 0 to 1. What it raises ends the integration.
+
+    Returns
+    -------
+    Transient
+        n = revolutions · samples_per_revolution + 1 samples, the start included.
+
+    Raises
+    ------
+    ValueError
+        Where a speed, the number of revolutions or samples, the start or the tolerance is out of
+        bounds.
+    TransientError
+        Where the integration cannot go on, with the time and place; it holds the part computed.
+    """
+    speeds = _checked_speeds(speed, final_speed)
+    _check_length(revolutions, samples_per_revolution)
+    _check_tolerance(tolerance)
+    model = Equations(machine, *speeds, turned=2.0 * math.pi * revolutions)
+    state = model.initial(_checked_start(machine, speeds[0], start))
+    angles = np.linspace(0.0, model.turned, revolutions * samples_per_revolution + 1)
+    run = _Run(angles, _STRETCH * samples_per_revolution, tolerance)
+    return _integrate(model, state, run, progress)
+
+
+def start_on_mode(machine: Machine, speed: float, amplitude: float) -> Start:
+    """Return a state on the least damped mode of the linear theory, about static equilibrium.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : float
+        Running speed, Ω [rad/s].
+    amplitude : float
+        Largest displacement of the journal in the mode [m].
+
+    Returns
+    -------
+    Start
+        From which the motion follows that mode while it is small.
+
+    Raises
+    ------
+    ValueError
+        Where the speed is not positive or the amplitude is not positive and finite.
+    """
+    if not 0.0 < amplitude < math.inf:
+        raise ValueError(f"amplitude = {amplitude} m: must be positive and finite")
+    state = equilibrium(machine, float(checked_speed(speed)))
+    shapes = modes.mode_shapes(machine.rotor, state.stiffness, state.damping)
+    waves = np.flatnonzero(shapes.eigenvalues.imag > 0.0)
+    mode = waves[np.argmax(shapes.eigenvalues.real[waves])]
+    lam, disk, journal = shapes.eigenvalues[mode], shapes.disk[mode], shapes.journal[mode]
+    # The phase at which the journal's displacement is largest: (x·x) real and positive.
+    scale = amplitude * np.exp(-0.5j * np.angle(np.sum(journal**2)))
+    scale /= np.linalg.norm((journal * scale / abs(scale)).real)
+    rest = resting(machine, state.film.position * machine.bearing.radial_clearance)
+    return Start(
+        journal=rest.journal + (scale * journal).real,
+        disk=rest.disk + (scale * disk).real,
+        journal_velocity=(lam * scale * journal).real,
+        disk_velocity=(lam * scale * disk).real,
+    )
+
+
+def last_state(motion: Transient) -> Start:
+    """Return the state in which a motion ends, for another to start from."""
+    return Start(
+        journal=motion.journal[-1],
+        disk=motion.disk[-1],
+        journal_velocity=motion.journal_velocity[-1],
+        disk_velocity=motion.disk_velocity[-1],
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Run:
+    """Angles at which to tell the state, how many of them make a stretch, and the tolerance."""
+
+    angles: Array
+    stretch: int
+    tolerance: float
+
+
+def _integrate(
+    model: Equations, state: Array, run: _Run, progress: Callable[[float], object] | None
+) -> Transient:
+    """Integrate stretch by stretch, so that progress can be told and a failure has its place."""
+    motion, angles = model.motion(), run.angles
+    states = np.empty((len(angles), len(state)))
+    states[0] = state
+    for first in range(0, len(angles) - 1, run.stretch):
+        span = slice(first, min(first + run.stretch, len(angles) - 1) + 1)
+        rows, message = _stretch(model, motion, states[first], angles[span], run.tolerance)
+        states[first : first + len(rows)] = rows
+        done = first + len(rows)
+        if message:
+            partial = _transient(model, angles[:done], states[:done])
+            place = partial.journal[-1] * 1e6
+            raise TransientError(
+                f"{message} after {partial.time[-1]:.6g} s, with the journal at "
+                f"X = {place[0]:.4g} µm, Y = {place[1]:.4g} µm",
+                partial,
+            )
+        if progress is not None:
+            progress(float(angles[span][-1] / model.turned))
+    return _transient(model, angles, states)
+
+
+def _transient(model: Equations, angles: Array, states: Array) -> Transient:
+    """Return states over angles as a motion with dimensions."""
+    C, unit = model.C, model.C * model.first
+    return Transient(
+        time=model.time(angles),
+        journal=model.journal(states) * C,
+        disk=states[:, :2] * C,
+        disk_velocity=states[:, 2:4] * unit,
+        speed=model.speed(angles),
+        angle=angles,
+        _journal_velocity=partial(model.journal_velocity, angles, states),
+    )
+
+
+def _stretch(
+    model: Equations, motion: Motion, state: Array, angles: Array, tolerance: float
+) -> tuple[Array, str]:
+    """Return the good states over a stretch, and what ended it early, if anything did."""
+    try:
+        states, message = integrated(motion, state, angles, tolerance=tolerance)
+    except ArithmeticError as error:
+        return state[None, :], str(error)
+    journal = model.journal(states)
+    good = np.isfinite(states).all(axis=1) & (np.hypot(journal[:, 0], journal[:, 1]) < 1.0)
+    reached = int(np.argmin(good)) if not good.all() else len(states)
+    if reached < len(states):
+        return states[: max(reached, 1)], "the journal came too close to the wall"
+    if message:
+        return states[:1], f"the integrator gave up ({message})"
+    return states, ""
+
+
+def _checked_speeds(speed: float, final_speed: float | None) -> tuple[float, float]:
+    first = float(checked_speed(speed))
+    return first, first if final_speed is None else float(checked_speed(final_speed))
+
+
+def _check_length(revolutions: int, samples: int) -> None:
+    given: dict[str, object] = {"revolutions": revolutions, "samples_per_revolution": samples}
+    for name, value in given.items():
+        if isinstance(value, bool) or not isinstance(value, numbers.Integral) or value < 1:
+            raise ValueError(f"{name} = {value!r}: must be a whole number, 1 or more")
+    if revolutions > MOST_REVOLUTIONS:
+        raise ValueError(f"revolutions = {revolutions}: must be at most {MOST_REVOLUTIONS}")
+    if revolutions * samples > MOST_SAMPLES:
+        raise ValueError(
+            f"revolutions x samples_per_revolution = {revolutions * samples}: must be at most "
+            f"{MOST_SAMPLES}"
+        )
+
+
+def _check_tolerance(tolerance: float) -> None:
+    low, high = _TOLERANCES
+    if not low <= tolerance <= high:
+        raise ValueError(f"tolerance = {tolerance}: must lie within {low:g} and {high:g}")
+
+
+def _checked_start(machine: Machine, speed: float, start: ArrayLike | Start | None) -> Start:
+    C = machine.bearing.radial_clearance
+    if start is None:
+        start = resting(machine, equilibrium(machine, speed).film.position * C)
+    elif not isinstance(start, Start):
+        position = np.asarray(start, dtype=float)
+        if position.shape != (2,):
+            raise ValueError(f"start: must be a position (X, Y), has the shape {position.shape}")
+        start = resting(machine, position)
+    for name in ("journal", "disk", "journal_velocity", "disk_velocity"):
+        value = getattr(start, name)
+        if not np.all(np.isfinite(value)):
+            raise ValueError(f"start: {name} = {value} must be finite")
+    distance = float(np.hypot(*start.journal))
+    if distance >= C:
+        raise ValueError(
+            f"start: the journal lies {distance:.6g} m from the bearing's centre, must be less "
+            f"than the radial clearance, {C:.6g} m"
+        )
+    return start

@@ -1,0 +1,1 @@
+"""Mathematics that knows nothing of rotors: roots, and polynomials that decay."""

@@ -1,0 +1,62 @@
+"""Roots of functions that answer for a dozen places as fast as for one."""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from scipy.optimize import brentq
+
+from rotorcalc.arrays import Array
+
+# As many as a smooth function needs over an interval of a few per cent.
+_POINTS = 18
+_NODES = chebyshev.chebpts1(_POINTS)
+_TO_COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(_NODES, _POINTS - 1))
+# The last coefficients of a series that is the function but for rounding errors, over the largest.
+_NOTHING = 1e-13
+
+
+def narrow_root(values: Callable[[Array], Array], low: float, high: float) -> float:
+    """Return the place between two near ones at which a function changes sign.
+
+    Parameters
+    ----------
+    values : callable
+        The function: values (n,) at places (n,).
+    low, high : float
+        Places at which its values differ in sign, or one of them is zero.
+
+    Returns
+    -------
+    float
+        The root, to about 1e-14 of itself.
+
+    Notes
+    -----
+    The root of the Chebyshev series through the function's values at 18 places; where its last
+    coefficients are more than rounding errors, as beside a kink, Brent's method on the function.
+
+    Examples
+    --------
+    >>> round(narrow_root(np.cos, 1.5, 1.6), 12)
+    1.570796326795
+    """
+    middle, half = 0.5 * (low + high), 0.5 * (high - low)
+    series = _TO_COEFFICIENTS @ values(middle + half * _NODES)
+    if np.all(np.abs(series[-2:]) <= _NOTHING * np.abs(series).max()):
+        of_series = (series.tolist(),)
+        ends = _clenshaw(-1.0, *of_series), _clenshaw(1.0, *of_series)
+        if min(ends) < 0.0 < max(ends):
+            place = brentq(_clenshaw, -1.0, 1.0, args=of_series, xtol=1e-15)
+            return float(middle + half * place)
+    return float(
+        brentq(lambda x: float(values(np.array([x]))[0]), low, high, xtol=1e-300, rtol=1e-14)
+    )
+
+
+def _clenshaw(x: float, series: list[float]) -> float:
+    """Return a Chebyshev series at one place, by Clenshaw, ten times as fast as NumPy's."""
+    last = before = 0.0
+    for coefficient in series[:0:-1]:
+        last, before = coefficient + 2.0 * x * last - before, last
+    return series[0] + x * last - before

@@ -1,0 +1,180 @@
+"""Onset speeds of many machines at once, by their characteristic polynomials alone.
+
+What `stability.onset_speed` does for one machine, on arrays over machines, up to where it would ask
+the eigenvalues. Where the polynomials leave doubt it is left to that. The films follow one curve
+over σ: k and c depend on nothing of the bearing but its film model.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.optimize import elementwise
+
+from rotorcalc import modes
+from rotorcalc.arrays import Array, BoolArray, IntArray
+from rotorcalc.films import film_coefficients
+from rotorcalc.machine import JournalBearing, Machine
+from rotorcalc.numerics import routh
+from rotorcalc.onset.closed_form import ONE_CURVE, closed_onsets, has_closed_form
+from rotorcalc.onset.search import onset_speed, search_speeds
+
+# From so many machines on their onsets are sooner found together than one by one.
+_FLEET = 4
+
+
+def onset_speeds(machines: Sequence[Machine]) -> Array:
+    """Return the onset speeds of many machines.
+
+    Parameters
+    ----------
+    machines : sequence of Machine, n
+        The machines.
+
+    Returns
+    -------
+    array, (n,)
+        Onset speed, Ω_s [rad/s], as `onset_speed` gives it for each.
+
+    Raises
+    ------
+    RuntimeError
+        Where the search does not end.
+    """
+    speeds = np.full(len(machines), np.nan)
+    films: dict[str, list[int]] = {}
+    others: list[int] = []
+    for i, machine in enumerate(machines):
+        if has_closed_form(machine):
+            films.setdefault(machine.bearing.film, []).append(i)
+        elif machine.bearing.film in ONE_CURVE:
+            others.append(i)
+    for indices in films.values():
+        speeds[indices] = closed_onsets([machines[i] for i in indices])
+    if len(others) >= _FLEET:
+        speeds[others] = sure_onsets([machines[i] for i in others])
+    for i, machine in enumerate(machines):
+        if math.isnan(speeds[i]):
+            speeds[i] = onset_speed(machine).speed
+    return speeds
+
+
+_ROOT: Any = {"xatol": 0.0, "xrtol": 1e-14, "fatol": 0.0, "frtol": 0.0}
+
+
+# How near to an onset, relative, there is no doubt below it that the machine is stable, and none
+# above it that it is not.
+_SURE = 1e-11
+
+
+def sure_onsets(machines: Sequence[Machine]) -> Array:
+    """Return the onset speeds of many machines as far as their polynomials tell them.
+
+    Parameters
+    ----------
+    machines : sequence of Machine, n
+        Machines with shafts that bend or not, whose films follow one curve over σ.
+
+    Returns
+    -------
+    array, (n,)
+        Onset speed, Ω_s [rad/s], as `onset_speed` gives it; not a number where that must be asked.
+    """
+    speeds = np.full(len(machines), np.nan)
+    kinds: dict[tuple[str, int], list[int]] = {}
+    terms = [modes.rotor_terms(machine.rotor) for machine in machines]
+    for i, machine in enumerate(machines):
+        if machine.static_load > 0.0:
+            kinds.setdefault((machine.bearing.film, terms[i].shape[-1]), []).append(i)
+    for same in kinds.values():
+        speeds[same] = _sure_onsets([machines[i] for i in same], np.stack([terms[i] for i in same]))
+    return speeds
+
+
+@dataclass(frozen=True, eq=False)
+class _Fleet:
+    """Machines with one film model and as many states: what their polynomials take.
+
+    Attributes
+    ----------
+    bearing : JournalBearing
+        Any of the bearings.
+    sommerfeld, damping : array, (m,)
+        σ/Ω [s], and the unit of the film's damping, μRL³/C³ [N·s/m].
+    rotor_terms : array, (m, 6, n+1)
+        As `modes.rotor_terms` gives them.
+    """
+
+    bearing: JournalBearing
+    sommerfeld: Array
+    damping: Array
+    rotor_terms: Array
+
+    def polynomials(self, speed: Array, which: IntArray) -> Array:
+        """Return characteristic polynomials, (m, p, n+1), of machines (m,) at speeds (m, p)."""
+        k, c = film_coefficients(self.bearing, self.sommerfeld[which, None] * speed)
+        C = c * self.damping[which, None, None, None]
+        K = k * (self.damping[which, None] * speed)[..., None, None]
+        return modes.film_terms(K, C) @ self.rotor_terms[which]
+
+
+def _fleet(machines: Sequence[Machine], rotor_terms: Array) -> _Fleet:
+    mu, F, R, L, C = np.array([_numbers(machine) for machine in machines]).T
+    return _Fleet(
+        bearing=machines[0].bearing,
+        sommerfeld=mu * L * R / (4.0 * F) * (L / C) ** 2,
+        damping=mu * R * L**3 / C**3,
+        rotor_terms=rotor_terms,
+    )
+
+
+def _numbers(machine: Machine) -> tuple[float, ...]:
+    """Return μ, F_o, R, L and C of a machine."""
+    bearing = machine.bearing
+    R, L, C = bearing.radius, bearing.length, bearing.radial_clearance
+    return machine.viscosity, machine.static_load, R, L, C
+
+
+def _sure_onsets(machines: Sequence[Machine], rotor_terms: Array) -> Array:
+    """Return the onsets of machines with one film model and as many states."""
+    searches = [search_speeds(machine) for machine in machines]
+    first = np.array([search[0] for search in searches])
+    ratio = np.array([search[1] / search[0] for search in searches])
+    points = max(len(search) for search in searches)
+    speeds: Array = first[:, None] * ratio[:, None] ** np.arange(points, dtype=float)
+    fleet = _fleet(machines, rotor_terms)
+    doubt = routh.doubt(fleet.polynomials(speeds, np.arange(len(machines))))
+    in_doubt = doubt > 0.0
+    end: IntArray = np.where(np.any(in_doubt, axis=1), np.argmax(in_doubt, axis=1), points)
+    smooth = ~_has_hump(doubt)
+    onsets = np.where(smooth & (end == points), np.inf, np.nan)
+    which = np.flatnonzero(smooth & (end > 0) & (end < points))
+    if which.size:
+        low, high = speeds[which, end[which] - 1], speeds[which, end[which]]
+        onsets[which] = _crossings(fleet, which, low, high)
+    return onsets
+
+
+def _has_hump(doubt: Array) -> BoolArray:
+    """Return whether a hump may hide between two points before the first in doubt, (m,)."""
+    is_peak = (doubt[:, :-2] < doubt[:, 1:-1]) & (doubt[:, 1:-1] >= doubt[:, 2:])
+    before = np.cumsum(doubt > 0.0, axis=1) == 0
+    return np.any(is_peak & before[:, 1:-1], axis=1)
+
+
+def _crossings(fleet: _Fleet, which: IntArray, low: Array, high: Array) -> Array:
+    """Return the onsets between speeds, (k,), not a number where rounding leaves them in doubt."""
+
+    def determinant(speed: Array, which: Array) -> Array:
+        polynomials = fleet.polynomials(speed[:, None], which.astype(int))
+        return routh.determinant(polynomials)[:, 0]
+
+    # The stubs lack what find_root returns for arrays of arguments.
+    found: Any = elementwise.find_root(determinant, (low, high), args=(which,), tolerances=_ROOT)
+    around = found.x[:, None] * np.array([1.0 - _SURE, 1.0 + _SURE])
+    around = np.where(found.success[:, None], around, low[:, None])
+    below_above = fleet.polynomials(around, which)
+    sharp = (routh.doubt(below_above[:, 0]) < 0.0) & routh.surely_crossed(below_above[:, 1])
+    return np.where(sharp, found.x, np.nan)

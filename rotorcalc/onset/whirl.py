@@ -1,0 +1,105 @@
+"""The threshold of whirl of a rotor on given film coefficients, dimensionless or not.
+
+Model: the film's linear force coefficients about static equilibrium; a symmetric rotor. At the
+threshold one mode whirls undamped, at the whirl ratio ω̄ = ω_s/Ω_s times the running speed.
+
+Source: San Andrés, Notes 5, Eqs. 5.41 to 5.50.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rotorcalc.arrays import Array
+
+
+@dataclass(frozen=True, eq=False)
+class WhirlOnset:
+    """The threshold of whirl at one equilibrium, dimensionless, each of shape (...).
+
+    Attributes
+    ----------
+    equivalent_stiffness : array
+        k_eq = K_eq·C/F_o [-] (Eq. 5.45).
+    whirl_ratio : array
+        ω̄ = ω_s/Ω_s [-] (Eq. 5.46); 0 where the film cannot whirl.
+    critical_mass : array
+        p_s² = M_c CΩ²/F_o [-]; infinite where the film cannot whirl.
+    threshold_speed : array
+        p_s = Ω_s√(MC/F_o) [-] of a rigid rotor; infinite where the film cannot whirl.
+    """
+
+    equivalent_stiffness: Array
+    whirl_ratio: Array
+    critical_mass: Array
+    threshold_speed: Array
+
+
+def whirl_onset(k: ArrayLike, c: ArrayLike) -> WhirlOnset:
+    """Return the threshold of whirl of a rigid rotor on given film coefficients.
+
+    Parameters
+    ----------
+    k, c : array_like, (..., 2, 2)
+        Dimensionless stiffness k = K·C/F_o and damping c = C·ΩC/F_o in X, Y [-] (Eq. 5.32). In
+        another common unit, such as the film's own, k_eq and p_s² come out in that unit.
+
+    Returns
+    -------
+    WhirlOnset
+        Eqs. 5.45 and 5.46; its fields have the leading shape (...).
+
+    Examples
+    --------
+    >>> from rotorcalc.films import short
+    >>> onset = whirl_onset(short.stiffness(0.5), short.damping(0.5))
+    >>> round(float(onset.whirl_ratio), 6), round(float(onset.threshold_speed), 6)
+    (0.51464, 2.541731)
+    """
+    k_XX, k_XY, k_YX, k_YY = _elements(k)
+    c_XX, c_XY, c_YX, c_YY = _elements(c)
+    # Eq. 5.45
+    k_eq = (k_XX * c_YY + k_YY * c_XX - c_YX * k_XY - c_XY * k_YX) / (c_XX + c_YY)
+    # Eq. 5.46
+    ratio2 = ((k_eq - k_XX) * (k_eq - k_YY) - k_XY * k_YX) / (c_XX * c_YY - c_XY * c_YX)
+    can_whirl = ratio2 > 0.0  # else no real frequency feeds the whirl: stable at any mass
+    p_s2 = np.where(can_whirl, k_eq / np.where(can_whirl, ratio2, 1.0), np.inf)
+    return WhirlOnset(
+        equivalent_stiffness=k_eq,
+        whirl_ratio=np.sqrt(np.where(can_whirl, ratio2, 0.0)),
+        critical_mass=p_s2,
+        # A negative equivalent stiffness leaves no mass, and so no speed, at which it is stable.
+        threshold_speed=np.sqrt(np.maximum(p_s2, 0.0)),
+    )
+
+
+def flexible_threshold(
+    threshold_speed: ArrayLike, equivalent_stiffness: ArrayLike, sag_ratio: ArrayLike
+) -> Array:
+    """Return the threshold speed of a flexible rotor, p_sf = p_s/√(1 + k_eq Γ/C) (Eq. 5.50).
+
+    The shaft lies in series with the film and lowers the natural frequency; the whirl ratio is
+    that of the rigid rotor. Holds for massless journals without midspan damping.
+
+    Parameters
+    ----------
+    threshold_speed : array_like, (...)
+        Of the rigid rotor, p_s [-] or Ω_s [rad/s].
+    equivalent_stiffness : array_like, (...)
+        k_eq [-].
+    sag_ratio : array_like, (...)
+        Static sag over clearance, Γ/C [-]; k_eq Γ/C = K_eq/K_rot, so K_eq and 1/K_rot serve too.
+
+    Returns
+    -------
+    array, (...)
+        p_sf or Ω_sf, in the unit of `threshold_speed`.
+    """
+    softening = 1.0 + np.asarray(equivalent_stiffness) * np.asarray(sag_ratio)
+    return np.asarray(threshold_speed) / np.sqrt(softening)
+
+
+def _elements(coefficients: ArrayLike) -> tuple[Array, Array, Array, Array]:
+    m = np.asarray(coefficients, dtype=float)
+    return m[..., 0, 0], m[..., 0, 1], m[..., 1, 0], m[..., 1, 1]

@@ -1,0 +1,96 @@
+"""The root locus: a machine's modes followed over speed, and where they stand at one speed.
+
+Eigenvalues of a real matrix come as mirror images, λ and its conjugate, which are one motion; the
+locus keeps the half with Im λ ≥ 0. Source: the notes' calculation sheet, eigenvalues over speed.
+"""
+
+import itertools
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
+
+from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.modes import ModeShapes
+
+
+@dataclass(frozen=True, eq=False)
+class Locus:
+    """Eigenvalues over speed, a column a mode, and the same modes at the running speed.
+
+    The modes keep one order in all fields: at the lowest speed the oscillating ones by rising
+    frequency, then the others.
+
+    Attributes
+    ----------
+    speed : array, (n,)
+        Ω [rad/s].
+    branches : complex array, (n, m)
+        λ [1/s]; not a number at speeds at which the mirror image is another column.
+    running_speed : float
+        Ω [rad/s].
+    here : ModeShapes
+        The m modes at the running speed.
+    """
+
+    speed: Array
+    branches: ComplexArray
+    running_speed: float
+    here: ModeShapes
+
+    @property
+    def leading(self) -> int:
+        """Index of the oscillating mode that decays slowest, or grows fastest, at that speed."""
+        values = self.here.eigenvalues
+        waves = values.imag > 0.0
+        return int(np.argmax(np.where(waves | ~np.any(waves), values.real, -np.inf)))
+
+
+def root_locus(
+    speed: Array, branches: ComplexArray, *, running_speed: float, shapes: ModeShapes
+) -> Locus:
+    """Return followed eigenvalues and the modes at the running speed, in one order.
+
+    Parameters
+    ----------
+    speed : array, (n,)
+        Rising speeds, Ω [rad/s].
+    branches : complex array, (n, m)
+        λ followed over them [1/s], as `modes.follow_branches` returns them.
+    running_speed : float
+        Ω [rad/s].
+    shapes : ModeShapes
+        All m modes at the running speed.
+
+    Returns
+    -------
+    Locus
+        The half with Im λ ≥ 0.
+    """
+    nearest = branches[np.argmin(np.abs(speed - running_speed))]
+    _, here = linear_sum_assignment(np.abs(nearest[:, None] - shapes.eigenvalues[None, :]))
+    first = branches[0]
+    order = np.lexsort((-first.real, np.where(first.imag > 0.0, first.imag, np.inf)))
+    followed = np.take_along_axis(branches[:, order], _images_last(branches[:, order]), axis=1)
+    here = here[order][_images_last(shapes.eigenvalues[here[order]][None, :])[0]]
+    kept = np.any(followed.imag >= 0.0, axis=0)
+    return Locus(
+        speed=speed,
+        branches=np.where(followed.imag < 0.0, np.nan, followed)[:, kept],
+        running_speed=running_speed,
+        here=shapes.ordered(here[kept]),
+    )
+
+
+def _images_last(values: ComplexArray) -> NDArray[np.intp]:
+    """Return columns in an order, row by row, in which no mirror image comes before its mode.
+
+    Two real eigenvalues that meet part as a mode and its mirror image; which is which is chance.
+    """
+    n, m = values.shape
+    places: NDArray[np.intp] = np.zeros((n, 1), dtype=np.intp) + np.arange(m, dtype=np.intp)
+    for j, k in itertools.combinations(range(m), 2):
+        swap = (values[:, j].imag < 0.0) & (values[:, j] == values[:, k].conj())
+        places[swap, j], places[swap, k] = k, j
+    return places

@@ -1,0 +1,413 @@
+"""What imbalance does to a machine over speed: curves, orbits, and what else the rotor could be.
+
+Prepares the steady response for its readers: amplitude, phase and ellipse of disk and journal,
+orbits point by point, the journal's orbit in its clearance, and the responses of rotors that differ
+in midspan damping or journal mass (the extensions that the calculation sheet leaves to its reader).
+
+Source: San Andrés, Notes 5, Eq. 5.38, and the calculation sheet. Axes and signs as in `response`.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rotorcalc import modes
+from rotorcalc.analysis import Sweep
+from rotorcalc.arrays import Array, BoolArray, ComplexArray, IntArray
+from rotorcalc.coefficients import checked_speed, equilibrium, stiffness_and_damping
+from rotorcalc.machine import Machine, Rotor
+from rotorcalc.numerics import routh
+from rotorcalc.onset.closed_form import has_closed_form
+from rotorcalc.unbalance_response import (
+    OrbitEllipse,
+    ResponsePeaks,
+    Rotors,
+    disk_peak_speeds,
+    orbit_ellipse,
+    orbit_points,
+    orbit_sizes,
+    phase_lag,
+    synchronous_response,
+)
+
+# A mode grows if it does so by more than a rounding error of the fastest mode's rate.
+_ROUNDING = 1e-9
+_ORBIT_POINTS = 73
+# Points around a peak, in spacings of the sweep: without much damping it is narrower than one.
+_NEAR = np.concatenate([-(0.5 ** np.arange(1, 10)), [0.0], 0.5 ** np.arange(9, 0, -1)])
+# What `damping_variants` and `journal_mass_variants` give, as fractions of their references.
+_DAMPING = (0.0, 0.05, 0.1, 0.2, 0.5)
+_JOURNAL_MASS = (0.0, 0.05, 0.1, 0.2, 0.4)
+
+
+@dataclass(frozen=True, eq=False)
+class BodyResponse:
+    """The steady response of a disk or a journal.
+
+    Attributes
+    ----------
+    amplitude : array, (..., 2)
+        Of X and Y, zero to peak [m].
+    lag : array, (..., 2)
+        By how much X lags cos Ωt and Y lags sin Ωt [rad].
+    ellipse : OrbitEllipse
+        The orbit's axes [m], each of shape (...).
+    """
+
+    amplitude: Array
+    lag: Array
+    ellipse: OrbitEllipse
+
+
+@dataclass(frozen=True, eq=False)
+class ResponseCurves:
+    """The steady response of a machine over speed, and at its running speed.
+
+    Attributes
+    ----------
+    speed : array, (n,)
+        Ω [rad/s], denser around the peaks than the sweep.
+    disk, journal : BodyResponse
+        Over speed; the lag is unwrapped.
+    disk_peaks, journal_peaks : ResponsePeaks
+        Where the orbits are largest.
+    unstable : array, (m, 2)
+        First and last speed of the ranges where the machine is unstable [rad/s]: no response is
+        steady there.
+    running_speed : array, scalar
+        Ω [rad/s].
+    disk_here, journal_here : BodyResponse
+        At the running speed; the lag is that turn's which continues the curve.
+    is_rigid : bool
+        Whether disk and journal are one.
+    """
+
+    speed: Array
+    disk: BodyResponse
+    journal: BodyResponse
+    disk_peaks: ResponsePeaks
+    journal_peaks: ResponsePeaks
+    unstable: Array
+    running_speed: Array
+    disk_here: BodyResponse
+    journal_here: BodyResponse
+    is_rigid: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Orbits:
+    """Orbits of disk and journal about their static equilibrium, point by point.
+
+    Attributes
+    ----------
+    speed : array, (...)
+        Ω [rad/s].
+    disk, journal : array, (..., p, 2)
+        Points in X, Y over one turn, from the instant when the imbalance points along X [m].
+    disk_forward, journal_forward : boolean array, (...)
+        Whether the orbit turns with the shaft.
+    is_rigid : bool
+        Whether disk and journal are one.
+    """
+
+    speed: Array
+    disk: Array
+    journal: Array
+    disk_forward: BoolArray
+    journal_forward: BoolArray
+    is_rigid: bool
+
+
+@dataclass(frozen=True, eq=False)
+class ClearanceOrbit:
+    """The journal's orbit where it runs, in its clearance.
+
+    Attributes
+    ----------
+    clearance : float
+        Radial clearance, C [m].
+    circle : array, (p, 2)
+        Points of the clearance circle in X, Y [m].
+    centre : array, (2,)
+        Static equilibrium of the journal's centre [m].
+    path : array, (p, 2)
+        The orbit from the bearing's centre [m].
+    reach : float
+        Largest distance of the orbit from the bearing's centre over the clearance [-]: above 1 the
+        linear theory takes the journal through the wall.
+    """
+
+    clearance: float
+    circle: Array
+    centre: Array
+    path: Array
+    reach: float
+
+
+@dataclass(frozen=True, eq=False)
+class ResponseFamily:
+    """The orbits' size over speed for several rotors in one machine's bearings.
+
+    Attributes
+    ----------
+    rotors : tuple of Rotor
+        The m rotors.
+    speed : array, (n,)
+        Ω [rad/s]: those asked for, and more around the peaks of each rotor.
+    disk, journal : array, (m, n)
+        Semi-major axes [m].
+    unstable : boolean array, (m, n)
+        Where the machine is unstable with that rotor.
+    """
+
+    rotors: tuple[Rotor, ...]
+    speed: Array
+    disk: Array
+    journal: Array
+    unstable: BoolArray
+
+
+def response_curves(
+    sweep: Sweep, point: Sweep, *, disk_peaks: ResponsePeaks, journal_peaks: ResponsePeaks
+) -> ResponseCurves:
+    """Return a machine's steady response over speed and at the running speed.
+
+    Parameters
+    ----------
+    sweep : Sweep
+        The machine over rising speeds, (n,).
+    point : Sweep
+        The same machine at the running speed, scalar.
+    disk_peaks, journal_peaks : ResponsePeaks
+        Peaks within the sweep.
+
+    Returns
+    -------
+    ResponseCurves
+        Curves and point.
+    """
+    machine = sweep.machine
+    near = _near(sweep.speed, np.concatenate([disk_peaks.speed, journal_peaks.speed]))
+    there = synchronous_response(machine.rotor, *stiffness_and_damping(machine, near), near)
+    speed, order = np.unique(np.concatenate([sweep.speed, near]), return_index=True)
+    known = sweep.disk_response, sweep.journal_response
+    disk, journal = (_body(np.concatenate(pair)[order]) for pair in zip(known, there, strict=True))
+    return ResponseCurves(
+        speed=speed,
+        disk=disk,
+        journal=journal,
+        disk_peaks=disk_peaks,
+        journal_peaks=journal_peaks,
+        unstable=unstable_ranges(sweep),
+        running_speed=point.speed,
+        disk_here=_body_on(disk, speed, point.disk_response, point.speed),
+        journal_here=_body_on(journal, speed, point.journal_response, point.speed),
+        is_rigid=machine.rotor.is_rigid,
+    )
+
+
+def unstable_ranges(sweep: Sweep) -> Array:
+    """Return the ranges of speed within a sweep where some mode grows.
+
+    Parameters
+    ----------
+    sweep : Sweep
+        A machine over rising speeds, (n,).
+
+    Returns
+    -------
+    array, (m, 2)
+        First and last speed of each range [rad/s], interpolated between the sweep's; `onset_speed`
+        gives the first onset to the last digit.
+    """
+    growth = _growth(sweep)
+    grows = np.concatenate([[False], growth > 0.0, [False]])
+    first, last = (
+        np.flatnonzero(~grows[:-1] & grows[1:]),
+        np.flatnonzero(grows[:-1] & ~grows[1:]) - 1,
+    )
+    starts = _crossings(sweep.speed, growth, np.maximum(first - 1, 0), first)
+    ends = _crossings(sweep.speed, growth, last, np.minimum(last + 1, len(growth) - 1))
+    return np.stack([starts, ends], axis=-1)
+
+
+def orbits(sweep: Sweep, *, points: int = _ORBIT_POINTS, every: int = 1) -> Orbits:
+    """Return the orbits of disk and journal about their static equilibrium.
+
+    Parameters
+    ----------
+    sweep : Sweep
+        A machine over speed, or at one speed.
+    points : int
+        Points of each orbit; the last is the first again.
+    every : int
+        Of a sweep, take each so many-th speed, so that the last stays.
+
+    Returns
+    -------
+    Orbits
+        Its fields have the leading shape of the speeds taken.
+    """
+    taken = slice(every - 1, None, every) if sweep.speed.ndim else ...
+    disk, journal = sweep.disk_response[taken], sweep.journal_response[taken]
+    return Orbits(
+        speed=sweep.speed[taken],
+        disk=orbit_points(disk[..., 0], disk[..., 1], points=points),
+        journal=orbit_points(journal[..., 0], journal[..., 1], points=points),
+        disk_forward=_ellipse(disk).semi_minor > 0.0,
+        journal_forward=_ellipse(journal).semi_minor > 0.0,
+        is_rigid=sweep.machine.rotor.is_rigid,
+    )
+
+
+def clearance_orbit(point: Sweep) -> ClearanceOrbit:
+    """Return the journal's orbit about its static equilibrium inside the clearance circle.
+
+    Parameters
+    ----------
+    point : Sweep
+        A machine at one speed.
+
+    Returns
+    -------
+    ClearanceOrbit
+        Circle, equilibrium, path, and how near the path comes to the wall.
+    """
+    C = point.machine.bearing.radial_clearance
+    journal = point.journal_response
+    path = point.journal_position + orbit_points(journal[0], journal[1], points=4 * _ORBIT_POINTS)
+    return ClearanceOrbit(
+        clearance=C,
+        circle=orbit_points(C, -1j * C, points=2 * _ORBIT_POINTS),
+        centre=point.journal_position,
+        path=path,
+        reach=float(np.hypot(path[:, 0], path[:, 1]).max() / C),
+    )
+
+
+def response_family(
+    machine: Machine, speed: ArrayLike, *, rotors: Sequence[Rotor]
+) -> ResponseFamily:
+    """Return the responses of several rotors in one machine's bearings, under its static load.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; its load, oil and bearing serve all rotors.
+    speed : array_like, (n,)
+        Rising speeds, Ω [rad/s].
+    rotors : sequence of Rotor
+        The m rotors.
+
+    Returns
+    -------
+    ResponseFamily
+        Semi-major axes of their orbits, and where they are unstable.
+
+    Raises
+    ------
+    ValueError
+        Where a speed is not positive and finite.
+    """
+    speeds, group = checked_speed(speed), Rotors.of(rotors)
+    film = stiffness_and_damping(machine, speeds)
+    sizes = orbit_sizes(*synchronous_response(group, *film, speeds))
+    near = _near(speeds, disk_peak_speeds(machine, group, speeds, sizes[0]))
+    film_there = stiffness_and_damping(machine, near)
+    sizes_there = orbit_sizes(*synchronous_response(group, *film_there, near))
+    denser, order = np.unique(np.concatenate([speeds, near]), return_index=True)
+    disk, journal = np.concatenate([sizes, sizes_there], axis=-1)[..., order]
+    K, C = (np.concatenate(pair)[order] for pair in zip(film, film_there, strict=True))
+    return ResponseFamily(
+        rotors=tuple(rotors),
+        speed=denser,
+        disk=disk,
+        journal=journal,
+        unstable=np.array(
+            [~routh.decays(modes.characteristic_polynomial(rotor, K, C)) for rotor in rotors]
+        ),
+    )
+
+
+def damping_reference(machine: Machine) -> float:
+    """Return a damping to measure midspan damping by [N·s/m].
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    float
+        Critical damping of the disk on its shaft, 2√(K_rot m_d); where the shaft is rigid the
+        centred film's direct damping, beside which the damper then acts.
+    """
+    rotor = machine.rotor
+    if rotor.is_rigid:
+        return float(equilibrium(replace(machine, load=0.0), 1.0).damping[0, 0])
+    return 2.0 * math.sqrt(rotor.shaft_stiffness * rotor.disk_mass)
+
+
+def damping_variants(machine: Machine) -> tuple[Rotor, ...]:
+    """Return the machine's rotor, then it with midspan damping of 0 to ½ `damping_reference`."""
+    rotor, unit = machine.rotor, damping_reference(machine)
+    dampings = [float(f"{share * unit:.2g}") for share in _DAMPING]
+    others = (replace(rotor, disk_damping=value) for value in dampings)
+    return (rotor, *(other for other in others if other != rotor))
+
+
+def journal_mass_variants(machine: Machine) -> tuple[Rotor, ...]:
+    """Return the machine's rotor, then the same with journals of 0 to 40 % of half its mass."""
+    rotor = machine.rotor
+    masses = [float(f"{share * rotor.half_mass:.2g}") for share in _JOURNAL_MASS]
+    others = (replace(rotor, journal_mass=value) for value in masses)
+    return (rotor, *(other for other in others if other != rotor))
+
+
+def _ellipse(response: ComplexArray) -> OrbitEllipse:
+    return orbit_ellipse(response[..., 0], response[..., 1])
+
+
+def _body(response: ComplexArray) -> BodyResponse:
+    return BodyResponse(
+        amplitude=np.abs(response), lag=phase_lag(response), ellipse=_ellipse(response)
+    )
+
+
+def _body_on(
+    curve: BodyResponse, speeds: Array, response: ComplexArray, speed: Array
+) -> BodyResponse:
+    """Return a response at one speed, its lag on the same turn as the curve's."""
+    lag = phase_lag(response[None, :])[0]
+    near = np.array([float(np.interp(speed, speeds, curve.lag[:, i])) for i in range(2)])
+    lag = lag + 2.0 * np.pi * np.rint((near - lag) / (2.0 * np.pi))
+    return BodyResponse(amplitude=np.abs(response), lag=lag, ellipse=_ellipse(response))
+
+
+def _growth(sweep: Sweep) -> Array:
+    """Return a measure of the growth over a sweep: positive where the machine is unstable."""
+    if has_closed_form(sweep.machine):  # without eigenvalues: from −1 far below Eq. 5.50's to 1
+        return 2.0 / (1.0 + sweep.flexible_threshold / sweep.speed) - 1.0
+    return _fastest_growth(sweep.flexible_eigenvalues)
+
+
+def _fastest_growth(values: ComplexArray) -> Array:
+    """Return the largest Re λ less what may be rounding error, (...), of eigenvalues (..., m)."""
+    return values.real.max(axis=-1) - _ROUNDING * np.abs(values).max(axis=-1)
+
+
+def _crossings(speeds: Array, growth: Array, i: IntArray, j: IntArray) -> Array:
+    """Return where the growth changes sign between neighbours i and j, or i where they are one."""
+    rise = growth[j] - growth[i]
+    part = -growth[i] / np.where(i == j, np.inf, rise)
+    return speeds[i] + part * (speeds[j] - speeds[i])
+
+
+def _near(speeds: Array, peaks: Array) -> Array:
+    """Return speeds around each peak within rising speeds, denser than those."""
+    near = peaks[:, None] + (speeds[1] - speeds[0]) * _NEAR
+    return near[(near > 0.0) & (near <= speeds[-1])]

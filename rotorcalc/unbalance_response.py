@@ -1,0 +1,338 @@
+"""Steady response to imbalance, and the orbits that it draws.
+
+Model: linear film coefficients; the disk's mass centre lies a distance u off the shaft's axis and
+turns forward, (cos Ωt, sin Ωt); the source's (sin, cos) turns backward. A phasor P stands for
+Re{P e^{jΩt}}, amplitude from zero to peak, about static equilibrium.
+
+Source: San Andrés, Notes 5, Eq. 5.38, and the calculation sheet's synchronous response of the
+flexible rotor, with midspan damping and journal mass added.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rotorcalc.arrays import Array, BoolArray, ComplexArray, IntArray
+from rotorcalc.coefficients import checked_speed, stiffness_and_damping
+from rotorcalc.machine import Machine, Rotor
+
+# The imbalance (cos Ωt, sin Ωt) as phasors.
+_FORWARD = np.array([1.0, -1.0j])
+# The search for a peak: zooms, each into this many points.
+_ZOOMS, _ZOOM_POINTS = 2, 65
+
+
+@dataclass(frozen=True, eq=False)
+class OrbitEllipse:
+    """The ellipse that two phasors draw, each field of shape (...), lengths in the phasors' unit.
+
+    Attributes
+    ----------
+    semi_major : array
+        Semi-major axis, |f| + |b|.
+    semi_minor : array
+        Semi-minor axis, |f| − |b|; positive where the orbit turns forward.
+    inclination : array
+        Angle from X to the major axis, (arg f + arg b)/2 [rad].
+    forward : complex array
+        Forward circle, f = (X + jY)/2.
+    backward : complex array
+        Backward circle, b = (X − jY)*/2.
+    """
+
+    semi_major: Array
+    semi_minor: Array
+    inclination: Array
+    forward: ComplexArray
+    backward: ComplexArray
+
+
+@dataclass(frozen=True, eq=False)
+class ResponsePeaks:
+    """Local maxima of an orbit's size over speed, each field of shape (peaks,).
+
+    Attributes
+    ----------
+    speed : array
+        Running speed, Ω [rad/s].
+    amplitude : array
+        Semi-major axis of the orbit [m].
+    """
+
+    speed: Array
+    amplitude: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Rotors:
+    """Several rotors as one: their fields of the same names in `Rotor`, each of shape (...)."""
+
+    shaft_stiffness: Array
+    disk_mass: Array
+    disk_damping: Array
+    journal_mass: Array
+    imbalance: Array
+
+    @classmethod
+    def of(cls, rotors: Sequence[Rotor]) -> "Rotors":
+        """Return m rotors over any number of speeds: fields of shape (m, 1)."""
+        return cls(**{
+            name: np.array([[getattr(rotor, name)] for rotor in rotors])
+            for name in cls.__dataclass_fields__
+        })  # fmt: skip
+
+    def at(self, places: IntArray) -> "Rotors":
+        """Return those of the m rotors at some places, of shape (p,)."""
+        return Rotors(**{name: values[places, 0] for name, values in vars(self).items()})
+
+
+def synchronous_response(
+    rotor: Rotor | Rotors, K: Array, C: Array, speed: ArrayLike
+) -> tuple[ComplexArray, ComplexArray]:
+    """Return the response of disk and journal to the rotor's imbalance.
+
+    Parameters
+    ----------
+    rotor : Rotor or Rotors
+        The rotor, or some, whose fields broadcast with the speed.
+    K, C : array, (..., 2, 2)
+        The film's stiffness [N/m] and damping [N·s/m] in X, Y.
+    speed : array_like, (...)
+        Running speed, Ω [rad/s].
+
+    Returns
+    -------
+    disk, journal : complex array, (..., 2)
+        Phasors of X and Y [m]; equal for a rigid shaft.
+
+    Notes
+    -----
+    With Z = K + jΩC − Ω²M_j I for film and journal, z = jΩC_s − Ω²m_d for the disk and s = 1/K_rot
+    for the shaft, eliminating the disk from its balance and the journal's leaves
+
+        (Z + z I + s z Z) j = m_d u Ω² e,    d = (I + s Z) j,
+
+    which holds for the rigid shaft too, s = 0.
+    """
+    speed = checked_speed(speed)
+    s = 1.0 / rotor.shaft_stiffness
+    z = speed * (1j * rotor.disk_damping - speed * rotor.disk_mass)
+    bent, inertia = 1.0 + s * z, speed**2 * rotor.journal_mass
+
+    def film(i: int, j: int) -> ComplexArray:
+        return K[..., i, j] + 1j * speed * C[..., i, j]
+
+    Z_xx, Z_xy, Z_yx, Z_yy = film(0, 0) - inertia, film(0, 1), film(1, 0), film(1, 1) - inertia
+    W_xx, W_xy, W_yx, W_yy = Z_xx * bent + z, Z_xy * bent, Z_yx * bent, Z_yy * bent + z
+    force = rotor.disk_mass * rotor.imbalance * speed**2
+    unit = force / (W_xx * W_yy - W_xy * W_yx)  # times adj W (1, −j)
+    x, y = unit * (W_yy + 1j * W_xy), -unit * (W_yx + 1j * W_xx)
+    disk = np.stack([x + s * (Z_xx * x + Z_xy * y), y + s * (Z_yx * x + Z_yy * y)], axis=-1)
+    return disk, np.stack([x, y], axis=-1)
+
+
+def orbit_ellipse(x: ArrayLike, y: ArrayLike) -> OrbitEllipse:
+    """Return the ellipse that the phasors of X and Y draw.
+
+    Parameters
+    ----------
+    x, y : array_like, (...)
+        Complex phasors of X and Y, in any one unit.
+
+    Returns
+    -------
+    OrbitEllipse
+        Axes, inclination, and the forward and backward circles that add up to it. Its fields
+        have the shape (...).
+
+    Examples
+    --------
+    >>> orbit = orbit_ellipse(2.0, -1.0j)
+    >>> float(orbit.semi_major), float(orbit.semi_minor)
+    (2.0, 1.0)
+    """
+    x, y = np.broadcast_arrays(np.asarray(x, dtype=complex), np.asarray(y, dtype=complex))
+    forward = (x + 1j * y) / 2.0
+    backward: ComplexArray = (x - 1j * y).conj() / 2.0
+    return OrbitEllipse(
+        semi_major=np.abs(forward) + np.abs(backward),
+        semi_minor=np.abs(forward) - np.abs(backward),
+        inclination=(np.angle(forward) + np.angle(backward)) / 2.0,
+        forward=forward,
+        backward=backward,
+    )
+
+
+def orbit_points(x: ArrayLike, y: ArrayLike, *, points: int = 73) -> Array:
+    """Return the orbit that the phasors of X and Y draw, point by point over one turn.
+
+    Parameters
+    ----------
+    x, y : array_like, (...)
+        Complex phasors of X and Y, in any one unit.
+    points : int
+        Number of points; the last is the first again.
+
+    Returns
+    -------
+    array, (..., points, 2)
+        Re{X e^{jΩt}}, Re{Y e^{jΩt}} from Ωt = 0 to 2π, in the phasors' unit.
+
+    Examples
+    --------
+    >>> orbit_points(2.0, -1.0j, points=5).round(12) + 0.0
+    array([[ 2.,  0.], [ 0.,  1.], [-2.,  0.], [ 0., -1.], [ 2.,  0.]])
+    """
+    phasors = np.stack(np.broadcast_arrays(x, y), axis=-1)
+    turn = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, points))
+    return np.real(phasors[..., None, :] * turn[:, None])
+
+
+def phase_lag(response: ArrayLike) -> Array:
+    """Return by how much a response lags the imbalance, unwrapped over the sweep.
+
+    Parameters
+    ----------
+    response : array_like, (n, 2)
+        Phasors of X and Y at n neighbouring speeds.
+
+    Returns
+    -------
+    array, (n, 2)
+        Lag of X behind cos Ωt and of Y behind sin Ωt [rad]; at the first speed within ±π.
+    """
+    return np.unwrap(-np.angle(np.asarray(response) / _FORWARD), axis=0)
+
+
+def response_peaks(machine: Machine, speed: ArrayLike, *, at: str = "disk") -> ResponsePeaks:
+    """Return the speeds at which the orbit is largest: local maxima of its semi-major axis.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : array_like, (n,)
+        Rising speeds, Ω [rad/s], dense enough to show each peak. A peak lies within them.
+    at : str
+        Whose orbit, "disk" or "journal".
+
+    Returns
+    -------
+    ResponsePeaks
+        Speeds and amplitudes, the speeds to 1e-6 of the spacing.
+
+    Raises
+    ------
+    ValueError
+        Where `at` is neither, or a speed is not positive and finite.
+    """
+    if at not in ("disk", "journal"):
+        raise ValueError(f"at = {at!r}: must be 'disk' or 'journal'")
+    disk, journal = both_peaks(machine, speed)
+    return disk if at == "disk" else journal
+
+
+def both_peaks(
+    machine: Machine,
+    speed: ArrayLike,
+    *,
+    responses: tuple[ComplexArray, ComplexArray] | None = None,
+) -> tuple[ResponsePeaks, ResponsePeaks]:
+    """Return the peaks of the disk's response and of the journals', found in one search.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : array_like, (n,)
+        Rising speeds, Ω [rad/s], dense enough to show each peak. A peak lies within them.
+    responses : pair of complex arrays, (n, 2), or None
+        The responses of disk and journal at these speeds [m], where they are known already.
+
+    Returns
+    -------
+    disk, journal : ResponsePeaks
+        As `response_peaks` gives them.
+
+    Raises
+    ------
+    ValueError
+        Where a speed is not positive and finite.
+    """
+    speeds, rotor = checked_speed(speed), machine.rotor
+    size = _orbit_sizes(machine, rotor, speeds) if responses is None else orbit_sizes(*responses)
+    body, place = np.nonzero(_is_peak(size))
+    if not len(body):
+        none = ResponsePeaks(speed=np.empty(0), amplitude=np.empty(0))
+        return none, none
+    tops = _tops(machine, rotor, body, speeds[place], speeds[place + 2])
+    sizes = _orbit_sizes(machine, rotor, tops)
+    disk, journal = (
+        ResponsePeaks(speed=tops[body == i], amplitude=sizes[i, body == i]) for i in (0, 1)
+    )
+    return disk, journal
+
+
+def disk_peak_speeds(machine: Machine, rotors: Rotors, speed: Array, size: Array) -> Array:
+    """Return the speeds of all peaks of several rotors' disks in one machine's bearings.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; its own rotor counts by its load only.
+    rotors : Rotors, (m, 1)
+        The rotors.
+    speed : array, (n,)
+        Rising speeds, Ω [rad/s], dense enough to show each peak.
+    size : array, (m, n)
+        Semi-major axes of the disks' orbits at these speeds.
+
+    Returns
+    -------
+    array, (peaks,)
+        As `response_peaks` gives them, the first rotor's first [rad/s].
+    """
+    which, place = np.nonzero(_is_peak(size))
+    if not len(which):
+        return np.empty(0)
+    disk = np.zeros_like(which)
+    return _tops(machine, rotors.at(which), disk, speed[place], speed[place + 2])
+
+
+def orbit_sizes(disk: ComplexArray, journal: ComplexArray) -> Array:
+    """Return the semi-major axes of the disk's orbit and the journal's, (2, ...), of (..., 2)."""
+    x, jy = (np.stack([disk[..., i], journal[..., i]]) * unit for i, unit in ((0, 0.5), (1, 0.5j)))
+    return np.abs(x + jy) + np.abs(x - jy)
+
+
+def _orbit_sizes(machine: Machine, rotor: Rotor | Rotors, speed: Array) -> Array:
+    K, C = stiffness_and_damping(machine, speed)
+    return orbit_sizes(*synchronous_response(rotor, K, C, speed))
+
+
+def _is_peak(size: Array) -> BoolArray:
+    return (size[:, 1:-1] > size[:, :-2]) & (size[:, 1:-1] >= size[:, 2:])
+
+
+def _tops(
+    machine: Machine, rotor: Rotor | Rotors, body: IntArray, low: Array, high: Array
+) -> Array:
+    """Return the speeds of the peaks between two speeds each, all at once.
+
+    `body` is 0 for a peak of the disk, 1 for one of the journal. A zoom goes into the two intervals
+    beside the largest value; a parabola does the rest, for more zooms would lose the flat top in
+    rounding errors.
+    """
+    columns = np.arange(len(low))
+    before = largest = after = np.zeros(len(low))
+    for _ in range(_ZOOMS):
+        grid = np.linspace(low, high, _ZOOM_POINTS)
+        size = _orbit_sizes(machine, rotor, grid)[body, :, columns].T
+        top = size[1:-1].argmax(axis=0) + 1
+        low, high = grid[top - 1, columns], grid[top + 1, columns]
+        before, largest, after = (size[top + step, columns] for step in (-1, 0, 1))
+    bend = before - 2.0 * largest + after
+    shift = (before - after) / np.where(bend < 0.0, bend, -np.inf) / 2.0
+    return (low + high) / 2.0 + shift * (high - low) / 2.0

@@ -1,0 +1,111 @@
+"""Units for readers: SI as engineers write it, and US customary. Factors from scipy.constants."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy import constants
+from scipy.constants import gallon, hp, inch, lb, lbf, liter, mil, minute, psi
+
+from rotorcalc.arrays import Array
+
+_REYN = lbf / inch**2  # Pa·s in a reyn, lbf·s/in²
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit of display: what one SI unit amounts to in it.
+
+    Attributes
+    ----------
+    name : str
+        As readers see it.
+    per_si : float
+        How many of this unit make one SI unit.
+    offset : float
+        Reading of this unit at the SI quantity's zero.
+    """
+
+    name: str
+    per_si: float = 1.0
+    offset: float = 0.0
+
+    def of(self, value: ArrayLike) -> Array:
+        """Return an SI value in this unit, shape (...)."""
+        return np.asarray(value, dtype=float) * self.per_si + self.offset
+
+    def to_si(self, reading: float) -> float:
+        """Return the SI value of a reading in this unit."""
+        return (reading - self.offset) / self.per_si
+
+
+@dataclass(frozen=True)
+class Units:
+    """The units in which a reader sees each kind of quantity."""
+
+    name: str
+    mass: Unit
+    force: Unit
+    length: Unit
+    film: Unit
+    viscosity: Unit
+    temperature: Unit
+    per_temperature: Unit
+    density: Unit
+    shaft_stiffness: Unit
+    shaft_damping: Unit
+    stiffness: Unit
+    damping: Unit
+    power: Unit
+    flow: Unit
+    pressure: Unit
+    torque: Unit
+    speed: Unit = Unit("rpm", 1 / (2 * constants.pi / minute))
+    frequency: Unit = Unit("Hz", 1 / (2 * constants.pi))
+    angle: Unit = Unit("°", 1 / constants.degree)
+    growth: Unit = Unit("1/s")
+    percent: Unit = Unit("%", 100.0)
+    number: Unit = Unit("-")
+
+
+SI = Units(
+    name="SI",
+    mass=Unit("kg"),
+    force=Unit("N"),
+    length=Unit("mm", 1e3),
+    film=Unit("µm", 1e6),
+    viscosity=Unit("mPa·s", 1e3),
+    temperature=Unit("°C"),
+    per_temperature=Unit("1/°C"),
+    density=Unit("kg/m³"),
+    shaft_stiffness=Unit("N/m"),
+    shaft_damping=Unit("N·s/m"),
+    stiffness=Unit("MN/m", 1e-6),
+    damping=Unit("kN·s/m", 1e-3),
+    power=Unit("kW", 1e-3),
+    flow=Unit("l/min", minute / liter),
+    pressure=Unit("MPa", 1e-6),
+    torque=Unit("N·m"),
+)
+
+US = Units(
+    name="US",
+    mass=Unit("lb", 1 / lb),
+    force=Unit("lbf", 1 / lbf),
+    length=Unit("in", 1 / inch),
+    film=Unit("mil", 1 / mil),
+    viscosity=Unit("µreyn", 1e6 / _REYN),
+    temperature=Unit("°F", 1.8, 32.0),
+    per_temperature=Unit("1/°F", 1 / 1.8),
+    density=Unit("lb/ft³", constants.foot**3 / lb),
+    shaft_stiffness=Unit("lbf/in", inch / lbf),
+    shaft_damping=Unit("lbf·s/in", inch / lbf),
+    stiffness=Unit("10³ lbf/in", 1e-3 * inch / lbf),
+    damping=Unit("lbf·s/in", inch / lbf),
+    power=Unit("hp", 1 / hp),
+    flow=Unit("gpm", minute / gallon),
+    pressure=Unit("psi", 1 / psi),
+    torque=Unit("lbf·in", 1 / (lbf * inch)),
+)
+
+SYSTEMS = {"SI": SI, "US": US}

@@ -1,0 +1,345 @@
+"""Whirl: what the threshold means for a machine at each speed, and the energy that drives it.
+
+The cross-coupled stiffness acts as a follower force: on an orbit that turns forward it pushes
+along the motion and feeds it energy, which the damping of film and disk takes out. A free motion
+grows where more is fed in than taken out; at the threshold the two are equal.
+
+Source: San Andrés, Notes 5, Eqs. 5.14, 5.45 to 5.50 and Appendix A.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rotorcalc import modes
+from rotorcalc.analysis import FilmCurves, Sweep, film_curves
+from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.coefficients import equilibrium
+from rotorcalc.machine import JournalBearing, Machine, Rotor
+from rotorcalc.onset.search import Onset
+from rotorcalc.onset.whirl import flexible_threshold
+
+_I = np.eye(2)
+# The modified Sommerfeld number below which no film can whirl.
+_CLOSEST_FILM = 1e-3
+_CIRCLE: ComplexArray = np.array([1.0, -1.0j])  # turns forward
+
+
+@dataclass(frozen=True, eq=False)
+class Thresholds:
+    """What the threshold of whirl means for a machine at each speed, each field of shape (...).
+
+    All hold without midspan damping and journal mass; with a flexible shaft and a rigid one.
+
+    Attributes
+    ----------
+    speed : array
+        Running speed, Ω [rad/s].
+    flexible, rigid : array
+        Threshold speed Ω_sf and Ω_s at this speed's equilibrium [rad/s]; infinite where the film
+        cannot whirl.
+    flexible_frequency, rigid_frequency : array
+        Whirl frequency at that threshold, ω_s [rad/s] (Eq. 5.47); not a number where the film
+        cannot whirl.
+    flexible_mass_ratio, rigid_mass_ratio : array
+        Critical mass over the rotor's, M_c/M = (Ω_s/Ω)² [-]; unstable below 1.
+    """
+
+    speed: Array
+    flexible: Array
+    rigid: Array
+    flexible_frequency: Array
+    rigid_frequency: Array
+    flexible_mass_ratio: Array
+    rigid_mass_ratio: Array
+
+
+@dataclass(frozen=True, eq=False)
+class WhirlOrbit:
+    """The orbit in which a machine whirls at its onset.
+
+    Attributes
+    ----------
+    speed : float
+        Onset speed, Ω_s [rad/s].
+    frequency : float
+        Whirl frequency, ω_s [rad/s].
+    journal, disk : complex array, (2,)
+        Phasors of X and Y; the journal's ellipse has the area 1.
+    """
+
+    speed: float
+    frequency: float
+    journal: ComplexArray
+    disk: ComplexArray
+
+
+@dataclass(frozen=True, eq=False)
+class WhirlEnergy:
+    """What the whirl orbit would gain and lose in one turn at each speed, each of shape (...).
+
+    Energies are per bearing, per turn and per area of the journal's orbit [J/m² = N/m].
+
+    Attributes
+    ----------
+    speed : array
+        Running speed, Ω [rad/s].
+    fed_in : array
+        What the cross-coupled stiffness feeds in, K_XY − K_YX.
+    film_loss, disk_loss : array
+        What the damping of the film and that at the disk take out.
+    """
+
+    speed: Array
+    fed_in: Array
+    film_loss: Array
+    disk_loss: Array
+
+
+def thresholds(sweep: Sweep) -> Thresholds:
+    """Return thresholds, whirl frequencies and critical mass ratios of a machine over speed.
+
+    Parameters
+    ----------
+    sweep : Sweep
+        The machine over speed, fields of shape (...).
+
+    Returns
+    -------
+    Thresholds
+        Eqs. 5.45 to 5.50; its fields have the shape (...).
+    """
+    rotor, K_eq = sweep.machine.rotor, sweep.equivalent_stiffness
+    can_whirl = sweep.whirl_ratio > 0.0
+    M_c = sweep.critical_mass
+    series = K_eq / (1.0 + K_eq / rotor.shaft_stiffness)  # film and shaft, below Eq. 5.50
+    rigid_frequency = modes.undamped_frequency(K_eq, rotor.half_mass)
+    frequency = modes.undamped_frequency(series, rotor.half_mass)
+    ratio = np.sqrt(np.maximum(M_c / rotor.half_mass, 0.0))  # Ω_s/Ω
+    return Thresholds(
+        speed=sweep.speed,
+        flexible=sweep.flexible_threshold,
+        rigid=sweep.rigid_threshold,
+        flexible_frequency=np.where(can_whirl, frequency, np.nan),
+        rigid_frequency=np.where(can_whirl, rigid_frequency, np.nan),
+        flexible_mass_ratio=flexible_threshold(ratio, K_eq, 1.0 / rotor.shaft_stiffness) ** 2,
+        rigid_mass_ratio=ratio**2,
+    )
+
+
+def flexible_curves(curves: FilmCurves, sag_ratio: ArrayLike) -> Array:
+    """Return the threshold speed of flexible rotors on one bearing (Eq. 5.50, Fig. 5.10).
+
+    Parameters
+    ----------
+    curves : FilmCurves
+        The bearing over the modified Sommerfeld number, fields of shape (n,).
+    sag_ratio : array_like, (m,)
+        Static sag over clearance of each rotor, Γ/C [-].
+
+    Returns
+    -------
+    array, (m, n)
+        p_sf [-]; infinite where the film cannot whirl.
+    """
+    onset, sag = curves.onset, np.asarray(sag_ratio, dtype=float)[:, None]
+    return flexible_threshold(onset.threshold_speed, onset.equivalent_stiffness, sag)
+
+
+def film_limit(bearing: JournalBearing) -> FilmCurves:
+    """Return the film at which whirl ends: at any higher eccentricity no rotor is unstable.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing.
+
+    Returns
+    -------
+    FilmCurves
+        One film, fields without a leading shape: the last that cannot whirl as σ rises.
+
+    Examples
+    --------
+    >>> bearing = JournalBearing(diameter=0.1, length=0.05, radial_clearance=1e-4)
+    >>> round(float(film_limit(bearing).film.eccentricity_ratio), 9)
+    0.756030386
+    """
+    low, high = _CLOSEST_FILM, 1.0
+    while high > low * (1.0 + 1e-13):
+        sigma = np.geomspace(low, high, 1000)
+        first = int(np.argmax(film_curves(bearing, sigma).onset.whirl_ratio > 0.0))
+        low, high = float(sigma[first - 1]), float(sigma[first])
+    return film_curves(bearing, low)
+
+
+def orbit_area(orbit: ArrayLike) -> Array:
+    """Return the area that an orbit encloses, A = ∮x dy = π Im(x ȳ).
+
+    Parameters
+    ----------
+    orbit : array_like, (..., 2)
+        Phasors of X and Y, in any one unit.
+
+    Returns
+    -------
+    array, (...)
+        Area in that unit squared; positive where the orbit turns forward.
+
+    Examples
+    --------
+    >>> float(orbit_area([2.0, -1.0j]) / np.pi)
+    2.0
+    """
+    x, y = np.moveaxis(np.asarray(orbit, dtype=complex), -1, 0)
+    return np.pi * np.imag(x * np.conj(y))
+
+
+def stiffness_work(K: ArrayLike, orbit: ArrayLike) -> Array:
+    """Return the work that a stiffness does on the journal in one orbit, −∮xᵀKᵀdx.
+
+    The symmetric part of K is that of a spring and gives back what it takes; the rest does the
+    work (K_XY − K_YX)·A, whatever the ellipse and however fast it is run through.
+
+    Parameters
+    ----------
+    K : array_like, (..., 2, 2)
+        Stiffness in X, Y [N/m].
+    orbit : array_like, (..., 2)
+        Phasors of X and Y [m].
+
+    Returns
+    -------
+    array, (...)
+        Work [J]; positive where it drives the orbit.
+    """
+    stiffness = np.asarray(K, dtype=float)
+    return (stiffness[..., 0, 1] - stiffness[..., 1, 0]) * orbit_area(orbit)
+
+
+def damping_work(C: ArrayLike, orbit: ArrayLike, frequency: ArrayLike) -> Array:
+    """Return the energy that a damping takes out in one orbit, ∮ẋᵀC dx = πω P*C P.
+
+    Parameters
+    ----------
+    C : array_like, (..., 2, 2)
+        Damping in X, Y [N·s/m]. Its skew part turns no energy into heat and does not count.
+    orbit : array_like, (..., 2)
+        Phasors of X and Y, P [m].
+    frequency : array_like, (...)
+        Frequency of the orbit, ω [rad/s].
+
+    Returns
+    -------
+    array, (...)
+        Energy [J]; positive where it brakes the orbit.
+    """
+    P = np.asarray(orbit, dtype=complex)
+    quadratic = np.einsum("...i,...ij,...j->...", np.conj(P), np.asarray(C, dtype=float), P)
+    return np.pi * np.asarray(frequency) * quadratic.real
+
+
+def whirl_orbit(machine: Machine, onset: Onset) -> WhirlOrbit:
+    """Return the orbit in which a machine whirls at its onset.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    onset : Onset
+        Its onset, as `onset_speed` finds it.
+
+    Returns
+    -------
+    WhirlOrbit
+        Of the mode whose eigenvalue lies on the imaginary axis there. Where the onset is at speed
+        0, a circle.
+
+    Raises
+    ------
+    ValueError
+        Where the machine has no onset.
+    """
+    if not math.isfinite(onset.speed):
+        raise ValueError(f"onset = {onset.speed} rad/s: without an onset there is no whirl orbit")
+    if onset.speed == 0.0:
+        circle = _CIRCLE / np.complex128(math.sqrt(np.pi))
+        return WhirlOrbit(speed=0.0, frequency=0.0, journal=circle, disk=circle)
+    state = equilibrium(machine, onset.speed)
+    lam = np.array(1j * onset.whirl_frequency)
+    disk, journal = _mode_shape(machine.rotor, state.stiffness, state.damping, lam)
+    size = math.sqrt(abs(float(orbit_area(journal))))
+    return WhirlOrbit(
+        speed=onset.speed,
+        frequency=onset.whirl_frequency,
+        journal=journal / size,
+        disk=disk / size,
+    )
+
+
+def whirl_energy(machine: Machine, speed: ArrayLike, orbit: WhirlOrbit) -> WhirlEnergy:
+    """Return what a whirl orbit would gain and lose in one turn at other speeds.
+
+    The orbit keeps its shape and frequency; the film is that of each speed's equilibrium. At the
+    orbit's own speed gain and loss are equal.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : array_like, (...)
+        Running speeds, Ω [rad/s].
+    orbit : WhirlOrbit
+        The orbit at the machine's onset.
+
+    Returns
+    -------
+    WhirlEnergy
+        Its fields have the shape (...).
+
+    Raises
+    ------
+    ValueError
+        Where a speed is not positive and finite.
+
+    Notes
+    -----
+    For any free motion e^{λt} of the machine, with P_j and P_d the phasors of journal and disk,
+    the balance of journal and disk multiplied by P_j* and P_d* leaves
+
+        gain − loss = 2π Im λ Re λ (M_j |P_j|² + m_d |P_d|²),
+
+    which vanishes with the growth Re λ.
+    """
+    state = equilibrium(machine, speed)
+    disk_damping = machine.rotor.disk_damping * _I
+    return WhirlEnergy(
+        speed=state.speed,
+        fed_in=stiffness_work(state.stiffness, orbit.journal),
+        film_loss=damping_work(state.damping, orbit.journal, orbit.frequency),
+        disk_loss=np.broadcast_to(
+            damping_work(disk_damping, orbit.disk, orbit.frequency), state.speed.shape
+        ),
+    )
+
+
+def _mode_shape(
+    rotor: Rotor, K: Array, C: Array, lam: ComplexArray
+) -> tuple[ComplexArray, ComplexArray]:
+    """Return the phasors of disk and journal in the mode λ, (..., 2), the journal's of length 1.
+
+    The impedance W of `modes.refined_eigenvalues` is singular at λ; of the two rows that the
+    journal's phasor is normal to, the longer gives it with the smaller error.
+    """
+    lam = lam[..., None, None]
+    Z = K + lam * C + lam**2 * rotor.journal_mass * _I
+    z = lam**2 * rotor.disk_mass + lam * rotor.disk_damping
+    compliance = _I + Z / rotor.shaft_stiffness
+    W = Z + z * compliance
+    longer = np.argmax(np.abs(W).sum(axis=-1), axis=-1)[..., None, None]
+    row = np.take_along_axis(W, longer, axis=-2)[..., 0, :]
+    journal = np.stack([-row[..., 1], row[..., 0]], axis=-1)
+    journal = journal / np.linalg.norm(journal, axis=-1, keepdims=True)
+    return np.einsum("...ij,...j->...i", compliance, journal), journal

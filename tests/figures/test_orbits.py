@@ -1,0 +1,144 @@
+"""Charts of nonlinear orbits: Plotly takes them, and they show the records' numbers."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rotorcalc import bifurcation, onsets, simulate
+from rotorcalc.figures import SI, US, figure, orbits, with_baseline
+from rotorcalc.figures.orbits import GrowthCurve, RunUp
+from rotorcalc.figures.style import HERE
+from rotorcalc.nonlinear.limit_cycles import sweep
+from rotorcalc.nonlinear.release import release
+from rotorcalc.nonlinear.signals import waterfall
+from tests.machines import ROTORS, RPM, SHEET, C, balanced, near_hopf, with_rotor
+
+OF_A_RELEASE = [
+    orbits.orbit, orbits.over_time, orbits.film, orbits.growth, orbits.spectrum,
+    orbits.once_a_revolution,
+]  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def releases():
+    big, speed, _ = near_hopf(0.06, 0.99)
+    return {
+        "follows": release(SHEET, 6000 * RPM, kick=0.3 * C, revolutions=20),
+        "grows": release(balanced(SHEET.rotor), 9365 * RPM, kick=0.05 * C, revolutions=60),
+        "at rest": release(balanced(SHEET.rotor), 6000 * RPM, kick=0.0, revolutions=16),
+        "jumps": release(big, speed, kick=0.4 * C, revolutions=200, samples_per_revolution=32),
+        "unloaded": release(replace(SHEET, load=0.0), 6000 * RPM, kick=0.2 * C, revolutions=16),
+    }
+
+
+@pytest.mark.parametrize("units", [SI, US], ids=lambda units: units.name)
+@pytest.mark.parametrize("name", ["follows", "grows", "at rest", "jumps", "unloaded"])
+@pytest.mark.parametrize("draw", OF_A_RELEASE, ids=lambda draw: draw.__name__)
+def test_every_chart_of_a_release_is_a_plotly_figure(releases, draw, name, units):
+    chart = draw(releases[name], units)
+    assert figure(chart).data
+    assert figure(with_baseline(chart, draw(releases["follows"], units))).data
+    assert any(trace.get("marker", {}).get("color") == HERE for trace in chart["data"])
+
+
+def test_the_animation_ends_on_the_still_and_moves_its_last_traces(releases):
+    chart = orbits.orbit(releases["grows"], SI)
+    frames = chart["frames"]
+    assert 100 < len(frames) <= 150
+    places = frames[-1]["traces"]
+    assert places == list(range(len(chart["data"]) - 4, len(chart["data"])))
+    for change, place in zip(frames[-1]["data"], places, strict=True):
+        assert change["x"] == pytest.approx(chart["data"][place]["x"], rel=1e-6, nan_ok=True)
+    labels = [step["label"] for step in chart["layout"]["sliders"][0]["steps"]]
+    assert labels[0] == "0.0"
+    assert labels[-1] == "60.0"
+    play, stop = chart["layout"]["updatemenus"][0]["buttons"]
+    assert play["args"][0] is None
+    assert stop["args"][0] == [None]
+
+
+def test_the_charts_show_the_records_numbers(releases):
+    found = releases["jumps"]
+    (least,) = (trace for trace in orbits.film(found, SI)["data"] if "least" in trace["name"])
+    assert least["y"][0] == pytest.approx(found.film.min() * 1e6)
+    names = [trace["name"] for trace in orbits.spectrum(found, SI)["data"]]
+    assert f"whirl, {found.spectrum.whirl_ratio:.4f}×" in names
+    x = orbits.over_time(found, SI)["data"][0]["y"]
+    assert np.nanmax(np.abs(x)) == pytest.approx(np.abs(found.motion.journal[:, 0]).max() * 1e6)
+
+
+def test_a_run_up_and_its_marks():
+    motion = simulate(
+        with_rotor(imbalance=2e-6), 8000 * RPM, revolutions=60, samples_per_revolution=16,
+        final_speed=10000 * RPM, tolerance=1e-7,
+    )  # fmt: skip
+    seen = waterfall(motion, spectra=20, width=16)
+    run = RunUp(seen, np.full(20, 0.5), onset=8919 * RPM, running_speed=6000 * RPM)
+    chart = orbits.waterfall(run, US)
+    assert figure(chart).data
+    assert [trace["name"] for trace in chart["data"][2:]] == [
+        "onset, 8919 rpm", "running speed: outside",
+    ]  # fmt: skip
+    assert chart["data"][0]["z"].shape == (20, len(seen.order))
+
+
+@pytest.mark.parametrize("eps", [0.06, 0.30])
+def test_limit_cycles_show_both_branches_and_both_sweeps(eps):
+    machine, speed, _ = near_hopf(eps, 1.01)
+    branch = bifurcation(machine)
+    speeds = np.linspace(branch.speed.min(), branch.speed.max(), 50)
+    swept = (speeds, sweep(branch, speeds), sweep(branch, speeds, down=True))
+    for running in (speed, 1.0):
+        chart = orbits.cycles(branch, swept, running, SI)
+        assert figure(chart).data
+        names = [trace["name"] for trace in chart["data"]]
+        assert {"limit cycle, stable", "limit cycle, unstable", "creeping up ▸"} <= set(names)
+        assert any(name.startswith("fold") for name in names)
+    stable = next(t for t in chart["data"] if t["name"] == "limit cycle, stable")
+    assert np.isfinite(stable["y"]).sum() == branch.stable.sum() + branch.stable[0]
+
+
+@pytest.mark.parametrize("running", [0.9, 3.0])
+def test_the_three_onsets_on_the_growth_over_speed(running):
+    machine = balanced(ROTORS["rigid"])
+    found = onsets(machine)
+    speeds = np.linspace(0.8, 1.2, 9) * found.eigenvalues
+    curve = GrowthCurve(
+        speeds, speeds - found.eigenvalues, speeds, speeds - found.eigenvalues,
+        running * found.eigenvalues, 0.1,
+    )  # fmt: skip
+    chart = orbits.onset_growth(found, curve, SI)
+    assert figure(chart).data
+    assert (chart["data"][-1]["name"] == "running speed: outside") == (running > 1.2)
+
+
+@pytest.mark.parametrize("kind", ROTORS)
+def test_a_small_release_is_the_linear_theorys(kind):
+    """Kick and imbalance both: every mode has its share, and the ellipse its phase."""
+    machine = balanced(ROTORS[kind], 1e-4 * C)
+    found = release(machine, 5000 * RPM, kick=1e-4 * C, revolutions=16)
+    assert np.abs(found.linear - found.motion.journal).max() < 1e-6 * C
+    last = found.linear[-65:]
+    assert np.ptp(last, axis=0) == pytest.approx(np.ptp(found.ellipse, axis=0), rel=0.01)
+
+
+def test_the_linear_motion_ends_where_it_leaves_the_bearing(releases):
+    found = releases["grows"]
+    far = release(balanced(SHEET.rotor), 11500 * RPM, kick=0.3 * C, revolutions=60)
+    assert np.isnan(far.linear[-1]).all()
+    assert np.nanmax(np.hypot(*far.linear.T)) < 1.5 * C
+    start = found.motion.journal[0]
+    assert found.linear[0] == pytest.approx(start)
+    assert found.last_size > 5.0 * found.first_size
+    at, size = found.peaks
+    growth = np.polyfit(2 * math.pi * at[3:9] / (9365 * RPM), np.log(size[3:9]), 1)[0]
+    assert growth == pytest.approx(found.whirl.real, rel=0.05)
+
+
+def test_a_bad_release_is_refused_in_words():
+    with pytest.raises(ValueError, match="less than the radial clearance"):
+        release(SHEET, 6000 * RPM, kick=1.2 * C, revolutions=20)
+    with pytest.raises(ValueError, match="16 or more"):
+        release(SHEET, 6000 * RPM, kick=0.1 * C, revolutions=2)

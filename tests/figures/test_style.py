@@ -1,0 +1,94 @@
+"""What all charts share: round axes, the mark of the running speed, a baseline behind."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rotorcalc.figures import SI, US, figure, style, themed, with_baseline
+from rotorcalc.units import SYSTEMS
+
+
+def drawn(top):
+    x, y = style.axis("x [-]", 0.0, 10.0), style.axis("y [-]", 0.0, style.ceiling(top))
+    return style.chart(
+        [style.line([0.0, 10.0], [0.0, top], "line", style.BLUE), *style.here(5.0, top / 2, x, y)],
+        x, y,
+    )  # fmt: skip
+
+
+@given(st.floats(1e-9, 1e12))
+def test_an_axis_holds_its_values_and_wastes_little(top):
+    assert top <= style.ceiling(top) * (1 + 1e-12)
+    assert style.ceiling(top) <= 1.3334 * top * (1 + 1e-9)
+
+
+def test_an_axis_does_not_move_while_its_values_move_a_little():
+    assert style.ceiling(44.0) == style.ceiling(48.0) == 50.0
+
+
+def test_infinite_and_missing_values_set_no_axis():
+    assert style.ceiling([np.inf, np.nan, 3.7]) == 4.0
+    assert style.ceiling([np.nan]) == 1.0
+
+
+def test_the_running_speed_has_guides_to_both_axes():
+    chart = drawn(4.0)
+    guide = chart["data"][1]
+    assert guide["x"].tolist() == [0.0, 5.0, 5.0]
+    assert guide["y"].tolist() == [2.0, 2.0, 0.0]
+
+
+def test_a_baseline_stands_behind_and_stays_in_the_picture():
+    chart = with_baseline(drawn(1.0), drawn(7.5))
+    names = [trace["name"] for trace in chart["data"]]
+    assert names[: len(names) // 2] == [f"A: {name}" for name in names[len(names) // 2 :]]
+    assert chart["layout"]["yaxis"]["range"] == [0.0, 8.0]
+    assert figure(chart).data
+
+
+def test_a_baseline_that_draws_the_same_is_not_drawn_twice():
+    assert len(with_baseline(drawn(1.0), drawn(1.0))["data"]) == len(drawn(1.0)["data"])
+
+
+def test_an_axis_that_runs_down_still_runs_down_over_a_baseline():
+    def down(low):
+        chart = drawn(1.0)
+        chart["layout"]["yaxis"] = style.axis("y", 1.0, low)
+        chart["data"][0]["y"] = np.array([0.0, low])
+        return chart
+
+    assert with_baseline(down(-1.0), down(-3.0))["layout"]["yaxis"]["range"] == [1.0, -3.0]
+
+
+def test_text_is_light_on_dark_and_dark_on_light():
+    light, dark = (themed(drawn(1.0), dark=dark) for dark in (False, True))
+    assert light["layout"]["font"]["color"] < dark["layout"]["font"]["color"]
+
+
+@pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
+@given(value=st.floats(-1e6, 1e6))
+def test_every_unit_leads_to_si_and_back(system, value):
+    for kind in ("mass", "force", "film", "viscosity", "temperature", "power", "flow", "speed"):
+        unit = getattr(system, kind)
+        assert unit.to_si(float(unit.of(value))) == pytest.approx(value, rel=1e-12, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("kind", "si", "us"),
+    [
+        ("mass", 0.45359237, 1.0),
+        ("force", 4.4482216152605, 1.0),
+        ("length", 0.0254, 1.0),
+        ("film", 25.4e-6, 1.0),
+        ("viscosity", 6894.757293168361e-6, 1.0),
+        ("temperature", 100.0, 212.0),
+        ("shaft_stiffness", 175.12683524647645, 1.0),
+        ("power", 745.6998715822702, 1.0),
+        ("flow", 3.785411784e-3 / 60.0, 1.0),
+        ("pressure", 6894.757293168361, 1.0),
+    ],
+)
+def test_us_units_are_the_defined_ones(kind, si, us):
+    assert float(getattr(US, kind).of(si)) == pytest.approx(us, rel=1e-12)
+    assert getattr(SI, kind).name != getattr(US, kind).name

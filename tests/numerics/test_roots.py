@@ -1,0 +1,47 @@
+"""Roots between near places."""
+
+import math
+
+import numpy as np
+import pytest
+
+from rotorcalc.numerics.roots import narrow_root
+
+
+@pytest.mark.parametrize(
+    ("function", "low", "high", "root"),
+    [
+        (np.cos, 1.5, 1.65, math.pi / 2),
+        (lambda x: x**3 - 2.0, 1.2, 1.3, 2.0 ** (1 / 3)),
+        (lambda x: np.exp(x) - 1e6, 13.5, 14.0, math.log(1e6)),
+        (lambda x: 1e-200 * (x - 3.0), 2.9, 3.3, 3.0),
+    ],
+)
+def test_a_smooth_functions_root_is_found_to_rounding_in_one_look(
+    function, low, high, root
+) -> None:
+    looks: list[int] = []
+
+    def values(x):
+        looks.append(len(x))
+        return function(x)
+
+    assert narrow_root(values, low, high) == pytest.approx(root, rel=3e-15)
+    assert len(looks) == 1
+
+
+@pytest.mark.parametrize(
+    ("function", "root"),
+    [
+        (lambda x: np.where(x < 1.0, x - 1.0, 50.0 * (x - 1.0)), 1.0),  # a kink at the root
+        (lambda x: np.abs(x - 0.98) - 0.01 + 0.0 * x, 0.99),  # and beside it
+        (lambda x: np.where(x < 1.013, -1.0, 1.0), 1.013),  # a jump
+        (lambda x: np.tanh(1e3 * (x - 1.001)), 1.001),  # too steep for the series
+    ],
+)
+def test_where_it_is_not_smooth_its_root_is_found_as_well(function, root) -> None:
+    assert narrow_root(function, 0.985, 1.05) == pytest.approx(root, rel=2e-14)
+
+
+def test_a_root_at_an_end_is_found() -> None:
+    assert narrow_root(lambda x: x - 1.0, 1.0, 1.1) == pytest.approx(1.0, rel=1e-14)

@@ -1,0 +1,81 @@
+"""Onsets of many machines at once, against `onset_speed` machine by machine."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from rotorcalc import PRESETS, onset_speed
+from rotorcalc.numerics import routh
+from rotorcalc.onset.many import _has_hump, onset_speeds, sure_onsets
+from tests.machines import ROTORS, SHEET, balanced, log_uniform, machines, with_rotor
+from tests.onset.test_search import rounding
+
+few = settings(max_examples=10, suppress_health_check=[HealthCheck.too_slow])
+QUIET = with_rotor(shaft_stiffness=1e6, disk_damping=1e5)
+
+
+@few
+@given(
+    st.lists(
+        machines(damped=True, journals=True, load=st.none() | log_uniform(1e-4, 1e6))
+        | machines(damped=True)
+        | machines(journals=True),
+        min_size=1,
+        max_size=6,
+    )
+)
+def test_what_is_sure_is_the_onset(many):
+    for machine, speed in zip(many, sure_onsets(many), strict=True):
+        if not math.isnan(speed):
+            expected = onset_speed(machine).speed
+            error = rounding(machine, expected) if math.isfinite(expected) else 0.0
+            assert speed == pytest.approx(expected, rel=error)
+
+
+def test_machines_of_all_kinds_are_sure():
+    """And told apart: one with no onset, and one at any speed, which is not."""
+    many = [QUIET, *map(balanced, ROTORS.values()), *(p.machine for p in PRESETS.values()), QUIET]
+    expected = [onset_speed(machine).speed for machine in many]
+    assert sure_onsets(many) == pytest.approx(expected, rel=1e-12)
+    assert np.isnan(sure_onsets([replace(SHEET, load=0.0)])).all()
+
+
+@pytest.mark.parametrize("many", [[], [QUIET], [QUIET, QUIET]])
+def test_machines_without_an_onset(many):
+    assert list(sure_onsets(many)) == [math.inf] * len(many)
+
+
+def test_what_rounding_leaves_in_doubt_is_left(monkeypatch):
+    """Near the onset first, and with all that is in doubt each onset is found one by one."""
+    many = [balanced(rotor) for rotor in ROTORS.values()]
+    expected = [onset_speed(machine).speed for machine in many]
+    for share in (1e-6, 1.0):
+        monkeypatch.setattr(routh, "_ROUNDING", share)
+        assert np.isnan(sure_onsets(many)).all()
+        assert onset_speeds(many) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("doubt", "hump"),
+    [
+        ([-5, -4, -3, -2, 1], False),
+        ([-5, -3, -4, -2, 1], True),
+        ([-2, -3, -4, -2, 1], False),
+        ([-5, -4, -2, -3, 1], True),
+        ([-5, 1, -4, -3, -5], False),
+        ([-5, -4, -3, -2, -2], True),
+    ],
+)
+def test_a_hump_before_the_first_doubt_is_seen(doubt, hump):
+    assert list(_has_hump(np.array([doubt, [1, -3, -2, -3, 1]]))) == [hump, False]
+
+
+def test_a_machine_with_a_hump_is_left_to_be_asked():
+    """Midspan damping quenches its whirl, all but: the growth rises and falls below zero."""
+    humped = with_rotor(disk_damping=1e5)
+    assert np.isnan(sure_onsets([humped])).all()
+    assert np.all(np.isinf(onset_speeds([humped] * 5)))

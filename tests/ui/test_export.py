@@ -1,0 +1,346 @@
+"""The files that leave the program: each is read back and compared with what it was made from."""
+
+import csv
+import io
+import json
+import math
+import re
+import zipfile
+from functools import cache
+from html.parser import HTMLParser
+from xml.etree import ElementTree as ET
+
+import numpy as np
+import pytest
+
+from rotorcalc import Machine
+from rotorcalc.onset import whirl
+from rotorcalc.units import SI, US, Units
+from ui.computed import View, view_of
+from ui.inputs import INPUTS, PRESET_VALUES, Values, values_of
+from ui.results import RESULTS
+from ui.sharing import export, report
+from ui.sharing.report_charts import sections
+
+LINK = 'https://host.example/Stability?preset=sheet-1e7&C=80&u="><script>alert(1)</script>'
+DEFAULT = PRESET_VALUES["sheet-1e8"]
+CASES: dict[str, Values] = {
+    **PRESET_VALUES,
+    "no load": DEFAULT | {"load": 0.0},
+    "rigid": DEFAULT | {"k": math.inf},
+    "no onset": DEFAULT | {"cs": 1e5},
+    "no imbalance": DEFAULT | {"u": 0.0},
+    "journal mass and damping": DEFAULT | {"mj": 20.0, "cs": 2000.0},
+    "slow": DEFAULT | {"rpm": 100.0},
+}
+every_case = pytest.mark.parametrize("case", CASES)
+either_system = pytest.mark.parametrize("units", [SI, US], ids=lambda units: units.name)
+
+
+def view(case: str) -> View:
+    return view_of(CASES[case])
+
+
+def sheet(case: str, units: Units) -> tuple[list[str], np.ndarray]:
+    text = export.sweep_csv(view(case), units).decode("utf-8-sig")
+    header, *rows = csv.reader(io.StringIO(text, newline=""))
+    return header, np.array(rows, dtype=float)
+
+
+def test_cases_are_what_they_are_called() -> None:
+    assert view("no load").unloaded
+    assert view("rigid").machine.rotor.is_rigid
+    assert math.isinf(view("no onset").onset.speed)
+
+
+# CSV
+
+
+def test_csv_begins_with_the_mark_by_which_excel_knows_utf_8() -> None:
+    assert export.sweep_csv(view("rigid"), SI).startswith(b"\xef\xbb\xbf")
+
+
+@every_case
+@either_system
+def test_csv_agrees_with_the_sweep(case: str, units: Units) -> None:
+    header, numbers = sheet(case, units)
+    sweep = view(case).sweep
+    lag = {"Disk": sweep.disk_response, "Journal": sweep.journal_response}
+    expected = {
+        f"Running speed Ω [{units.speed.name}]": units.speed.of(sweep.speed),
+        "Modified Sommerfeld number σ [-]": sweep.sommerfeld,
+        "Attitude angle φ [°]": np.degrees(sweep.attitude_angle),
+        f"Smallest film h_min [{units.film.name}]": units.film.of(sweep.minimum_film_thickness),
+        f"Stiffness K_XY [{units.stiffness.name}]": units.stiffness.of(sweep.stiffness[:, 0, 1]),
+        f"Stiffness K_YX [{units.stiffness.name}]": units.stiffness.of(sweep.stiffness[:, 1, 0]),
+        f"Damping C_YY [{units.damping.name}]": units.damping.of(sweep.damping[:, 1, 1]),
+        f"Critical mass per bearing M_c [{units.mass.name}]": units.mass.of(sweep.critical_mass),
+        f"Threshold of the flexible rotor Ω_sf [{units.speed.name}]": units.speed.of(
+            sweep.flexible_threshold
+        ),
+    } | {
+        f"{part}: amplitude |Y| [{units.film.name}]": units.film.of(abs(response[:, 1]))
+        for part, response in lag.items()
+    }
+    for name, values in expected.items():
+        np.testing.assert_allclose(numbers[:, header.index(name)], values, rtol=1e-9)
+
+
+@every_case
+def test_csv_has_a_unit_in_every_header_and_names_no_column_twice(case: str) -> None:
+    header, numbers = sheet(case, SI)
+    assert all(re.fullmatch(r"[^\[\]]+ \[[^\[\]]+\]", name) for name in header)
+    assert len(set(header)) == len(header) == numbers.shape[1]
+
+
+def test_csv_follows_the_units_shown() -> None:
+    (si, in_si), (us, in_us) = sheet("sheet-1e8", SI), sheet("sheet-1e8", US)
+    column = si.index("Smallest film h_min [µm]")
+    assert us[column] == "Smallest film h_min [mil]"
+    np.testing.assert_allclose(in_us[:, column] * 25.4, in_si[:, column], rtol=1e-9)
+
+
+@pytest.mark.parametrize("case", ["sheet-1e8", "rigid", "journal mass and damping"])
+def test_csv_holds_every_eigenvalue_of_the_sweep(case: str) -> None:
+    header, numbers = sheet(case, SI)
+    for name, values in (
+        ("Rotor", view(case).sweep.flexible_eigenvalues),
+        ("Rigid rotor", view(case).sweep.rigid_eigenvalues),
+    ):
+        if name == "Rotor" and case == "rigid":
+            assert not any(title.startswith("Rotor:") for title in header)
+            continue
+        columns = [i for i, title in enumerate(header) if title.startswith(f"{name}:")]
+        real, imaginary = numbers[:, columns[::2]], numbers[:, columns[1::2]]
+        apart = abs((real + 1j * imaginary)[:, :, None] - values[:, None, :])
+        assert np.all(apart.min(axis=1) <= 1e-9 * abs(values))
+        assert np.all(apart.min(axis=2) <= 1e-9 * abs(values).max(axis=1, keepdims=True))
+
+
+def test_csv_writes_what_is_no_number_in_words_that_python_reads() -> None:
+    text = export.sweep_csv(view("no load"), SI).decode("utf-8-sig")
+    assert ",inf," in text
+    still = export.sweep_csv(view("no imbalance"), SI).decode("utf-8-sig")
+    assert ",0,nan," in still  # nothing moves, so nothing lags
+    assert "nan" not in export.sweep_csv(view("sheet-1e8"), SI).decode("utf-8-sig")
+
+
+# JSON
+
+
+@every_case
+def test_json_loads_back_equal(case: str) -> None:
+    text = export.machine_json(view(case)).decode()
+    assert Machine.from_json(text) == view(case).machine
+    assert json.loads(text)["version"] == 1
+
+
+# ROSS
+
+
+@cache
+def ross_rows(case: str) -> list[list[str | float]]:
+    """Read the workbook's sheet as any reader of Office Open XML would."""
+    with zipfile.ZipFile(io.BytesIO(export.ross_table(view(case)))) as package:
+        parts = {name: ET.fromstring(package.read(name)) for name in package.namelist()}  # noqa: S314
+    space = {"s": "http://schemas.openxmlformats.org/spreadsheetml/2006/main"}
+    cells = [
+        row.findall("s:c", space)
+        for row in parts["xl/worksheets/sheet1.xml"].iter(f"{{{space['s']}}}row")
+    ]
+    return [
+        [
+            "".join(cell.itertext())
+            if cell.get("t") == "inlineStr"
+            else float("".join(cell.itertext()))
+            for cell in row
+        ]
+        for row in cells
+    ]
+
+
+def ross_table(case: str) -> dict[str, np.ndarray]:
+    """Return the columns below the header, which is the row with the word kxx, as ROSS finds it."""
+    rows = ross_rows(case)
+    at = next(i for i, row in enumerate(rows) if "kxx" in row)
+    numbers = [row for row in rows[at + 1 :] if isinstance(row[1], float)]
+    return dict(zip(map(str, rows[at]), np.array(numbers).T, strict=True))
+
+
+def in_our_axes(table: dict[str, np.ndarray], letter: str) -> np.ndarray:
+    """Undo the change of axes: X = −y, Y = x."""
+    xx, xy, yx, yy = (table[letter + ij] for ij in ("xx", "xy", "yx", "yy"))
+    return np.stack([yy, -yx, -xy, xx], axis=-1).reshape(-1, 2, 2)
+
+
+@every_case
+def test_ross_table_turned_back_is_the_sweep(case: str) -> None:
+    table, sweep = ross_table(case), view(case).sweep
+    np.testing.assert_array_equal(table["speed"], sweep.speed)
+    np.testing.assert_array_equal(in_our_axes(table, "k"), sweep.stiffness)
+    np.testing.assert_array_equal(in_our_axes(table, "c"), sweep.damping)
+
+
+def test_ross_axes_are_a_rotation() -> None:
+    K = view("sheet-1e8").point.stiffness
+    turned = export.ross_axes(K)
+    # Whirl does not know how its axes lie, but knows in which sense the shaft turns: a mirrored
+    # matrix has the other sign of k_xy − k_yx.
+    assert turned[0, 1] - turned[1, 0] == pytest.approx(K[0, 1] - K[1, 0], rel=1e-15)
+    C = view("sheet-1e8").point.damping
+    ours = whirl.whirl_onset(K, C)
+    theirs = whirl.whirl_onset(turned, export.ross_axes(C))
+    assert theirs.whirl_ratio == pytest.approx(ours.whirl_ratio, rel=1e-12)
+    assert theirs.critical_mass == pytest.approx(ours.critical_mass, rel=1e-12)
+
+
+def test_ross_axes_agree_with_the_textbook_that_ross_follows() -> None:
+    """Friswell et al., example 5.5.1: x horizontal, y vertical; MN/m, printed to four digits."""
+    K = export.ross_axes(view("friswell-5-5-1").point.stiffness) / 1e6
+    np.testing.assert_allclose(K, [[12.81, 16.39], [-25.06, 8.815]], rtol=5e-4)
+
+
+def test_ross_sheet_says_nothing_that_ross_takes_for_another_unit() -> None:
+    words = " ".join(
+        cell for row in ross_rows("sheet-1e8") for cell in row if isinstance(cell, str)
+    )
+    for trigger in ("lb", "lbm", "inches", "rpm"):
+        assert trigger not in words.lower()
+    for stated in ("kxx = K_YY", "x = Y, y = -X", "rad/s", "N/m", "N*s/m"):
+        assert stated in words
+
+
+def test_ross_table_is_the_same_file_each_time() -> None:
+    assert export.ross_table(view("rigid")) == export.ross_table(view("rigid"))
+
+
+# Report
+
+
+class Reader(HTMLParser):
+    """A page's text outside scripts and styles, its scripts, its tags with their attributes."""
+
+    VOID = frozenset({"meta", "br", "hr", "img", "link", "input"})
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.tags: list[tuple[str, dict[str, str | None]]] = []
+        self.open: list[str] = []
+        self.text: list[str] = []
+        self.scripts: list[str] = []
+        self.feed(page)
+        self.close()
+        assert self.open == []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append((tag, dict(attrs)))
+        if tag not in self.VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        inside = self.open[-1] if self.open else ""
+        if inside == "script":
+            self.scripts.append(data)
+        elif inside != "style":
+            self.text.append(data)
+
+
+@cache
+def read(case: str, pinned: str | None, units_name: str = "SI") -> Reader:
+    baseline = None if pinned is None else view(pinned)
+    page = report.report(view(case), baseline, {"SI": SI, "US": US}[units_name], LINK, "9.8.7")
+    return Reader(page.decode())
+
+
+compared = pytest.mark.parametrize("pinned", [None, "sheet-1e7"])
+
+
+@every_case
+@compared
+def test_report_is_whole_and_says_no_nan(case: str, pinned: str | None) -> None:
+    page = read(case, pinned)
+    text = " ".join(page.text)
+    assert not re.search(r"\b(nan|None|Traceback)\b", text)
+    assert "9.8.7" in text
+    assert text.count("Eq. 5.") > 10
+    ids = [attributes["id"] for _, attributes in page.tags if "id" in attributes]
+    assert ids == [figure.key for figures in sections(view(case)).values() for figure in figures]
+
+
+@every_case
+@either_system
+def test_report_shows_every_input_and_result(case: str, units: Units) -> None:
+    text = read(case, None, units.name).text
+    for key, value in values_of(view(case).machine, view(case).speed, view(case).top_speed).items():
+        item = INPUTS[key]
+        assert item.label in text
+        if value is not None and math.isfinite(value):
+            assert f"{item.shown(value, units):.6g}".replace("-", "−") in text
+    for result in RESULTS.values():
+        assert result.label in text
+
+
+def test_report_names_what_is_no_number() -> None:
+    assert "rigid" in read("rigid", None).text
+    assert "half the weight" in read("sheet-1e8", None).text
+    assert "no limit" in read("no onset", None).text
+
+
+def test_report_shows_the_baseline_where_it_differs() -> None:
+    text = read("sheet-1e8", "sheet-1e7").text
+    assert text.count("1e+07") == 1
+    assert text.count("17.2369") == 1  # the same in both, so once
+    assert "1e+07" not in read("sheet-1e8", None).text
+    assert not any(
+        "differs" in str(attrs.get("class")) for _, attrs in read("sheet-1e8", "sheet-1e8").tags
+    )
+
+
+def test_report_fetches_nothing() -> None:
+    page = read("sheet-1e8", "sheet-1e7")
+    names = [tag for tag, _ in page.tags]
+    assert not {"link", "img", "iframe", "object", "embed", "base", "source"} & set(names)
+    assert not any("src" in attributes or "srcset" in attributes for _, attributes in page.tags)
+    policy = next(a["content"] for t, a in page.tags if t == "meta" and "http-equiv" in a)
+    assert policy is not None
+    assert policy.startswith("default-src 'none'")
+
+
+def test_report_escapes_the_link() -> None:
+    page = read("sheet-1e8", None)
+    anchors = [attributes for tag, attributes in page.tags if tag == "a"]
+    assert anchors == [{"href": LINK}]
+    assert LINK in page.text
+    assert len(page.scripts) == len([tag for tag, _ in page.tags if tag == "script"]) == 2
+
+
+def test_report_makes_no_anchor_of_what_is_no_web_address() -> None:
+    page = report.report(view("rigid"), None, SI, "javascript:alert(1)", "1").decode()
+    reader = Reader(page)
+    assert not any(tag == "a" for tag, _ in reader.tags)
+    assert "javascript:alert(1)" in reader.text
+
+
+def test_tables_escape_what_they_show() -> None:
+    assert report._row([("<b>&", "")]) == "<tr><td>&lt;b&gt;&amp;</td></tr>"
+
+
+def test_charts_cannot_end_the_script_that_holds_them() -> None:
+    script = report._script({"x": {"data": [], "layout": {"title": {"text": "</script><b>"}}}})
+    assert "<" not in script
+    assert json.loads(script)["x"]["layout"]["title"]["text"] == "</script><b>"
+
+
+@every_case
+@compared
+def test_charts_are_still_and_fit_the_page(case: str, pinned: str | None) -> None:
+    script = read(case, pinned).scripts[-1]
+    start = script.index("{", script.index("Object.entries"))
+    charts, _ = json.JSONDecoder().raw_decode(script[start:])
+    for chart in charts.values():
+        assert chart["layout"]["width"] <= 680
+        assert not {"sliders", "updatemenus"} & chart["layout"].keys()
+        assert chart["data"]

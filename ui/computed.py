@@ -1,0 +1,309 @@
+"""A machine at its running speed, and its results, each computed when a page first asks for it."""
+
+import math
+from collections.abc import Callable
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from rotorcalc import (
+    JournalBearing,
+    Machine,
+    Onset,
+    Rotor,
+    Sweep,
+    analyse,
+    film_curves,
+    modes,
+    onset_speed,
+)
+from rotorcalc.analysis import Axes, FilmCurves, ForceCoefficients, force_coefficients
+from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.coefficients import (
+    AddedMass,
+    Equilibrium,
+    FilmForces,
+    PressureField,
+    Unloading,
+    added_mass,
+    equilibrium,
+    film_field,
+    film_forces,
+    unloading,
+)
+from rotorcalc.onset import closed_form
+from rotorcalc.root_locus import Locus, root_locus
+from rotorcalc.unbalance_curves import (
+    ClearanceOrbit,
+    Orbits,
+    ResponseCurves,
+    ResponseFamily,
+    clearance_orbit,
+    orbits,
+    response_curves,
+    response_family,
+)
+from rotorcalc.unbalance_response import ResponsePeaks, both_peaks
+from ui.inputs import Values, machine_of, speeds_of
+
+# Points of a sweep: enough for a smooth line across a projector.
+POINTS = 240
+# The notes' figures run over these modified Sommerfeld numbers.
+_SOMMERFELD = np.geomspace(1e-2, 1e2, POINTS)
+# 100, 200, 500 … 50000 rpm, to mark on the journal's locus.
+_ROUND_SPEEDS = np.array([a * 10.0**b for b in (2, 3, 4) for a in (1, 2, 5)]) * math.pi / 30
+# From next to the wall, ε = 0.997, to near the centre.
+_TO_THE_WALL = np.geomspace(1e-5, 1e2, POINTS)
+# Around and along the film: every two degrees, every twentieth of the length.
+_THETA = np.linspace(0.0, 2.0 * np.pi, 181)
+_ZETA = np.linspace(-0.5, 0.5, 21)
+
+
+class View:
+    """A machine at its running speed, with all that the pages show of it."""
+
+    def __init__(self, machine: Machine, speed: float, top_speed: float) -> None:
+        self.machine = machine
+        self.speed = speed
+        self.top_speed = top_speed
+
+    @cached_property
+    def point(self) -> Sweep:
+        """The machine at its running speed; fields without a leading axis."""
+        return analyse(self.machine, self.speed)
+
+    @property
+    def sweep(self) -> Sweep:
+        """The machine over speed, up to the top speed."""
+        return _sweep(self.machine, self.top_speed)
+
+    @property
+    def curves(self) -> FilmCurves:
+        """The bearing's dimensionless film over the modified Sommerfeld number."""
+        return _curves(self.machine.bearing, *_decades(float(self.point.sommerfeld)))
+
+    @cached_property
+    def at_round_speeds(self) -> Equilibrium:
+        """Where the journal sits at round speeds, up to the top speed."""
+        number = np.searchsorted(_ROUND_SPEEDS, self.top_speed * (1 + 1e-9), side="right")
+        return equilibrium(self.machine, _ROUND_SPEEDS[:number])
+
+    @cached_property
+    def film(self) -> PressureField:
+        """The film over the unwrapped bearing at the running speed."""
+        return film_field(self.machine, self.speed, theta=_THETA, zeta=_ZETA)
+
+    @cached_property
+    def middle_film(self) -> PressureField:
+        """The film around the bearing's middle at the running speed."""
+        return film_field(self.machine, self.speed, theta=_THETA)
+
+    @cached_property
+    def forces(self) -> FilmForces:
+        """The film's forces at the running speed, at this machine's own equilibrium."""
+        return film_forces(self.machine, self.speed, sommerfeld=self.point.sommerfeld)
+
+    @cached_property
+    def force_curves(self) -> FilmForces:
+        """The film's forces at the running speed, wherever its journal may sit."""
+        return film_forces(self.machine, self.speed, sommerfeld=_TO_THE_WALL)
+
+    @property
+    def onset(self) -> Onset:
+        """Where the machine becomes unstable, its shaft as it is."""
+        return _onset(self.machine, True)
+
+    @property
+    def rigid_onset(self) -> Onset:
+        """Where the machine would become unstable if its shaft were rigid."""
+        return _onset(self.machine, False)
+
+    @property
+    def rigid_branches(self) -> ComplexArray:
+        """Eigenvalues of the rigid rotor over the sweep, a column a mode."""
+        return _branches(self.machine, self.top_speed, False)
+
+    @property
+    def branches(self) -> ComplexArray:
+        """Eigenvalues of the rotor over the sweep, a column a mode."""
+        return _branches(self.machine, self.top_speed, True)
+
+    def locus(self, flexible: bool) -> Locus:
+        """Return the root locus over the sweep, and the modes at the running speed."""
+        return _locus(self.machine, self.speed, self.top_speed, flexible)
+
+    @property
+    def rigid_frequency(self) -> Array:
+        """Natural frequency of a rigid rotor on the film over the sweep, √(K_eq/M) [rad/s]."""
+        rotor = self.machine.rotor
+        return modes.undamped_frequency(self.sweep.equivalent_stiffness, rotor.half_mass)
+
+    @property
+    def shaft_frequency(self) -> float:
+        """Natural frequency of the shaft in rigid bearings, √(K_rot/M) [rad/s]."""
+        rotor = self.machine.rotor
+        return float(modes.undamped_frequency(rotor.shaft_stiffness, rotor.half_mass))
+
+    @property
+    def disk_peaks(self) -> ResponsePeaks:
+        """Peaks of the disk's response up to the top speed."""
+        return _peaks(self.machine, self.top_speed)[0]
+
+    @property
+    def journal_peaks(self) -> ResponsePeaks:
+        """Peaks of the journals' response up to the top speed."""
+        return _peaks(self.machine, self.top_speed)[1]
+
+    def coefficients(self, axes: Axes) -> ForceCoefficients:
+        """Return K and C over the sweep, with dimensions, in one frame."""
+        return force_coefficients(self.sweep, axes=axes)
+
+    def coefficients_here(self, axes: Axes) -> ForceCoefficients:
+        """Return K and C at the running speed, with dimensions, in one frame."""
+        return force_coefficients(self.point, axes=axes)
+
+    def film_coefficients(self, axes: Axes) -> ForceCoefficients:
+        """Return k and c over the modified Sommerfeld number, in one frame."""
+        return force_coefficients(self.curves, axes=axes)
+
+    def film_coefficients_here(self, axes: Axes) -> ForceCoefficients:
+        """Return k and c at the running speed, in one frame."""
+        here = film_curves(self.machine.bearing, self.point.sommerfeld)
+        return force_coefficients(here, axes=axes)
+
+    @property
+    def unloading(self) -> Unloading:
+        """K and (Ω/2)·C at the running speed as the load is taken off."""
+        return unloading(self.machine, self.speed, sommerfeld=_SOMMERFELD)
+
+    @property
+    def centred(self) -> Unloading:
+        """K and (Ω/2)·C at the running speed without load."""
+        return unloading(self.machine, self.speed, sommerfeld=np.inf)
+
+    @property
+    def unloading_here(self) -> Unloading:
+        """K and (Ω/2)·C at the running speed under the machine's load."""
+        return unloading(self.machine, self.speed, sommerfeld=self.point.sommerfeld)
+
+    def added_mass(self, factor: float) -> AddedMass:
+        """Return the film's added mass over the sweep, for a profile of velocity."""
+        return added_mass(self.machine, self.sweep.speed, factor=factor)
+
+    def added_mass_here(self, factor: float) -> AddedMass:
+        """Return the film's added mass at the running speed, for a profile of velocity."""
+        return added_mass(self.machine, self.speed, factor=factor)
+
+    @cached_property
+    def response(self) -> ResponseCurves:
+        """The steady response to imbalance over the sweep and at the running speed."""
+        return response_curves(
+            self.sweep,
+            self.point,
+            disk_peaks=self.disk_peaks,
+            journal_peaks=self.journal_peaks,
+        )
+
+    @property
+    def orbits(self) -> Orbits:
+        """Orbits at the running speed."""
+        return orbits(self.point, points=145)
+
+    @property
+    def orbit_steps(self) -> Orbits:
+        """Orbits at some speeds of the sweep, coarser than at the running speed."""
+        return orbits(self.sweep, points=49, every=POINTS // 40)
+
+    @property
+    def clearance_orbit(self) -> ClearanceOrbit:
+        """The journal's orbit at the running speed in its clearance circle."""
+        return clearance_orbit(self.point)
+
+    def response_family(self, variants: Callable[[Machine], tuple[Rotor, ...]]) -> ResponseFamily:
+        """Return the responses of this machine's rotor and of others made of it."""
+        return _family(self.machine, self.top_speed, variants(self.machine))
+
+    @property
+    def is_stable(self) -> bool:
+        """Whether every mode decays at the running speed."""
+        return bool(np.all(self.point.flexible_eigenvalues.real < 0.0))
+
+    @property
+    def unloaded(self) -> bool:
+        """Whether the bearings carry no load."""
+        return self.machine.static_load == 0.0
+
+
+def view_of(values: Values) -> View:
+    """Return the view of kept values, or raise the core's ValueError."""
+    return _view(machine_of(values), *speeds_of(values))
+
+
+def speeds(top_speed: float) -> Array:
+    """Return the speeds of a sweep [rad/s]."""
+    return np.linspace(top_speed / POINTS, top_speed, POINTS)
+
+
+@lru_cache(maxsize=64)
+def _view(machine: Machine, speed: float, top_speed: float) -> View:
+    return View(machine, speed, top_speed)
+
+
+@lru_cache(maxsize=64)
+def _sweep(machine: Machine, top_speed: float) -> Sweep:
+    return analyse(machine, speeds(top_speed))
+
+
+@lru_cache(maxsize=64)
+def _branches(machine: Machine, top_speed: float, flexible: bool) -> ComplexArray:
+    sweep = _sweep(machine, top_speed)
+    values = sweep.flexible_eigenvalues if flexible else sweep.rigid_eigenvalues
+    return modes.follow_branches(values)
+
+
+@lru_cache(maxsize=64)
+def _locus(machine: Machine, speed: float, top_speed: float, flexible: bool) -> Locus:
+    point = _view(machine, speed, top_speed).point
+    return root_locus(
+        speeds(top_speed),
+        _branches(machine, top_speed, flexible),
+        running_speed=speed,
+        shapes=modes.mode_shapes(machine.rotor, point.stiffness, point.damping, flexible=flexible),
+    )
+
+
+@lru_cache(maxsize=256)
+def _onset(machine: Machine, flexible: bool) -> Onset:
+    if closed_form.has_closed_form(machine):
+        return closed_form.closed_form_onset(machine, flexible=flexible)
+    return onset_speed(machine, flexible=flexible)
+
+
+@lru_cache(maxsize=64)
+def _peaks(machine: Machine, top_speed: float) -> tuple[ResponsePeaks, ResponsePeaks]:
+    sweep = _sweep(machine, top_speed)
+    known = sweep.disk_response, sweep.journal_response
+    return both_peaks(machine, sweep.speed, responses=known)
+
+
+@lru_cache(maxsize=32)
+def _family(machine: Machine, top_speed: float, rotors: tuple[Rotor, ...]) -> ResponseFamily:
+    return response_family(machine, speeds(top_speed), rotors=rotors)
+
+
+@lru_cache(maxsize=16)
+def _curves(bearing: JournalBearing, lowest: int, highest: int) -> FilmCurves:
+    return film_curves(bearing, np.geomspace(10.0**lowest, 10.0**highest, POINTS))
+
+
+def _decades(sommerfeld: float) -> tuple[int, int]:
+    """Return the decades of the notes' figures, and as many more as a machine needs."""
+    if not math.isfinite(sommerfeld):
+        return -2, 2
+    exponent = math.log10(sommerfeld)
+    return min(-2, math.floor(exponent)), max(2, math.ceil(exponent))
+
+
+def hertz(frequency: float) -> float:
+    """Return a frequency [rad/s] in Hz."""
+    return frequency / (2.0 * math.pi)

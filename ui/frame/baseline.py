@@ -1,0 +1,51 @@
+"""Pin and compare: a baseline machine A beside the live one."""
+
+import math
+
+import streamlit as st
+
+from rotorcalc.units import Units
+from ui.inputs import INPUTS, Values
+from ui.session import state
+
+
+def draw_buttons() -> None:
+    """Draw the buttons that pin, swap and unpin."""
+    kept = state()
+    if kept.baseline is None:
+        st.button(
+            "Pin this machine", key="pin", width="stretch", on_click=kept.pin,
+            help="Keeps it as A: charts draw it thin and grey, results show their change from it.",
+        )  # fmt: skip
+        return
+    swap, unpin = st.columns(2)
+    swap.button("Swap with A", key="swap", width="stretch", on_click=kept.swap)
+    unpin.button("Unpin A", key="unpin", width="stretch", on_click=kept.unpin)
+
+
+def draw_differences(units: Units) -> None:
+    """Show the inputs that differ between the pinned machine and the live one."""
+    kept = state()
+    if kept.baseline is None:
+        return
+    rows = [
+        {
+            "Input": item.name(units),
+            "A": _shown(key, kept.baseline, units),
+            "Now": _shown(key, kept.values, units),
+        }
+        for key, item in INPUTS.items()
+        if kept.baseline[key] != kept.values[key]
+    ]
+    if rows:
+        st.table(rows, border="horizontal", width="content", hide_index=True,
+                 alt="Inputs that differ between machine A and the live one")  # fmt: skip
+    else:
+        st.caption("A is pinned and equals the live machine: move a slider to compare.")
+
+
+def _shown(key: str, values: Values, units: Units) -> str:
+    value = values[key]
+    if value is None:
+        return "half the weight"
+    return INPUTS[key].infinite if math.isinf(value) else f"{INPUTS[key].shown(value, units):.5g}"

@@ -1,0 +1,187 @@
+"""The frame of every page: title, navigation, sidebar, and means to show a machine's results."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import streamlit as st
+from streamlit.delta_generator import DeltaGenerator
+
+from rotorcalc.units import Units
+from ui.computed import View, view_of
+from ui.frame import baseline, sidebar
+from ui.preview import Draw, Drawn, drawn
+from ui.results import show_results
+from ui.serving import one_at_a_time, version
+from ui.session import state, write_address_bar
+from ui.sharing import popover
+from ui.widgets import chart_key, is_dark, show_chart, show_feed
+from ui.words import validity
+
+_ICON = str(Path(__file__).with_name("icon.svg"))
+
+_ABOUT = f"{version.label()}: rotors on fluid-film bearings, after San Andrés, Notes 5."
+# The answer first: Streamlit leaves six rem free above a page.
+# Results and what stands below each, a caption or a popover, come in pairs, a column each. On a
+# narrow screen results stand two in a row, equations break between their terms, tables are
+# tight and a wide one's rows run over several lines: nothing there scrolls sideways, which a
+# keyboard could not do. KaTeX's own boxes stick out of an equation by two pixels.
+_STYLE = """<style>
+.stMainBlockContainer {padding-top: 4.2rem; padding-bottom: 3rem;}
+.katex-display {padding-right: 2px;}
+.stVerticalBlock[class*="st-key-results_"] {
+  display: grid; grid-auto-flow: dense; grid-auto-columns: minmax(0, 1fr); gap: 0 1rem;
+}
+[class*="st-key-results_"] > :nth-child(n) {grid-column: 1;}
+[class*="st-key-results_"] > :nth-child(n + 3) {grid-column: 2;}
+[class*="st-key-results_"] > :nth-child(n + 5) {grid-column: 3;}
+[class*="st-key-results_"] > :nth-child(n + 7) {grid-column: 4;}
+[class*="st-key-results_"] > :nth-child(n + 9) {grid-column: 5;}
+@media (max-width: 640px) {
+  .katex-display {font-size: 0.85em;}
+  .katex-display > .katex {white-space: normal;}
+  .katex-display .base {margin: 0.15em 0;}
+  .stMarkdown td, .stMarkdown th {padding: 0.25rem 0.35rem; font-size: 0.85rem;}
+  .stMarkdown table:has(th:nth-child(7)) {display: block;}
+  .stMarkdown tr:has(> :nth-child(7)) {display: flex; flex-wrap: wrap;}
+  .stMarkdown tr > :nth-last-child(n + 7):first-child {flex: 1 0 100%; font-weight: 600;}
+  [class*="st-key-results_"] > :is(:nth-child(4n + 1), :nth-child(4n + 2)) {grid-column: 1;}
+  [class*="st-key-results_"] > :is(:nth-child(4n + 3), :nth-child(4n + 4)) {grid-column: 2;}
+}
+</style>"""
+
+NO_MACHINE = "These inputs make no machine"
+PAGES = {
+    "app.py": "Machine",
+    "pages/1_Equilibrium.py": "Equilibrium",
+    "pages/2_Coefficients.py": "Coefficients",
+    "pages/3_Stability.py": "Stability",
+    "pages/4_Root_locus.py": "Root locus",
+    "pages/5_Response.py": "Response",
+    "pages/6_Orbits.py": "Orbits",
+    "pages/7_Notes.py": "Notes",
+}
+
+
+@dataclass(frozen=True)
+class Page:
+    """A page's machine, the pinned one beside it, and the units shown."""
+
+    view: View
+    baseline: View | None
+    units: Units
+    follows: Drawn
+    # Whether the content runs with the frame as one.
+    whole: bool = False
+
+    def chart(self, draw: Draw, key: str, *, alt: str, caption: str) -> None:
+        """Show a chart of the live machine, the pinned one thin and grey behind it."""
+        show_chart(drawn(draw, self.view, self.baseline), key=key, alt=alt)
+        self.follows.charts[chart_key(key)] = draw
+        st.caption(caption)
+
+    def tabs(self, key: str, contents: Mapping[str, Callable[["Page"], object]]) -> None:
+        """Show tabs by their labels, of which only the open one's content is drawn."""
+        tabs = st.tabs(list(contents), on_change="rerun", key=key)
+        for tab, draw in zip(tabs, contents.values(), strict=True):
+            if tab.open:
+                with tab:
+                    draw(self)
+
+    def alone(self) -> "Page":
+        """Return the page without the pinned machine, for what is too long to compute twice."""
+        return replace(self, baseline=None)
+
+    def run_whole(self) -> None:
+        """Let the page run whole, for a click can end such a run, but none of a fragment's."""
+        if not self.whole:
+            state().whole = True
+            st.rerun()
+
+    def results(self, *keys: str) -> None:
+        """Show results in a row, each with its equation and its change from the pinned machine."""
+        show_results(self.view, self.baseline, self.units, *keys)
+        self.follows.rows.append(keys)
+
+
+def show(
+    title: str, sentence: str, content: Callable[[Page], None], *, follows: bool = True
+) -> None:
+    """Draw a page: its frame, then its content, which alone is drawn anew where a slider moved.
+
+    Charts and results follow a held thumb by themselves, unless `follows` is false: then its
+    content runs for each value, for charts that take long and show their progress.
+    """
+    with one_at_a_time.PAGES.through():
+        foot = _frame(title, sentence)
+        kept = state()
+        whole, kept.whole = kept.whole, False
+        if whole:
+            _content(content, foot, follows=follows, whole=True)
+        else:
+            st.fragment(_content)(content, foot, follows=follows, whole=False)
+
+
+def _frame(title: str, sentence: str) -> DeltaGenerator:
+    """Draw what stands while sliders move; return the sidebar's place for what follows them."""
+    st.set_page_config(
+        page_title=f"{title} · rotorcalc",
+        page_icon=_ICON,
+        layout="wide",
+        menu_items={"About": _ABOUT},
+    )
+    st.html(_STYLE)
+    kept = state()
+    kept.frame += 1
+    kept.arriving = kept.page != title
+    with st.sidebar:
+        sidebar.draw_presets()
+        baseline.draw_buttons()
+        sidebar.draw_inputs()
+        popover.draw()
+        foot = st.container()
+        st.caption(version.label())
+    kept.page = title
+    _navigation()
+    st.header(title, anchor=False)
+    st.markdown(sentence)
+    return foot
+
+
+def _content(
+    content: Callable[[Page], None], foot: DeltaGenerator, *, follows: bool, whole: bool
+) -> None:
+    with one_at_a_time.PAGES.through():
+        content(replace(_page(foot, follows=follows), whole=whole))
+
+
+def _page(foot: DeltaGenerator, *, follows: bool) -> Page:
+    """Return the page's machine and draw what depends on it everywhere; stop where there is none.
+
+    A fragment may write into the sidebar's foot where it has done so when the whole page ran; the
+    feed, through which a better value comes, is written in any case.
+    """
+    kept = state()
+    write_address_bar()
+    for problem in kept.problems:
+        st.warning(problem)
+    try:
+        view = view_of(kept.values)
+        pinned = None if kept.baseline is None else view_of(kept.baseline)
+    except ValueError as error:
+        with foot:
+            show_feed(None)
+        st.error(f"{error}", title=NO_MACHINE)
+        st.stop()
+    kept.drawn = Drawn(dict(kept.values), pinned, kept.units, dark=is_dark())
+    with foot:
+        validity.draw(view)
+        show_feed(kept.drawn if follows else None)
+    baseline.draw_differences(kept.units)
+    return Page(view=view, baseline=pinned, units=kept.units, follows=kept.drawn)
+
+
+def _navigation() -> None:
+    with st.container(horizontal=True, gap="small"):
+        for path, label in PAGES.items():
+            st.page_link(path, label=label)

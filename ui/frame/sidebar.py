@@ -1,0 +1,146 @@
+"""The sidebar: presets, inputs in groups, the oil library, and how all of it is shown."""
+
+import streamlit as st
+
+from rotorcalc import PRESETS, Oil
+from rotorcalc.oils import ISO_VG, fitted_oil, iso_oil
+from rotorcalc.units import SI, SYSTEMS
+from ui.inputs import GROUPS, INPUTS, OPEN_GROUPS, machine_of
+from ui.session import mirror, state
+from ui.widgets import show_inputs
+
+
+def draw_inputs() -> None:
+    """Draw the inputs in their groups, and how all of it is shown."""
+    for group in GROUPS:
+        with st.expander(group, expanded=group in OPEN_GROUPS):
+            items = [i for i in INPUTS.values() if i.group == group and i.key != "load"]
+            show_inputs(group, items)
+            if group == "Load":
+                _load()
+            if group == "Oil":
+                _oil_library()
+    _settings()
+
+
+def draw_presets() -> None:
+    """Draw the choice of a preset."""
+    kept = state()
+    mirror("preset", kept.preset)
+    st.selectbox(
+        "Preset",
+        options=list(PRESETS),
+        format_func=lambda key: PRESETS[key].title,
+        key="preset",
+        help=PRESETS[kept.preset].note,
+        on_change=lambda: kept.set_preset(st.session_state["preset"]),
+    )
+
+
+def _load() -> None:
+    follows = state().values["load"] is None
+    mirror("load_follows", follows)
+    st.toggle("Load is half the rotor's weight", key="load_follows", on_change=_toggle_load)
+    if not follows:
+        show_inputs("Static load", [INPUTS["load"]])
+
+
+def _toggle_load() -> None:
+    kept = state()
+    if st.session_state["load_follows"]:
+        kept.set_value("load", None)
+    else:
+        weight = machine_of(kept.values | {"load": None, "mj": 0.0}).static_load
+        kept.set_value("load", min(round(weight, 1), INPUTS["load"].high))
+
+
+def _oil_library() -> None:
+    library = st.popover("Oil library", width="stretch", key="oil_library", on_change="rerun")
+    if library.open:
+        with library:
+            _grades()
+            st.divider()
+            _fit()
+
+
+def _grades() -> None:
+    temperature = state().values["T"]
+    assert temperature is not None  # noqa: S101 - only a load may be absent
+    grade = st.selectbox("ISO viscosity grade", list(ISO_VG), key="grade", persist_state="session")
+    st.caption(
+        "Mineral oil of viscosity index 100, by Walther's law (ASTM D341). The exponential law "
+        f"here takes its viscosity and its slope at the film's temperature, {temperature:g} °C."
+    )
+    st.button(
+        "Use this grade",
+        key="use_grade",
+        on_click=lambda: _take_over(iso_oil(grade, temperature=temperature)),
+    )
+
+
+def _fit() -> None:
+    st.markdown("Fit α from two viscosities")
+    columns = st.columns(2)
+    readings: list[tuple[float, float]] = []
+    for column, number, T, mu in zip(columns, "12", (40.0, 80.0), (30.0, 9.0), strict=True):
+        with column:
+            warm = st.number_input(f"T{number} [°C]", 0.0, 150.0, T, key=f"fit_T{number}")
+            thick = st.number_input(f"μ{number} [mPa·s]", 0.1, 5000.0, mu, key=f"fit_mu{number}")
+            readings.append((warm, thick * 1e-3))
+    (T_1, mu_1), (T_2, mu_2) = readings
+    try:
+        oil = fitted_oil(temperatures=(T_1, T_2), viscosities=(mu_1, mu_2))
+    except ValueError as error:
+        st.error(str(error))
+        return
+    st.caption(f"α = ln(μ1/μ2)/(T2 − T1) = {oil.temperature_coefficient:.4g} 1/°C")
+    st.button("Use this fit", key="use_fit", on_click=lambda: _take_over(oil))
+
+
+def _take_over(oil: Oil) -> None:
+    """Put an oil into the inputs, and report what of it lies outside their ranges."""
+    kept = state()
+    kept.problems.clear()
+    in_si = {
+        "mu": oil.reference_viscosity,
+        "TR": oil.reference_temperature,
+        "alpha": oil.temperature_coefficient,
+    }
+    for key, value in in_si.items():
+        item = INPUTS[key]
+        reading = float(f"{float(item.unit(SI).of(value)):.6g}")
+        if problem := item.problem(reading):
+            kept.problems.append(f"{item.label} = {reading:g} {problem}; it was left as it is.")
+        else:
+            kept.values[key] = reading
+
+
+def _settings() -> None:
+    kept = state()
+    settings = st.popover("Units and settings", width="stretch", key="settings", on_change="rerun")
+    if not settings.open:
+        return
+    with settings:
+        mirror("units", kept.units_name)
+        mirror("typed", kept.typed)
+        mirror("image_format", kept.image_format)
+        st.segmented_control(
+            "Units", list(SYSTEMS), key="units", on_change=_set_units, required=True
+        )
+        st.toggle("Type values instead of sliding", key="typed", on_change=_set_typed)
+        st.segmented_control(
+            "Charts are saved as", ["png", "svg"], key="image_format", on_change=_set_image,
+            required=True, help="The camera above a chart saves it.",
+        )  # fmt: skip
+
+
+def _set_units() -> None:
+    state().units_name = st.session_state["units"]
+
+
+def _set_typed() -> None:
+    state().typed = st.session_state["typed"]
+
+
+def _set_image() -> None:
+    state().image_format = st.session_state["image_format"]

@@ -1,0 +1,1 @@
+"""Long computations: their lines, their processes, the results that are kept."""

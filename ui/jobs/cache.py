@@ -1,0 +1,77 @@
+"""Heavy functions whose last results are kept, up to a size."""
+
+import threading
+from collections import OrderedDict
+from collections.abc import Callable, Hashable, Mapping
+from dataclasses import fields, is_dataclass
+from functools import partial
+from typing import Generic, TypeVar, cast
+
+import numpy as np
+
+from ui.jobs.process import Progress
+from ui.jobs.queue import LONG, Turns
+from ui.serving import one_at_a_time
+
+T = TypeVar("T")
+
+
+class Kept(Generic[T]):
+    """A module's heavy function, computed in its turn; its last results are kept up to a size."""
+
+    def __init__(
+        self, work: Callable[..., T], *, entries: int, megabytes: float, turns: Turns = LONG
+    ) -> None:
+        self._work, self._turns = work, turns
+        self._entries, self._bytes = entries, megabytes * 1e6
+        self._found: OrderedDict[object, tuple[T, int]] = OrderedDict()
+        self._lock = threading.Lock()
+
+    def __call__(self, *args: Hashable, tell: Progress | None = None) -> T:
+        """Return a kept result, or compute it when its turn has come, and tell the progress."""
+        if (found := self._look(args)) is not None:
+            return found[0]
+        with one_at_a_time.PAGES.aside(), self._turns.turn() as worker:
+            # Somebody ahead may have asked for the same.
+            if (found := self._look(args)) is not None:
+                return found[0]
+            result = worker.run(self._work, args, tell)
+        self._keep(args, result)
+        return result
+
+    @property
+    def size(self) -> int:
+        """Bytes of the results kept."""
+        with self._lock:
+            return sum(size for _, size in self._found.values())
+
+    def __len__(self) -> int:
+        return len(self._found)
+
+    def _look(self, key: object) -> tuple[T, int] | None:
+        with self._lock:
+            if key in self._found:
+                self._found.move_to_end(key)
+            return self._found.get(key)
+
+    def _keep(self, key: object, result: T) -> None:
+        with self._lock:
+            self._found[key] = result, size_of(result)
+            while len(self._found) > self._entries or (
+                len(self._found) > 1 and sum(size for _, size in self._found.values()) > self._bytes
+            ):
+                self._found.popitem(last=False)
+
+
+def size_of(result: object) -> int:
+    """Return about how many bytes a result takes: its arrays, and a little for each other part."""
+    if isinstance(result, np.ndarray):
+        return result.nbytes
+    if is_dataclass(result):
+        return sum(size_of(getattr(result, item.name)) for item in fields(result))
+    if isinstance(result, Mapping):
+        return sum(size_of(item) for item in cast("Mapping[object, object]", result).values())
+    if isinstance(result, tuple | list | partial):
+        held = result.args if isinstance(result, partial) else cast("list[object]", result)
+        return sum(size_of(item) for item in held)
+    return 64

@@ -1,0 +1,125 @@
+"""The lines of long computations: the first of each run, in processes of their own.
+
+Ten visitors' maps at once would come ten times later. Here they come one after the other, each as
+soon as it can, and who waits is told how many are ahead. Short ones do not wait behind long ones.
+"""
+
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
+
+import streamlit as st
+from streamlit.runtime.scriptrunner import get_script_run_ctx
+
+from ui.jobs.process import Worker
+from ui.serving import settings
+
+# Who would be further back than this is asked to come again.
+LONGEST_LINE = 30
+
+
+_LOOK = 0.25  # seconds between two looks at the line
+
+
+BUSY = "Many visitors ask for long computations just now. Try again in a minute."
+
+
+class Turns:
+    """A line of computations, of which the first `limit` run, each in a process of its own."""
+
+    def __init__(
+        self, limit: int, longest: int = LONGEST_LINE, hire: Callable[[], Worker] = Worker
+    ) -> None:
+        self._limit = limit
+        self._longest = longest
+        self._hire = hire
+        self._line: list[object] = []
+        self._changed = threading.Condition()
+        self._idle: list[Worker] = []
+
+    @contextmanager
+    def turn(self) -> Iterator[Worker]:
+        """Wait for a turn, and hold it with a process that is free."""
+        ticket = object()
+        worker = None
+        try:
+            self._join(ticket)
+            self._wait(ticket)
+            worker = self._idle.pop() if self._idle else self._hire()
+            yield worker
+        finally:
+            self._put_back(worker)
+            self._leave(ticket)
+
+    def begin(self) -> None:
+        """Begin a process before anybody asks for it."""
+        with self.turn():
+            pass
+
+    def end(self) -> None:
+        """End the processes that are free."""
+        while self._idle:
+            self._idle.pop().close()
+
+    def ahead(self, ticket: object) -> int:
+        """Return how many must end before a computation begins."""
+        return max(self._line.index(ticket) + 1 - self._limit, 0)
+
+    def _join(self, ticket: object) -> None:
+        with self._changed:
+            full = len(self._line) >= self._limit + self._longest
+            if not full:
+                self._line.append(ticket)
+        if full:
+            if _nobody_looks():  # a held thumb: it asks again
+                raise ValueError(BUSY)
+            st.warning(BUSY)
+            st.stop()
+
+    def _put_back(self, worker: Worker | None) -> None:
+        if worker is not None and worker.idle:
+            self._idle.append(worker)
+        elif worker is not None:  # left in the middle of something
+            worker.close()
+
+    def _leave(self, ticket: object) -> None:
+        with self._changed:
+            if ticket in self._line:
+                self._line.remove(ticket)
+                self._changed.notify_all()
+
+    def _wait(self, ticket: object) -> None:
+        with self._changed:
+            ahead = self.ahead(ticket)
+        if not ahead:
+            return
+        place = None if _nobody_looks() else st.empty()
+        while ahead:
+            with self._changed:
+                self._changed.wait(_LOOK)
+                ahead = self.ahead(ticket)
+            if ahead and place is not None:  # where a visitor has gone on meanwhile, this ends it
+                place.info(_words(ahead))
+        if place is not None:
+            place.empty()
+
+
+# What a visitor waits for as for a page has a process for itself; what takes seconds stands back.
+SHORT = Turns(1, hire=partial(Worker, nicer=0))
+
+
+LONG = Turns(settings.heavy_jobs())
+
+
+LINES = SHORT, LONG
+
+
+def _nobody_looks() -> bool:
+    """Return whether there is no page to write on."""
+    return get_script_run_ctx(suppress_warning=True) is None
+
+
+def _words(ahead: int) -> str:
+    others = "one of another visitor comes" if ahead == 1 else f"{ahead} of other visitors come"
+    return f"This computation waits for its turn: {others} first."

@@ -1,0 +1,96 @@
+"""What joins sliders and page: values that are let go, and what follows a held thumb.
+
+A value that is let go comes through Streamlit, and what runs is that part of the page in which the
+feed was shown: the sidebar is left as it stands. While a thumb is held the browser asks the server
+at `path()` for what a value would give, with the token of the page's session, past all of
+Streamlit's own running and drawing, and draws the answer. Nothing of that is kept.
+"""
+
+import asyncio
+import gzip
+from collections.abc import Mapping
+from typing import Any, Protocol
+from weakref import WeakValueDictionary
+
+import streamlit as st
+from starlette.requests import Request
+from starlette.responses import Response
+from streamlit.components.v2 import component
+from streamlit.url_util import make_url_path
+
+from ui.live import assets
+from ui.live.chart import encoded
+from ui.live.message import Move, echo, taken
+from ui.serving import one_at_a_time
+
+_TOKEN = "x-rotorcalc-page"  # noqa: S105 - a header's name
+_KEY = "live_feed"
+_component = component("rotorcalc.feed", js=assets.module("preview"), isolate_styles=False)
+
+
+class Page(Protocol):
+    """A visitor's page as it was last drawn."""
+
+    def follow(self, name: str, value: str) -> dict[str, Any]:
+        """Return {"charts": {key: chart}, "rows": {key: numbers as text}} with one value moved.
+
+        Raises ValueError where the value is none, lies outside its range or makes no machine.
+        """
+        ...
+
+
+# Every page drawn last in its session, as long as the session keeps it.
+_pages: WeakValueDictionary[str, Page] = WeakValueDictionary()
+# A page asks one thing at a time.
+_asking: set[str] = set()
+
+
+def show(
+    page: Page | None, token: str, frame: int, values: Mapping[str, object], on_move: Move
+) -> None:
+    """Let sliders send through here, and a page's charts and numbers follow them, where there are.
+
+    `values` are the sliders' by name, as they show them; `token` is the session's secret, and
+    `frame` the number of the frame that holds the sliders.
+    """
+    if page is not None:
+        _pages[token] = page
+    common = {
+        "address": path(), "token": token, "frame": frame, "echo": echo(),
+        "follows": page is not None,
+    }  # fmt: skip
+    # A list: Streamlit would look through a dictionary for data frames, at some cost.
+    _component(key=_KEY, data=[common, values], on_moved_change=lambda: taken(_KEY, on_move))
+
+
+def path() -> str:
+    """Return where the server answers."""
+    return make_url_path(st.get_option("server.baseUrlPath") or "", "follow")
+
+
+async def answer(request: Request) -> Response:
+    """Answer a held thumb, in a thread of its own: the server goes on with others meanwhile."""
+    token = request.headers.get(_TOKEN, "")
+    page = _pages.get(token)
+    if page is None:
+        return Response(status_code=204)
+    if token in _asking:
+        return Response(status_code=429)
+    name, value = (request.query_params.get(key, "") for key in ("name", "value"))
+    _asking.add(token)
+    try:
+        content = await asyncio.to_thread(_packed, page, name, value)
+    finally:
+        _asking.discard(token)
+    headers = {"Cache-Control": "no-store", "Content-Encoding": "gzip"}
+    return Response(content, media_type="application/json", headers=headers)
+
+
+def _packed(page: Page, name: str, value: str) -> bytes:
+    try:
+        with one_at_a_time.PAGES.through():
+            shown = page.follow(name, value)
+    except ValueError:  # said in words when the thumb is let go
+        shown = {"charts": {}, "rows": {}}
+    # Packed at its fastest, where Streamlit would at its smallest and ten times slower.
+    return gzip.compress(encoded(shown), compresslevel=1, mtime=0)

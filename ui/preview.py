@@ -1,0 +1,51 @@
+"""A page's charts and results of the machine that a held thumb would make."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from rotorcalc.figures import Chart, themed, with_baseline
+from rotorcalc.units import Units
+from ui.computed import View, view_of
+from ui.inputs import Values, input_named
+from ui.results import RESULTS, row_key
+
+Draw = Callable[[View], Chart]
+
+
+@dataclass
+class Drawn:
+    """A page as it was last drawn: its machine, the pinned one, and what it shows of them."""
+
+    values: Values
+    baseline: View | None
+    units: Units
+    dark: bool
+    charts: dict[str, Draw] = field(default_factory=dict)
+    rows: list[tuple[str, ...]] = field(default_factory=list)
+
+    def follow(self, name: str, value: str) -> dict[str, Any]:
+        """Return the charts by key, and the texts of each row of results, with an input moved.
+
+        Raises ValueError where there is no such input, or the value makes no machine.
+        """
+        view = view_of(self.values | {name: input_named(name).taken(value, self.units)})
+        return {
+            "charts": {key: self._moving(draw, view) for key, draw in self.charts.items()},
+            "rows": {
+                row_key(keys): [RESULTS[key].shown(view, self.units) for key in keys]
+                for keys in self.rows
+            },
+        }
+
+    def _moving(self, draw: Draw, view: View) -> Chart:
+        """Return a chart without its frames: nobody scrubs while holding a thumb."""
+        chart = dict(drawn(draw, view, self.baseline))
+        chart.pop("frames", None)
+        return themed(chart, dark=self.dark)
+
+
+def drawn(draw: Draw, view: View, baseline: View | None) -> Chart:
+    """Return a chart of a machine, the pinned one's thin and grey behind it."""
+    chart = draw(view)
+    return chart if baseline is None else with_baseline(chart, draw(baseline))

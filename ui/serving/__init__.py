@@ -1,0 +1,1 @@
+"""The server around the pages: health, log, settings, version."""

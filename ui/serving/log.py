@@ -1,0 +1,88 @@
+"""The server's log: a line of JSON an event, and never what a visitor entered.
+
+An exception's message can hold a visitor's numbers, so of an exception only its type and its places
+in the code are written. What failed for a visitor has an id, which the visitor's page shows too.
+"""
+
+import json
+import logging
+import secrets
+from datetime import UTC, datetime
+from typing import Any
+
+import streamlit as st
+import streamlit.logger
+from streamlit import config
+
+from ui.jobs.process import places
+from ui.serving import settings
+
+_LOGGER = logging.getLogger("rotorcalc")
+_UVICORN = ("uvicorn", "uvicorn.asgi", "uvicorn.error")
+# Their lines hold visitors' addresses and links, and every link is a machine.
+_VISITS = ("uvicorn.access", "uvicorn.error")
+# Streamlit's own line about an exception that `failed` reports with its id.
+_TOLD_TWICE = "Uncaught app execution"
+
+
+class Record(logging.LogRecord):
+    """A record whose message is a line of JSON, without an exception's own message."""
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        error = self.exc_info[1] if isinstance(self.exc_info, tuple) else None
+        self.fields = {} if error is None else described(error)
+        self.exc_info = None
+
+    def getMessage(self) -> str:
+        """Return the record as a line of JSON."""
+        fields = {
+            "time": datetime.fromtimestamp(self.created, UTC).isoformat(timespec="milliseconds"),
+            "level": self.levelname.lower(),
+            "logger": self.name,
+            "event": super().getMessage(),
+        }
+        return json.dumps(fields | self.fields | getattr(self, "more", {}), ensure_ascii=False)
+
+
+def begin() -> None:
+    """Let no visit be written, and every logger write JSON where the host wants it."""
+    for name in _VISITS:
+        logging.getLogger(name).setLevel(logging.WARNING)
+    if settings.log() == "text":
+        return
+    logging.setLogRecordFactory(Record)
+    config.set_option("logger.messageFormat", "%(message)s")
+    streamlit.logger.get_logger(_LOGGER.name)  # with the handler that Streamlit's loggers have
+    streamlit.logger.update_formatter()
+    for name in _UVICORN:
+        logger = logging.getLogger(name)
+        own = getattr(logger, "streamlit_console_handler", None)
+        logger.handlers = [] if own is None else [own]
+        logger.propagate = False
+    error_log = logging.getLogger("streamlit.error_util")
+    error_log.addFilter(lambda record: record.msg != _TOLD_TWICE)
+
+
+def event(name: str, *, level: int = logging.INFO, **fields: object) -> None:
+    """Write an event with its fields, in either form of the log."""
+    if settings.log() == "text":
+        name = " ".join([name, *(f"{key}={value}" for key, value in fields.items())])
+    _LOGGER.log(level, name, extra={"more": fields})
+
+
+def failed(error: Exception) -> bool:
+    """Report what a page's script raised, in the log and to its visitor, under one id."""
+    number = secrets.token_hex(4)
+    event("failed", level=logging.ERROR, id=number, **described(error))
+    st.error(
+        f"Tell whoever runs this server the number **{number}**, under which its log says what "
+        "happened. Your inputs stand in the address bar: reload the page to go on.",
+        title="Something went wrong here",
+    )
+    return True
+
+
+def described(error: BaseException) -> dict[str, Any]:
+    """Return an exception's type and its places in the code, outermost first."""
+    return {"type": type(error).__name__, "places": places(error)}

@@ -1,0 +1,30 @@
+"""Which program runs: its version, and its commit where that is known."""
+
+import subprocess
+from functools import cache
+from pathlib import Path
+
+from rotorcalc import __version__
+from ui.serving import settings
+
+_ROOT = Path(__file__).resolve().parents[2]
+
+
+@cache
+def commit() -> str:
+    """Return the commit that runs, short; "" where neither the host nor a checkout tells."""
+    if named := settings.commit():
+        return named[:12]
+    command = ["git", "-C", str(_ROOT), "rev-parse", "--short", "HEAD"]
+    try:
+        done = subprocess.run(  # noqa: S603 - no word of it comes from outside
+            command, capture_output=True, text=True, timeout=5, check=False
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return ""
+    return done.stdout.strip()
+
+
+def label() -> str:
+    """Return version and commit as a page shows them."""
+    return f"rotorcalc {__version__}" + (f" · {commit()}" if commit() else "")

@@ -1,0 +1,128 @@
+"""Files to take along: the sweep as CSV, the machine as JSON, K and C for ROSS.
+
+Each function returns a whole file and is called only when the file is asked for.
+"""
+
+import csv
+import io
+from collections.abc import Iterator
+from typing import TypeAlias
+
+import numpy as np
+
+from rotorcalc import orbit_ellipse
+from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.unbalance_response import phase_lag
+from rotorcalc.units import Unit, Units
+from ui.computed import View
+from ui.sharing import xlsx
+
+# Words, unit and SI values of a column.
+Column: TypeAlias = tuple[str, Unit, Array]
+
+ROSS_NAME, ROSS_MIME = "ross_bearing.xlsx", xlsx.MIME
+
+ROSS_NOTE = (
+    "ROSS table: `rs.BearingElement.from_table(n=0, file='ross_bearing.xlsx')` reads it. One "
+    "bearing, K in N/m, C in N·s/m, speed in rad/s. ROSS's x is horizontal, its y up, the shaft "
+    "turning from x to y; X here points down along the load, Y at +90° in the sense of rotation. "
+    "So x = Y and y = −X, a rotation by −90°: kxx = K_YY, kxy = −K_YX, kyx = −K_XY, kyy = K_XX, "
+    "and c likewise. Signs are the same in both, K_ij = −∂F_i/∂X_j. Between the speeds ROSS lays "
+    "splines; a phase counts there from x, here from X."
+)
+
+# ROSS looks for inches, pounds and revolutions a minute in every text of the sheet and converts
+# where it finds them, so these lines name none of the three.
+_ROSS_HEAD = (
+    ("Stiffness and damping of one journal bearing over running speed, for ROSS.",),
+    ("Read with rs.BearingElement.from_table(n=0, file=...). SI units, as below.",),
+    ("Axes: ROSS's, x horizontal, y upward, rotation from x to y. The load acts along -y.",),
+    ("From X along the load, Y at +90 degrees in the sense of rotation: x = Y, y = -X;",),
+    ("kxx = K_YY, kxy = -K_YX, kyx = -K_XY, kyy = K_XX, and c likewise.",),
+    ("Signs: k_ij = -dF_i/dx_j, F the film's force on the journal.",),
+)
+_ROSS_COLUMNS = ("kxx", "kxy", "kyx", "kyy", "cxx", "cxy", "cyx", "cyy")
+# (x, y) of ROSS from (X, Y): a rotation by −90°.
+_TO_ROSS = np.array([[0.0, 1.0], [-1.0, 0.0]])
+
+
+def sweep_csv(view: View, units: Units) -> bytes:
+    """Return the sweep over speed as CSV, a row a speed, in the units shown.
+
+    It begins with the mark by which Excel knows UTF-8; Python reads it as "utf-8-sig". Numbers have
+    ten digits; "inf" is where there is no limit, "nan" where there is no number.
+    """
+    columns = list(_columns(view, units))
+    numbers = np.stack([unit.of(values) for _, unit, values in columns], axis=-1)
+    file = io.StringIO(newline="")
+    writer = csv.writer(file)
+    writer.writerow(f"{words} [{unit.name}]" for words, unit, _ in columns)
+    writer.writerows([f"{number:.10g}" for number in row] for row in numbers.tolist())
+    return file.getvalue().encode("utf-8-sig")
+
+
+def machine_json(view: View) -> bytes:
+    """Return the machine as JSON; `Machine.from_json` reads it back, equal."""
+    return view.machine.to_json().encode()
+
+
+def ross_table(view: View) -> bytes:
+    """Return K and C over speed as the workbook that ROSS's `BearingElement.from_table` reads."""
+    sweep = view.sweep
+    K, C = (ross_axes(matrix).reshape(-1, 4) for matrix in (sweep.stiffness, sweep.damping))
+    rows = np.column_stack([sweep.speed, K, C]).tolist()
+    units = ("rad/s", *["N/m"] * 4, *["N*s/m"] * 4)
+    return xlsx.workbook("Bearing", [*_ROSS_HEAD, ("speed", *_ROSS_COLUMNS), units, *rows])
+
+
+def ross_axes(coefficients: Array) -> Array:
+    """Return force coefficients of shape (..., 2, 2) in ROSS's axes: `ROSS_NOTE` describes them."""
+    # 0.0 is added so that an unloaded film's −0 becomes 0.
+    return _TO_ROSS @ coefficients @ _TO_ROSS.T + 0.0
+
+
+def _columns(view: View, units: Units) -> Iterator[Column]:
+    sweep = view.sweep
+    yield "Running speed Ω", units.speed, sweep.speed
+    yield "Modified Sommerfeld number σ", units.number, sweep.sommerfeld
+    yield "Eccentricity ratio ε", units.number, sweep.eccentricity_ratio
+    yield "Attitude angle φ", units.angle, sweep.attitude_angle
+    yield "Smallest film h_min", units.film, sweep.minimum_film_thickness
+    yield "Power loss per bearing P", units.power, sweep.power_loss
+    yield "Side flow per bearing Q", units.flow, sweep.side_flow
+    yield from _matrix("Stiffness K", units.stiffness, sweep.stiffness)
+    yield from _matrix("Damping C", units.damping, sweep.damping)
+    yield "Equivalent stiffness K_eq", units.stiffness, sweep.equivalent_stiffness
+    yield "Whirl ratio ω_s/Ω", units.number, sweep.whirl_ratio
+    yield "Critical mass per bearing M_c", units.mass, sweep.critical_mass
+    yield "Threshold of the rigid rotor Ω_s", units.speed, sweep.rigid_threshold
+    yield "Threshold of the flexible rotor Ω_sf", units.speed, sweep.flexible_threshold
+    if not view.machine.rotor.is_rigid:
+        yield from _eigenvalues("Rotor", units.growth, view.branches)
+    yield from _eigenvalues("Rigid rotor", units.growth, view.rigid_branches)
+    yield from _orbit("Disk", units, sweep.disk_response)
+    yield from _orbit("Journal", units, sweep.journal_response)
+
+
+def _matrix(words: str, unit: Unit, matrix: Array) -> Iterator[Column]:
+    for i, row in enumerate("XY"):
+        for j, column in enumerate("XY"):
+            yield f"{words}_{row}{column}", unit, matrix[:, i, j]
+
+
+def _eigenvalues(words: str, unit: Unit, branches: ComplexArray) -> Iterator[Column]:
+    for number, branch in enumerate(branches.T, start=1):
+        yield f"{words}: real part Re λ_{number}", unit, branch.real
+        yield f"{words}: imaginary part Im λ_{number}", unit, branch.imag
+
+
+def _orbit(words: str, units: Units, response: ComplexArray) -> Iterator[Column]:
+    amplitude = np.abs(response)
+    # Where nothing moves nothing lags.
+    lag = np.where(amplitude > 0.0, phase_lag(response), np.nan)
+    for i, axis in enumerate("XY"):
+        yield f"{words}: amplitude |{axis}|", units.film, amplitude[:, i]
+        yield f"{words}: phase lag of {axis}", units.angle, lag[:, i]
+    ellipse = orbit_ellipse(response[:, 0], response[:, 1])
+    yield f"{words}: semi-major axis", units.film, ellipse.semi_major
+    yield f"{words}: semi-minor axis (negative: backward)", units.film, ellipse.semi_minor

@@ -1,0 +1,77 @@
+"""Share and keep: link, machine file, tables and report, each built when asked for."""
+
+from contextlib import suppress
+from urllib.parse import urlencode, urlsplit, urlunsplit
+
+import streamlit as st
+
+from rotorcalc import Machine, __version__
+from rotorcalc.units import Units
+from ui.computed import View, view_of
+from ui.inputs import speeds_of, values_of
+from ui.session import state
+from ui.sharing import address
+
+
+def draw() -> None:
+    """Draw the popover with all that leaves or enters the program."""
+    popover = st.popover("Share and keep", width="stretch", key="share", on_change="rerun")
+    if not popover.open:
+        return
+    with popover:
+        address = _link()
+        st.caption("A link to this machine")
+        st.code(address, language=None, wrap_lines=True)
+        kept = state()
+        with suppress(ValueError):  # no machine: said on the page
+            baseline = None if kept.baseline is None else view_of(kept.baseline)
+            _downloads(view_of(kept.values), baseline, kept.units, address)
+        st.file_uploader("Load a machine (JSON)", type="json", key="upload", on_change=_load)
+
+
+def _link() -> str:
+    kept = state()
+    parts = urlsplit(st.context.url or "")
+    query = urlencode(address.write(kept.preset, kept.values, kept.units_name))
+    return urlunsplit((parts.scheme, parts.netloc, parts.path, query, ""))
+
+
+def _downloads(view: View, baseline: View | None, units: Units, address: str) -> None:
+    from ui.sharing import export, report  # noqa: PLC0415
+
+    files = (
+        ("Machine (JSON)", "machine.json", "application/json", lambda: export.machine_json(view)),
+        ("Sweep over speed (CSV)", "sweep.csv", "text/csv", lambda: export.sweep_csv(view, units)),
+        (
+            "K and C for ROSS (Excel)", export.ROSS_NAME, export.ROSS_MIME,
+            lambda: export.ross_table(view),
+        ),
+        (
+            "Report (HTML)", "report.html", "text/html",
+            lambda: report.report(view, baseline, units, address, __version__),
+        ),
+    )  # fmt: skip
+    for label, name, mime, build in files:
+        st.download_button(
+            label, build, name, mime, key=f"save_{name}", on_click="ignore", width="stretch"
+        )
+    st.caption(export.ROSS_NOTE)
+
+
+def _load() -> None:
+    """Take over an uploaded machine; what cannot be used is reported by name."""
+    kept = state()
+    upload = st.session_state["upload"]
+    if upload is None:
+        return
+    problems: list[str] = []
+    try:
+        machine = Machine.from_json(upload.getvalue().decode("utf-8"))
+    except ValueError as error:
+        kept.problems[:] = [
+            f"{address.quoted(upload.name)} was not loaded: {address.quoted(str(error))}"
+        ]
+        return
+    values = values_of(machine, *speeds_of(kept.values))
+    kept.values = address.checked_values(values, kept.preset, problems)
+    kept.problems[:] = problems

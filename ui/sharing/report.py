@@ -1,0 +1,272 @@
+"""The report: one HTML file with a machine's inputs, results and charts, that prints well.
+
+It needs nothing but itself: Plotly's own bundle, as the wheel brings it, is in the file.
+"""
+
+import datetime as dt
+import functools
+import importlib.resources
+import math
+import string
+from collections.abc import Iterable, Iterator
+from html import escape
+from pathlib import Path
+from typing import TypeAlias
+
+import plotly.io
+
+from rotorcalc import modes
+from rotorcalc.arrays import Array
+from rotorcalc.units import Unit, Units
+from rotorcalc.validity import validity
+from ui.computed import View
+from ui.inputs import GROUPS, INPUTS, Values, values_of
+from ui.results import RESULTS, digits
+from ui.sharing import report_charts
+from ui.sharing.report_charts import Figure
+from ui.words.verdict import verdict
+
+# Text, and the class of its cell.
+Cell: TypeAlias = tuple[str, str]
+
+_WORDS = {"good": "holds", "caution": "strained", "outside": "outside"}
+
+
+def report(view: View, baseline: View | None, units: Units, link: str, version: str) -> bytes:
+    """Return the report as HTML: `link` reproduces the machine, `baseline` stands beside it."""
+    judged = verdict(view, units)
+    charts = report_charts.charts(view, baseline, units)
+    page = string.Template(Path(__file__).with_suffix(".html").read_text(encoding="utf-8"))
+    body = (
+        _inputs(view, baseline, units),
+        _results(view, baseline, units),
+        _matrices(view, units),
+        _modes(view, units),
+        _validity(view),
+        _reading(view, baseline),
+        *(
+            _section(title, figures, charts)
+            for title, figures in report_charts.sections(view).items()
+        ),
+    )
+    return page.substitute(
+        title="Rotor on two journal bearings",
+        subtitle=escape(_subtitle(view, baseline, units)),
+        level=judged.level,
+        verdict=escape(judged.sentence),
+        body="\n".join(body),
+        version=escape(version),
+        date=dt.datetime.now(dt.UTC).date().isoformat(),
+        link=_anchor(link),
+        plotly=_plotly(),
+        charts=_script(charts),
+    ).encode()
+
+
+@functools.cache
+def _plotly() -> str:
+    return (importlib.resources.files("plotly") / "package_data/plotly.min.js").read_text("utf-8")
+
+
+def _script(charts: report_charts.Charts) -> str:
+    """Return charts as JSON; Plotly writes it so that it cannot end the script it stands in."""
+    members = (
+        f'"{key}":{plotly.io.to_json(chart, validate=False)}' for key, chart in charts.items()
+    )
+    return f"{{{','.join(members)}}}"
+
+
+def _anchor(link: str) -> str:
+    text = escape(link)
+    return f'<a href="{text}">{text}</a>' if link.startswith(("http://", "https://")) else text
+
+
+def _subtitle(view: View, baseline: View | None, units: Units) -> str:
+    speed, bearing = units.speed, view.machine.bearing
+    size = " × ".join(digits(float(units.length.of(x))) for x in (bearing.diameter, bearing.length))
+    rotor = _shown(view.machine.rotor.mass, units.mass)
+    beside = "" if baseline is None else " A is the pinned machine that it is compared with."
+    return (
+        f"A rotor of {rotor} on bearings of {size} {units.length.name}, at "
+        f"{_shown(view.speed, speed)}; charts run to {_shown(view.top_speed, speed)}.{beside}"
+    )
+
+
+def _inputs(view: View, baseline: View | None, units: Units) -> str:
+    live = values_of(view.machine, view.speed, view.top_speed)
+    pinned = None
+    if baseline is not None:
+        pinned = values_of(baseline.machine, baseline.speed, baseline.top_speed)
+    rows: list[str] = []
+    for group in GROUPS:
+        rows.append(f'<tr class="group"><th colspan="5">{escape(group)}</th></tr>')
+        keys = (key for key, item in INPUTS.items() if item.group == group)
+        rows += (_input(key, live, pinned, units) for key in keys)
+    beside = [] if pinned is None else [("A", "n")]
+    head = _head("Input", "Symbol", ("Value", "n"), "Unit", *beside)
+    return f"<h2>Inputs</h2>{_table(head, rows)}"
+
+
+def _input(key: str, live: Values, pinned: Values | None, units: Units) -> str:
+    item = INPUTS[key]
+    value, differs = live[key], pinned is not None and pinned[key] != live[key]
+    unit = item.unit(units).name if value is not None and math.isfinite(value) else ""
+    cells = [(item.label, ""), (item.symbol, ""), (_value(key, live, units), "n"), (unit, "")]
+    if pinned is not None:
+        cells.append((_value(key, pinned, units) if differs else "", "n"))
+    return _row(cells, "differs" if differs else "")
+
+
+def _value(key: str, values: Values, units: Units) -> str:
+    value = values[key]
+    if value is None:
+        return "half the weight"
+    item = INPUTS[key]
+    return item.infinite if math.isinf(value) else _minus(f"{item.shown(value, units):.6g}")
+
+
+def _results(view: View, baseline: View | None, units: Units) -> str:
+    rows = (_result(key, view, baseline, units) for key in RESULTS)
+    compared = [] if baseline is None else [("A", "n"), ("Change", "n")]
+    head = _head("Result", ("Value", "n"), *compared, "Equation")
+    return f"<h2>Results at the running speed</h2>{_table(head, rows)}"
+
+
+def _result(key: str, view: View, baseline: View | None, units: Units) -> str:
+    result = RESULTS[key]
+    cells = [(result.label, ""), (_minus(result.shown(view, units)), "n")]
+    if baseline is not None:
+        change = (result.change(view, baseline) or "").removesuffix(" vs A")
+        cells.append((_minus(result.shown(baseline, units)), "n"))
+        cells.append(("" if change == "+0 %" else _minus(change), "n"))
+    return _row([*cells, (result.number, "")])
+
+
+def _matrices(view: View, units: Units) -> str:
+    K, C = view.point.stiffness, view.point.damping
+    return (
+        "<h2>Force coefficients at the running speed</h2>"
+        f'<div class="beside">{_matrix("Stiffness K", K, units.stiffness)}'
+        f"{_matrix('Damping C', C, units.damping)}</div>"
+    )
+
+
+def _matrix(name: str, matrix: Array, unit: Unit) -> str:
+    shown = unit.of(matrix)
+    rows = (
+        _row([(f"on {axis}", ""), *((_minus(digits(float(value))), "n") for value in row)])
+        for axis, row in zip("XY", shown, strict=True)
+    )
+    head = _head(f"{name} [{unit.name}], force", ("by X", "n"), ("by Y", "n"))
+    return _table(head, rows)
+
+
+def _modes(view: View, units: Units) -> str:
+    rows = (
+        _mode(number, complex(value), view.speed, units)
+        for number, value in enumerate(view.locus(True).here.eigenvalues, start=1)
+        if value.imag >= 0.0  # else the mirror image of another
+    )
+    head = _head(
+        "Mode", (f"Whirl frequency [{units.speed.name}]", "n"), ("× speed", "n"),
+        (f"Growth rate Re λ [{units.growth.name}]", "n"), ("Damping ratio ζ", "n"),
+        ("Log. decrement δ", "n"),
+    )  # fmt: skip
+    return f"<h2>Modes at the running speed</h2>{_table(head, rows)}"
+
+
+def _mode(number: int, value: complex, speed: float, units: Units) -> str:
+    growth = digits(float(units.growth.of(value.real)))
+    if value.imag == 0.0:
+        texts = ["does not oscillate", "", growth, "", ""]
+    else:
+        texts = [
+            digits(float(units.speed.of(value.imag))),
+            f"{value.imag / speed:.3f}",
+            growth,
+            f"{float(modes.damping_ratio(value)):.4f}",
+            f"{float(modes.logarithmic_decrement(value)):.3f}",
+        ]
+    return _row([(str(number), ""), *((_minus(text), "n") for text in texts)])
+
+
+def _validity(view: View) -> str:
+    rows = (
+        _row([
+            (check.name, ""), (digits(check.value), "n"), (digits(check.caution), "n"),
+            (digits(check.limit), "n"), (_WORDS[check.level], check.level),
+            ("" if check.level == "good" else f"{check.reason}.", ""),
+        ])
+        for check in validity(view.point)
+    )  # fmt: skip
+    limits = ("Strained at", "n"), ("Fails at", "n")
+    head = _head("Assumption", ("Here", "n"), *limits, "Model", "Reason")
+    return f"<h2>Where the model holds</h2>{_table(head, rows)}"
+
+
+def _reading(view: View, baseline: View | None) -> str:
+    """Return how to read the charts."""
+    lines = ["On every chart the yellow point is the running speed"]
+    if baseline is not None:
+        lines.append(", grey lines and rings are the pinned machine A")
+    lines.append(".")
+    if view.machine.rotor.imbalance == 0.0:
+        lines.append(" The rotor is balanced, so there is no response to show.")
+    elif not view.is_stable:
+        lines.append(" Unstable at that speed, the machine has no steady response there.")
+    return f'<p class="reading">{"".join(lines)}</p>'
+
+
+def _section(title: str, figures: Iterable[Figure], charts: report_charts.Charts) -> str:
+    rows = (
+        "".join(_figure(figure, charts[figure.key]) for figure in row) for row in _paired(figures)
+    )
+    drawn = "".join(f'<div class="charts">{row}</div>' for row in rows)
+    return f"<h2>{escape(title)}</h2>{drawn}"
+
+
+def _paired(figures: Iterable[Figure]) -> Iterator[list[Figure]]:
+    """Yield the charts of each row: one, or two that share the page's width."""
+    row: list[Figure] = []
+    for figure in figures:
+        if row and sum(other.width for other in row) + figure.width > report_charts.FULL:
+            yield row
+            row = []
+        row.append(figure)
+    yield row
+
+
+def _figure(figure: Figure, chart: report_charts.Chart) -> str:
+    width, height = (chart["layout"][key] for key in ("width", "height"))
+    return (
+        f'<figure style="width:{width}px"><div class="plot" id="{figure.key}" '
+        f'style="width:{width}px;height:{height}px"></div>'
+        f"<figcaption><b>{escape(figure.title)}.</b> {escape(figure.caption)}</figcaption></figure>"
+    )
+
+
+def _head(*cells: str | Cell) -> str:
+    pairs = (cell if isinstance(cell, tuple) else (cell, "") for cell in cells)
+    return _row(pairs, tag="th")
+
+
+def _table(head: str, rows: Iterable[str]) -> str:
+    return f"<table><thead>{head}</thead><tbody>{''.join(rows)}</tbody></table>"
+
+
+def _row(cells: Iterable[Cell], style: str = "", *, tag: str = "td") -> str:
+    drawn = "".join(f"<{tag}{_class(style)}>{escape(text)}</{tag}>" for text, style in cells)
+    return f"<tr{_class(style)}>{drawn}</tr>"
+
+
+def _class(style: str) -> str:
+    return f' class="{style}"' if style else ""
+
+
+def _shown(value: float, unit: Unit) -> str:
+    return f"{digits(float(unit.of(value)))} {unit.name}"
+
+
+def _minus(text: str) -> str:
+    """Return a number with a proper minus sign."""
+    return text.replace("-", "−") if any(c.isdigit() for c in text) else text

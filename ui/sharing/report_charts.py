@@ -1,0 +1,249 @@
+"""The charts of the report: the pages' own, still, and sized for a sheet of paper."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal, TypeAlias
+
+from rotorcalc import whirl_energy
+from rotorcalc.figures import (
+    Chart,
+    coefficients,
+    equilibrium,
+    film,
+    machine,
+    modes,
+    response,
+    root_locus,
+    stability,
+    with_baseline,
+)
+from rotorcalc.units import Units
+from ui.computed import View
+from ui.words import stability as ask
+
+Charts: TypeAlias = dict[str, Chart]
+
+# The width of A4 and of Letter within the report's margins, and of two charts beside each other.
+FULL, HALF = 680, 334
+_HEIGHT = 228
+_LEGEND = {"orientation": "h", "x": 0, "y": 1.01, "yanchor": "bottom"}
+_MARGIN = {"l": 58, "r": 10, "t": 30, "b": 44}
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A chart of the report: `key` names its place, `draw` takes the machine and the units.
+
+    `titles` are shorter titles of axes, for a chart too low for its own; they may name `units`.
+    """
+
+    key: str
+    title: str
+    draw: Callable[[View, Units], Chart]
+    caption: str
+    width: int = HALF
+    height: int = _HEIGHT
+    titles: Mapping[str, str] = field(default_factory=dict[str, str])
+    legend: bool = True
+
+
+def _of_sweep(draw: Callable[..., Chart]) -> Callable[[View, Units], Chart]:
+    return lambda v, u: draw(v.sweep, v.point, u)
+
+
+def _of_modes(draw: Callable[[modes.OverSpeed], Chart]) -> Callable[[View, Units], Chart]:
+    return lambda v, u: draw(modes.OverSpeed(v.locus(True), v.onset, u))
+
+
+def _of_thresholds(draw: Callable[..., Chart]) -> Callable[[View, Units], Chart]:
+    return lambda v, u: draw(
+        whirl_energy.thresholds(v.sweep), whirl_energy.thresholds(v.point), ask.crossing(v), u
+    )
+
+
+def _of_coefficients(draw: Callable[..., Chart]) -> Callable[[View, Units], Chart]:
+    return lambda v, u: draw(v.sweep, v.point, v.coefficients("XY"), v.coefficients_here("XY"), u)
+
+
+def _dimensionless(symbol: Literal["k", "c"]) -> Callable[[View, Units], Chart]:
+    return lambda v, _: coefficients.dimensionless(
+        v.film_coefficients("XY"), v.film_coefficients_here("XY"), symbol, "σ"
+    )
+
+
+RESPONSE = "Imbalance response"
+SECTIONS: dict[str, tuple[Figure, ...]] = {
+    "Static equilibrium": (
+        Figure(
+            "cross_section", "Bearing",
+            lambda v, u: machine.cross_section(v.point, v.film, u),
+            "Film exaggerated; pressure at mid-length. Eq. 5.25.", height=285,
+        ),
+        Figure(
+            "path", "Journal's path",
+            lambda v, u: equilibrium.locus(v.curves, v.sweep, v.at_round_speeds, v.point, u),
+            "In the clearance circle. Eqs. 5.7, 5.8.", height=285,
+        ),
+        Figure(
+            "position", "Eccentricity and attitude angle",
+            _of_sweep(equilibrium.position_over_speed), "Eqs. 5.7, 5.8.",
+            titles={"yaxis": "ε [-]", "yaxis2": "φ [°]"},
+        ),
+        Figure(
+            "film", "Film", lambda v, u: film.film_around(v.film, v.point, u),
+            "Thickness, and pressure at mid-length. Eq. 5.25.",
+            titles={"yaxis": "h [{units.film.name}]", "yaxis2": "p [{units.pressure.name}]"},
+        ),
+        Figure(
+            "power", "Power loss", _of_sweep(equilibrium.power_loss), "Of one bearing. Sheet.",
+            titles={"yaxis": "P [{units.power.name}]"},
+        ),
+        Figure(
+            "flow", "Side flow", _of_sweep(equilibrium.side_flow), "Of one bearing. Sheet.",
+            titles={"yaxis": "Q [{units.flow.name}]"},
+        ),
+    ),
+    "Force coefficients": (
+        Figure(
+            "stiffness", "Stiffness", _of_coefficients(coefficients.stiffness_against_speed),
+            "Of one bearing, each speed at its own equilibrium. Eqs. 5.30, 5.35, 5.45.", FULL, 260,
+        ),
+        Figure(
+            "damping", "Damping", _of_coefficients(coefficients.damping_against_speed),
+            "Of one bearing. Eqs. 5.31, 5.35.", FULL, 260,
+        ),
+        Figure(
+            "k", "Dimensionless stiffness", _dimensionless("k"),
+            "Dashed: minus the value. Eq. 5.35.",
+        ),
+        Figure(
+            "c", "Dimensionless damping", _dimensionless("c"),
+            "Dashed: minus the value. Eq. 5.35.",
+        ),
+    ),
+    "Stability": (
+        Figure(
+            "threshold", "Threshold speed", _of_thresholds(stability.threshold),
+            "Where it meets the line Ω the rotor goes unstable. Eqs. 5.45, 5.46, 5.50.", FULL, 290,
+        ),
+        Figure(
+            "whirl", "Whirl frequency at the threshold", _of_thresholds(stability.whirl_frequency),
+            "About half the speed. Eq. 5.47.",
+        ),
+        Figure(
+            "mass", "Critical mass", _of_thresholds(stability.critical_mass),
+            "Unstable below 1. Eqs. 5.45, 5.46.", titles={"yaxis": "M_c/M [-]"},
+        ),
+        Figure(
+            "whirl_ratio", "Whirl ratio",
+            lambda v, _: stability.whirl_ratio(ask.film_figure(v)), "Fig. 5.7, Eq. 5.46.",
+        ),
+        Figure(
+            "threshold_speed", "Threshold of a rigid rotor",
+            lambda v, _: stability.threshold_speed(ask.film_figure(v)), "Fig. 5.8, Eq. 5.46.",
+        ),
+    ),
+    "Root locus": (
+        Figure(
+            "plane", "Complex plane", lambda v, u: root_locus.plane(v.locus(True), v.onset, u),
+            "Eigenvalues with rising speed, upper half; dotted: constant damping ratio.",
+            FULL, 300,
+        ),
+        Figure("growth", "Growth rate", _of_modes(modes.growth), "Unstable where one is positive."),
+        Figure("frequency", "Whirl frequency", _of_modes(modes.frequency), "ω_d = Im λ."),
+        Figure("ratio", "Damping ratio", _of_modes(modes.damping), "ζ = −Re λ/|λ|."),
+        Figure(
+            "natural", "Natural frequency",
+            lambda v, u: modes.natural(
+                modes.OverSpeed(v.locus(True), v.onset, u),
+                rigid=v.rigid_frequency, shaft=v.shaft_frequency,
+            ),
+            "ω_n = |λ|. Eq. 5.47.",
+        ),
+    ),
+    RESPONSE: (
+        Figure(
+            "amplitude", "Amplitude", lambda v, u: response.amplitude(v.response, "axes", u),
+            "Semi-axes of the orbits, zero to peak. Eq. 5.38.", FULL, 255,
+        ),
+        Figure(
+            "phase", "Phase lag", lambda v, u: response.phase(v.response, u),
+            "Behind the imbalance, which turns forward. Eq. 5.38.", FULL, 225,
+        ),
+        Figure(
+            "orbits", "Orbits", lambda v, u: response.at_running_speed(v.orbits, u),
+            "About equilibrium, at the running speed.", height=275,
+        ),
+        Figure(
+            "clearance", "Journal in its clearance",
+            lambda v, u: response.in_clearance(v.clearance_orbit, v.sweep.journal_position, u),
+            "Dotted: equilibrium at other speeds.", height=275, legend=False,
+        ),
+    ),
+}  # fmt: skip
+
+
+def sections(view: View) -> dict[str, tuple[Figure, ...]]:
+    """Return the charts that a machine has: a balanced one has no response."""
+    if view.machine.rotor.imbalance > 0.0:
+        return SECTIONS
+    return {title: figures for title, figures in SECTIONS.items() if title != RESPONSE}
+
+
+def charts(view: View, baseline: View | None, units: Units) -> Charts:
+    """Return the report's charts by key, another machine's behind the live one's."""
+    return {
+        figure.key: _chart(figure, view, baseline, units)
+        for figures in sections(view).values()
+        for figure in figures
+    }
+
+
+def _chart(figure: Figure, view: View, baseline: View | None, units: Units) -> Chart:
+    chart = _still(figure.draw(view, units))
+    if baseline is not None:
+        chart = with_baseline(chart, _still(figure.draw(baseline, units)))
+    return {
+        "data": [_unnamed(trace) for trace in chart["data"]],
+        "layout": _layout(figure, chart["layout"], units),
+    }
+
+
+def _layout(figure: Figure, layout: Mapping[str, Any], units: Units) -> dict[str, Any]:
+    """Return a layout in the report's size, with text in proportion."""
+    size = 12 if figure.width == FULL else 11
+    titled = {
+        key: {**layout[key], "title": {"text": title.format(units=units)}}
+        for key, title in figure.titles.items()
+    }
+    notes = [
+        {**note, "font": {**note.get("font", {}), "size": size - 1}}
+        for note in layout.get("annotations", ())
+    ]
+    return {
+        **layout,
+        **titled,
+        "annotations": notes,
+        "width": figure.width,
+        "height": figure.height,
+        "autosize": False,
+        "margin": _MARGIN,
+        "font": {**layout["font"], "size": size},
+        "legend": {**_LEGEND, "font": {"size": size - 1}},
+        **({} if figure.legend else {"showlegend": False}),
+    }
+
+
+def _unnamed(trace: dict[str, Any]) -> dict[str, Any]:
+    """Return a trace; the running speed's mark is the same on all charts and needs no legend."""
+    return {**trace, "showlegend": False} if trace.get("name") == "running speed" else trace
+
+
+def _still(chart: Chart) -> Chart:
+    """Return a chart without its speed slider and the traces that this moves."""
+    if "frames" not in chart:
+        return chart
+    moving = chart["frames"][0]["traces"]
+    layout = {key: value for key, value in chart["layout"].items() if key != "sliders"}
+    data = [trace for i, trace in enumerate(chart["data"]) if i not in moving]
+    return {"data": data, "layout": layout}

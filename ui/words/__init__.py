@@ -1,0 +1,1 @@
+"""What pages say and ask, a module a page."""

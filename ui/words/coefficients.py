@@ -1,0 +1,140 @@
+"""What the page of force coefficients says in words and matrices."""
+
+import numpy as np
+import streamlit as st
+
+from rotorcalc.analysis import Axes, ForceCoefficients
+from rotorcalc.coefficients import BULK_FLOW, LAMINAR
+from rotorcalc.units import Unit, Units
+from ui.computed import View
+from ui.results import digits, tex
+
+FRAMES: dict[Axes, str] = {"XY": "X, Y: along the load", "rt": "r, t: line of centres"}
+# From these shares of the rotor's mass on, the film's added mass is small, or worth counting.
+_SMALL, _LARGE = 0.01, 0.1
+
+
+def matrix(symbol: str, values: np.ndarray, unit: Unit, axes: Axes = "XY") -> str:
+    """Return the LaTeX of a 2×2 matrix of coefficients: its elements' names and their values."""
+    names = [[rf"{symbol}_{{{row}{column}}}" for column in axes] for row in axes]
+    numbers = [[tex(float(value)) for value in row] for row in unit.of(values)]
+    return f"{_bracket(names)}={_bracket(numbers)}{_unit(unit)}"
+
+
+def show_matrices(view: View, axes: Axes, units: Units) -> None:
+    """Show K, C and k, c at the running speed."""
+    here, film = view.coefficients_here(axes), view.film_coefficients_here(axes)
+    left, right = st.columns(2)
+    with left:
+        st.latex(matrix("K", here.stiffness, units.stiffness, axes))
+        _without_dimensions("k", film, film.stiffness, view)
+    with right:
+        st.latex(matrix("C", here.damping, units.damping, axes))
+        _without_dimensions("c", film, film.damping, view)
+    st.caption(
+        "K and C per bearing at the running speed, K_ij = −∂F_i/∂X_j (Eq. 5.14); "
+        "k = KC/F_o and c = CΩC/F_o (Eq. 5.32). "
+        + ("Eqs. 5.30, 5.31, 5.34." if axes == "rt" else "Eq. 5.35, k_YY and c_YY corrected.")
+    )
+
+
+def _without_dimensions(
+    symbol: str, film: ForceCoefficients, values: np.ndarray, view: View
+) -> None:
+    if view.unloaded:
+        st.caption(f"{symbol} is in units of the load, and there is none: no number.")
+    else:
+        st.latex(matrix(symbol, values, Unit("-"), film.axes))
+
+
+def dimensionless_caption(symbol: str, against: str) -> str:
+    """Return what the charts of k and c say."""
+    unit = "k = KC/F_o" if symbol == "k" else "c = CΩC/F_o"
+    figure = "5.5" if against == "ε" else "5.6"
+    return (
+        f"{unit}; dashed: minus the value, where that is negative. The load is the unit, so this "
+        f"does not show how the coefficients themselves go. Fig. {figure}, Eqs. 5.32 to 5.35"
+        + (", 5.45." if symbol == "k" else ".")
+    )
+
+
+def say_unloaded(view: View) -> None:
+    """Say why the dimensionless charts show no point without load."""
+    if view.unloaded:
+        st.info(
+            "Without load σ is infinite, ε is 0, and k and c, which are in units of the load, have "
+            "no value: the charts show no running speed. K and C against speed do."
+        )
+
+
+def show_centred(view: View, units: Units) -> None:
+    """Explain why a centred bearing has only cross-coupling, with this machine's numbers."""
+    centred, here = view.centred, view.unloading_here
+    unit = units.stiffness
+    st.markdown(
+        "Push a centred journal aside by a little. The film is now thinner where the journal went, "
+        "and the turning surface drags oil towards that place: pressure rises a quarter turn "
+        "**before** it, and pushes the journal sideways, on in the sense of rotation. Nothing "
+        "pushes it back: no direct stiffness, only $K_{XY} = -K_{YX}$. If the journal whirls at "
+        "half the shaft's speed, the narrow place travels as fast as the oil does on average, and "
+        "no pressure rises at all: stiffness and damping cancel, so $K_{XY} = "
+        "\\tfrac{\\Omega}{2}C_{XX}$ (Eq. 5.37). At this machine's speed, its load taken off:"
+    )
+    damping = tex(float(unit.of(centred.whirl_damping[0, 0])))
+    st.latex(matrix("K", centred.stiffness, unit))
+    st.latex(rf"\tfrac{{\Omega}}{{2}}C_{{XX}} = {damping}{_unit(unit)}")
+    st.markdown(_distance_from_centre(view, here.stiffness, units))
+
+
+def _distance_from_centre(view: View, K: np.ndarray, units: Units) -> str:
+    if view.unloaded:
+        return "This machine has no load: it runs exactly there, at ε = 0."
+    unit = units.stiffness
+    direct, cross = (digits(float(unit.of(K[place]))) for place in ((0, 0), (0, 1)))
+    return (
+        f"Under its load it runs at ε = {digits(float(view.point.eccentricity_ratio))}, with "
+        f"K_XX = {direct} and K_XY = {cross} {unit.name}."
+    )
+
+
+def show_added_mass(view: View, units: Units) -> None:
+    """Tell how much the film's added mass is, on what assumption, and whether it matters."""
+    laminar, bulk = view.added_mass_here(LAMINAR), view.added_mass_here(BULK_FLOW)
+    share = float(laminar.to_rotor)
+    st.latex(matrix("M", laminar.mass, units.mass))
+    st.latex(r"M_{ij} = \alpha_m\frac{\rho R L^3}{12\,C}\,I_{ij}(\varepsilon)")
+    density = digits(float(units.density.of(view.machine.oil.density)))
+    st.markdown(
+        f"**{_percent(share)} of half the rotor's mass**: {_verdict(share)} With a flat profile of "
+        f"velocity (bulk flow, α_m = 1) it is {_percent(float(bulk.to_rotor))}. At running speed "
+        f"the force of the film's inertia is {_percent(float(laminar.to_damping))} of the force of "
+        "its damping."
+    )
+    st.caption(
+        "Assumes laminar flow, α_m = 6/5, temporal inertia only, the film over half the "
+        f"circumference, and the oil's density of {density} {units.density.name} (sidebar, Oil). "
+        "Definition: Eq. 5.14. The rest of the program leaves added mass out, as the notes do."
+    )
+
+
+def _verdict(share: float) -> str:
+    if share < _SMALL:
+        return "it does not matter."
+    if share < _LARGE:
+        return "small; it would lower frequencies by about half as much at most."
+    return "worth counting; it would lower natural frequencies and the onset, which leave it out."
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.2g} %"
+
+
+def _unit(unit: Unit) -> str:
+    """Return the LaTeX of a unit; KaTeX has no raised three of its own."""
+    if unit.name == "-":
+        return ""
+    return r"\ \text{" + unit.name.replace("³", "}^3\\text{") + "}"
+
+
+def _bracket(rows: list[list[str]]) -> str:
+    return r"\begin{bmatrix}" + r"\\".join(" & ".join(row) for row in rows) + r"\end{bmatrix}"

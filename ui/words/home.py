@@ -1,0 +1,85 @@
+"""The home page: the machine at a glance."""
+
+import streamlit as st
+
+from rotorcalc import whirl_energy
+from rotorcalc.figures import equilibrium, machine, response, stability, style
+from ui.frame.page import Page, show
+from ui.words.stability import crossing
+from ui.words.verdict import verdict
+
+
+def content(page: Page) -> None:
+    """Draw the machine at a glance."""
+    units = page.units
+
+    judged = verdict(page.view, units)
+    (st.success if judged.level == "stable" else st.error)(judged.sentence)
+
+    bearing, results = st.columns([2, 3], gap="large")
+    with bearing:
+        scale = st.segmented_control(
+            "Film drawn", ["exaggerated", "to scale"], key="film_scale", default="exaggerated",
+            required=True, persist_state="session", label_visibility="collapsed",
+        )  # fmt: skip
+        page.chart(
+            lambda v: machine.cross_section(
+                v.point, v.middle_film, units, to_scale=scale == "to scale"
+            ),
+            "cross_section",
+            alt="Cross-section of the bearing with the journal, the load and the film's pressure",
+            caption="Journal in its bearing, seen along the shaft. Pressure of the film: Eq. 5.25.",
+        )
+    with results:
+        st.caption("Stability")
+        page.results("onset_speed", "whirl_frequency", "margin", "damping_ratio")
+        st.caption("Static equilibrium")
+        page.results("eccentricity_ratio", "attitude_angle", "minimum_film_thickness", "power_loss")
+        st.caption(
+            "Imbalance response" if page.view.is_stable else "Imbalance response, if it were stable"
+        )
+        page.results("disk_amplitude", "journal_amplitude", "disk_peak", "journal_peak")
+
+    locus, threshold, swing = st.columns(3)
+    with locus:
+        page.chart(
+            lambda v: style.small(
+                equilibrium.locus(v.curves, v.sweep, v.at_round_speeds, v.point, units)
+            ),
+            "home_locus",
+            alt="Path of the journal's centre in the clearance circle, and its place now",
+            caption="Where the journal sits. Eqs. 5.7, 5.8.",
+        )
+        st.page_link("pages/1_Equilibrium.py", label="Static equilibrium")
+    with threshold:
+        page.chart(
+            lambda v: style.small(
+                stability.threshold(
+                    whirl_energy.thresholds(v.sweep),
+                    whirl_energy.thresholds(v.point),
+                    crossing(v),
+                    units,
+                )
+            ),
+            "home_threshold",
+            alt="Threshold speed over running speed, and the line that it crosses at the onset",
+            caption="Where it goes unstable: the threshold meets the line Ω. Eqs. 5.45–5.50.",
+        )
+        st.page_link("pages/3_Stability.py", label="Stability")
+    with swing:
+        page.chart(
+            lambda v: style.small(response.amplitude(v.response, "axes", units)),
+            "home_response",
+            alt="Size of the orbits of disk and journal over running speed",
+            caption="How far disk and journals swing. Eq. 5.38.",
+        )
+        st.page_link("pages/5_Response.py", label="Imbalance response")
+
+
+def draw() -> None:
+    """Draw the page."""
+    show(
+        "Machine at a glance",
+        "A rotor on two journal bearings: is it stable, and how does it move?",
+        content,
+    )

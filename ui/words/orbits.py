@@ -1,0 +1,395 @@
+"""What the orbits page asks of the core: releases, run-ups, limit cycles, and words for them."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Literal, TypeVar
+
+import numpy as np
+import streamlit as st
+
+from rotorcalc import Bifurcation, BifurcationError, Machine, Onsets, TransientError, bifurcation
+from rotorcalc.arrays import Array
+from rotorcalc.figures import Units
+from rotorcalc.figures.orbits import GrowthCurve, RunUp
+from rotorcalc.figures.text import amount
+from rotorcalc.nonlinear.limit_cycles import sweep
+from rotorcalc.nonlinear.release import Release
+from ui.computed import View, view_of
+from ui.frame.page import Page
+from ui.inputs import INPUTS, PRESET_VALUES
+from ui.jobs import cache, queue, work
+from ui.jobs.work import Progress
+from ui.results import digits, leading
+from ui.session import state
+
+T = TypeVar("T")
+
+_KICK, _REVOLUTIONS = "orbits_kick", "orbits_revolutions"
+# Swings of its fastest mode that a release is followed for, and revolutions at least.
+_MOST_SWINGS, _FEWEST = 800, 16
+# Sizes, in clearances, below which a journal is at rest, and from which a circle is a whirl.
+_AT_REST, _WHIRLS = 2e-3, 0.02
+# Between these ratios of late to early size a motion neither dies nor grows.
+_STAYS = (0.8, 1.25)
+# A rigid rotor just below a subcritical onset: ε = 0.06, p² one per cent below critical.
+_SUBCRITICAL = PRESET_VALUES["sheet-1e8"] | {
+    "mass": 660.0, "load": 948.0, "k": math.inf, "u": 0.0, "rpm": 5730.0, "rpm_max": 8000.0,
+}  # fmt: skip
+
+Demo = Literal["below", "above", "small", "big"]
+_DEMOS: dict[Demo, tuple[str, float, int]] = {
+    "below": ("5 % below onset", 0.30, 60),
+    "above": ("5 % above onset", 0.05, 160),
+    "small": ("Subcritical: small kick", 0.01, 400),
+    "big": ("Subcritical: big kick", 0.25, 400),
+}
+_ABOUT_DEMOS = (
+    "The first two take this machine without its imbalance, which can hold a whirl down. The last "
+    "two take a rigid rotor 0.5 % below its onset, at ε = 0.06, where the linear theory promises "
+    "that every whirl dies."
+)
+
+
+@dataclass(frozen=True)
+class Ask:
+    """How the journal is let go: how far off its rest, in clearances, and for how long."""
+
+    kick: float
+    revolutions: int
+
+
+# Half a megabyte each, at most four.
+_release = cache.Kept(work.release, entries=32, megabytes=24, turns=queue.SHORT)
+_long_release = cache.Kept(work.release, entries=16, megabytes=40)
+_run_up = cache.Kept(work.run_up, entries=8, megabytes=16)
+_cycles = cache.Kept(bifurcation, entries=16, megabytes=16)
+_three = cache.Kept(work.three_onsets, entries=16, megabytes=4)
+
+# --- How the journal is let go ----------------------------------------------------------------
+
+
+def choose_release(view: View) -> Ask:
+    """Show the demonstrations, kick and length; return what is asked for."""
+    st.session_state.setdefault(_KICK, 0.30)
+    st.session_state.setdefault(_REVOLUTIONS, 40)
+    with st.container(horizontal=True, gap="small"):
+        for demo, (label, _, _) in _DEMOS.items():
+            st.button(
+                label, key=f"orbits_{demo}", help=_ABOUT_DEMOS, on_click=_set_up, args=(demo,),
+                disabled=not _can_set_up(demo, view),
+            )  # fmt: skip
+    left, right = st.columns(2)
+    with left:
+        kick = st.slider(
+            "Journal let go above its rest by, over C [-]", 0.0, 1.2, step=0.01, key=_KICK,
+            persist_state="session", help="Against the load, at rest, the shaft with its sag.",
+        )  # fmt: skip
+    with right:
+        turns = st.slider(
+            "Revolutions [-]", 20, 600, step=20, key=_REVOLUTIONS, persist_state="session"
+        )
+    return Ask(kick, turns)
+
+
+def _can_set_up(demo: Demo, view: View) -> bool:
+    return demo in ("small", "big") or not INPUTS["rpm"].problem(_demo_rpm(demo, view))
+
+
+def _demo_rpm(demo: Demo, view: View) -> float:
+    rpm = view.onset.speed * (0.95 if demo == "below" else 1.05) * 30.0 / math.pi
+    return round(rpm, 1) if math.isfinite(rpm) else rpm
+
+
+def _set_up(demo: Demo) -> None:
+    kept = state()
+    if demo in ("small", "big"):
+        kept.set_preset("sheet-1e8")
+        kept.values |= _SUBCRITICAL
+    else:
+        rpm = _demo_rpm(demo, view_of(kept.values))
+        kept.set_value("u", 0.0)
+        kept.set_value("rpm", rpm)
+    _, st.session_state[_KICK], st.session_state[_REVOLUTIONS] = _DEMOS[demo]
+
+
+def let_go(view: View, ask: Ask, tell: Progress | None = None) -> Release:
+    """Return the release of a machine's journal."""
+    ask = _affordable(view, ask)
+    release = _long_release if ask.revolutions >= work.LONG else _release
+    return release(view.machine, view.speed, ask.kick, ask.revolutions, tell=tell)
+
+
+def _affordable(view: View, ask: Ask) -> Ask:
+    """Return what is asked for, shorter where the machine swings many times in a revolution."""
+    swings = float(np.abs(view.point.flexible_eigenvalues.imag).max()) / view.speed
+    most = max(_FEWEST, round(_MOST_SWINGS / max(swings, 1.0)))
+    return ask if ask.revolutions <= most else replace(ask, revolutions=most)
+
+
+def try_out(page: Page, ask: Ask) -> tuple[Page, Release]:
+    """Return the release, and the page without a pinned machine that allows none.
+
+    Say in words why there is none, and stop, where there is none.
+    """
+    ask = _affordable(page.view, ask)
+    bar = st.progress(0.0, "Integrating …") if ask.revolutions >= work.LONG else None
+    try:
+        found = let_go(page.view, ask, None if bar is None else bar.progress)
+    except (ValueError, TransientError) as error:
+        st.error(f"{error}", title="This release cannot be computed")
+        st.stop()
+    finally:
+        if bar is not None:
+            bar.empty()
+    if page.baseline is not None:
+        try:
+            let_go(page.baseline, ask)
+        except (ValueError, TransientError):
+            return replace(page, baseline=None), found
+    return page, found
+
+
+# --- What became of it ------------------------------------------------------------------------
+
+
+def say_outcome(view: View, asked: Ask, found: Release, units: Units) -> None:
+    """Say in one sentence what the journal did, and in another what the linear theory said."""
+    followed = round(float(found.revolutions[-1]))
+    if followed < asked.revolutions and not found.stopped:
+        st.info(
+            f"This machine swings so often in a revolution that only {followed} of them are "
+            "followed."
+        )
+    if found.stopped:
+        st.warning(f"The integration ended early: {found.stopped}.")
+    whirls = _is_whirling(found)
+    show = st.warning if whirls else st.success
+    show(f"{_outcome(found, units)} {_theory(view, found)}")
+
+
+def _is_whirling(found: Release) -> bool:
+    seen, C = found.spectrum, found.clearance
+    return seen.whirl > max(_WHIRLS * C, 0.5 * seen.synchronous) and _trend(found) > _STAYS[0]
+
+
+def _trend(found: Release) -> float:
+    """Return the size of the motion in its last quarter over that in its second."""
+    n = found.settled
+    earlier = float(found.size[n : 2 * n].max())
+    return found.last_size / earlier if earlier > 0.0 else 1.0
+
+
+def _outcome(found: Release, units: Units) -> str:
+    C, seen, turns = found.clearance, found.spectrum, f"{found.revolutions[-1]:.0f} revolutions"
+    size = f"{found.last_size / C:.3g} C from rest"
+    thin = f"its film gets as thin as {amount(units.film, found.film.min())}"
+    if _is_whirling(found):
+        grows = " and growing" if _trend(found) > _STAYS[1] else ""
+        return (
+            f"After {turns} the journal whirls at {seen.whirl_ratio:.3f} of the running speed, up "
+            f"to {size}{grows}; {thin}."
+        )
+    if found.last_size < _AT_REST * C:
+        return f"Within {turns} the journal comes to rest."
+    if seen.synchronous > 0.5 * found.last_size:
+        return f"After {turns} the journal follows the imbalance, up to {size}; {thin}."
+    low, high = _STAYS
+    way = "dying" if _trend(found) < low else "growing" if _trend(found) > high else "going on"
+    return f"After {turns} the motion is still {way}, up to {size}; {thin}."
+
+
+def _theory(view: View, found: Release) -> str:
+    rate = digits(abs(found.whirl.real))
+    if math.isnan(found.whirl.real):
+        return "The linear theory knows no whirl here."
+    if not view.is_stable:
+        said = f"The linear theory: unstable, a small whirl grows at {rate} 1/s"
+        if not _is_whirling(found) and found.spectrum.synchronous > 0.0:
+            return f"{said}. It takes whirl and imbalance apart; together, this holds that down."
+        return f"{said}."
+    said = f"The linear theory: stable, a small whirl dies at {rate} 1/s"
+    if _is_whirling(found) and found.last_size > found.first_size:
+        return f"{said}. This kick was too large for it."
+    return f"{said}."
+
+
+def show_measured(view: View, found: Release, units: Units) -> None:
+    """Show what the spectrum says beside what the linear theory says."""
+    seen, C = found.spectrum, found.clearance
+    ratio = "no whirl" if math.isnan(seen.whirl_ratio) else f"{seen.whirl_ratio:.4f}"
+    predicted = found.whirl.imag / view.speed
+    rows = [
+        ("Whirl ratio, measured", ratio),
+        ("Whirl ratio, linear", "none" if math.isnan(predicted) else f"{predicted:.4f}"),
+        ("Whirl's circle", amount(units.film, seen.whirl)),
+        ("1× circle", amount(units.film, seen.synchronous)),
+        ("Ends within", f"{found.last_size / C:.3g} C of rest"),
+    ]
+    with st.container(horizontal=True):
+        for label, value in rows:
+            st.metric(label, value)
+
+
+# --- Long work: on demand, with progress and a way out ----------------------------------------
+
+
+def on_demand(
+    page: Page, label: str, key: str, token: object, work: Callable[[Progress | None], T]
+) -> T | None:
+    """Return what work gives once a visitor asks for it; until then show a button.
+
+    `token` names what the work is about: when it changes, the visitor is asked again. While it
+    runs, a bar shows how far it is, and a button ends it: its click makes the page run anew, and
+    the next word of progress ends the old run.
+    """
+    asked, done, place = f"{key}_asked", f"{key}_done", st.empty()
+    if st.session_state.get(asked) != token:
+        place.button(label, key=key, on_click=lambda: st.session_state.update({asked: token}))
+        return None
+    if st.session_state.get(done) == token:
+        return work(None)
+    page.run_whole()
+    with place.container():
+        bar = st.progress(0.0, "Computing …")
+        st.button("Cancel", key=f"{key}_cancel", on_click=lambda: st.session_state.pop(asked, None))
+    result = work(bar.progress)
+    place.empty()
+    st.session_state[done] = token
+    return result
+
+
+def ask_run_up(page: Page) -> RunUp | None:
+    """Return the run-up's spectra once asked for."""
+    view = page.view
+    token = ("run-up", view.machine, view.top_speed)
+    found = on_demand(
+        page, "Run up to the top speed", "orbits_run_up", token,
+        lambda tell: _try(lambda: _run_up(view.machine, view.top_speed, tell=tell)),
+    )  # fmt: skip
+    if found is None:
+        return None
+    return replace(found, onset=view.onset.speed, running_speed=view.speed)
+
+
+def run_up_caption(view: View) -> str:
+    """Return what the waterfall shows."""
+    stirred = view.machine.rotor.imbalance == 0.0
+    return (
+        f"{work.RUN_UP_REVOLUTIONS} revolutions from {work.RUN_UP_FROM:g} times the top speed to "
+        "the top speed, the journal's forward circles; dashed: Im λ/Ω of the least damped whirl."
+        + (" An imbalance of C/1000 stirs the balanced rotor." if stirred else "")
+    )
+
+
+def ask_cycles(page: Page) -> Bifurcation | None:
+    """Return the limit cycles once asked for; say in words why there are none."""
+    view, onset = page.view, page.view.onset.speed
+    if not 0.0 < onset < math.inf:
+        st.info(_no_onset(onset))
+        return None
+    return on_demand(
+        page, "Follow the limit cycles", "orbits_cycles", ("cycles", _balanced(view.machine)),
+        lambda tell: _try(lambda: _cycles(_balanced(view.machine), tell=tell)),
+    )  # fmt: skip
+
+
+def swept(branch: Bifurcation) -> tuple[Array, Array, Array]:
+    """Return speeds, and the amplitudes of creeping up and down through them."""
+    onset = branch.hopf.speed
+    low, high = min(float(branch.speed.min()), 0.97 * onset), float(branch.speed.max())
+    speeds = np.linspace(low - 0.1 * (high - low), max(high, 1.001 * onset), 400)
+    return speeds, sweep(branch, speeds), sweep(branch, speeds, down=True)
+
+
+def say_cycles(branch: Bifurcation, units: Units) -> None:
+    """Say which way the whirl sets in."""
+    found = branch.hopf
+    rate = f"ℓ = {digits(abs(found.lyapunov))} 1/s".replace(
+        "= ", "= " if found.subcritical else "= −"
+    )
+    error = f"± {found.lyapunov_error:.1g}"
+    at = f"ε = {found.eccentricity_ratio:.4f}"
+    if found.subcritical:
+        where = ""
+        if len(branch.folds):
+            fold = digits(float(units.speed.of(branch.folds.min())))
+            share = digits((1.0 - branch.folds.min() / found.speed) * 100.0)
+            where = (
+                f" From {fold} {units.speed.name}, {share} % below the onset, a large enough kick "
+                "makes the machine whirl for good, and creeping down it whirls as far."
+            )
+        st.warning(f"Subcritical at {at}: {rate} ({error}).{where}")
+    else:
+        st.info(
+            f"Supercritical at {at}: {rate} ({error}). Above the onset a small whirl grows gently "
+            "with speed and goes with it."
+        )
+
+
+# --- Three ways to the onset ------------------------------------------------------------------
+
+
+def ask_onsets(view: View) -> tuple[Onsets, GrowthCurve] | None:
+    """Return the onset found three ways, and growth over speed; say why where there is none."""
+    onset = view.onset.speed
+    if not 0.0 < onset < math.inf:
+        st.info(_no_onset(onset))
+        return None
+    return _try(lambda: three_onsets(view))
+
+
+def three_onsets(view: View) -> tuple[Onsets, GrowthCurve]:
+    """Return the onset found three ways, and growth over speed, of a machine that has one."""
+    found, curve = _three(_balanced(view.machine))
+    here = leading(view).real
+    return found, replace(curve, running_speed=view.speed, running_rate=here)
+
+
+def with_onset(page: Page) -> Page:
+    """Return the page without a pinned machine that has no onset."""
+    pinned = page.baseline
+    return page if pinned is None or 0.0 < pinned.onset.speed < math.inf else page.alone()
+
+
+def say_onsets(found: Onsets, units: Units) -> None:
+    """Show the three answers side by side, and say whether they agree."""
+    rows = (
+        ("Closed form", found.closed_form, "Eqs. 5.45 to 5.50, Ω = Ωₛ(ε(Ω))"),
+        ("Eigenvalues", found.eigenvalues, "max Re λ = 0"),
+        ("Measured growth in time", found.measured, "the nonlinear motion neither grows nor dies"),
+    )
+    with st.container(key="results_onsets"):
+        for label, speed, how in rows:
+            unknown = "no closed form" if label == "Closed form" else "not found"
+            reading = f"{float(units.speed.of(speed)):.2f} {units.speed.name}"
+            st.metric(label, unknown if math.isnan(speed) else reading)
+            st.caption(how)
+    if found.agree:
+        st.success(f"They agree: the largest difference is {found.spread:.1e} of the onset.")
+    elif math.isnan(found.measured):
+        st.warning("No onset was measured from half to twice the speed that the eigenvalues give.")
+    else:
+        st.error(f"They disagree by {found.spread:.1%} of the onset.")
+
+
+def _balanced(machine: Machine) -> Machine:
+    return replace(machine, rotor=replace(machine.rotor, imbalance=0.0))
+
+
+def _no_onset(onset: float) -> str:
+    if onset == 0.0:
+        return (
+            "Without load this machine whirls at any speed (Eq. 5.37): there is no onset at which "
+            "a limit cycle could be born, and none to compare."
+        )
+    return "No speed makes this machine whirl: it has no onset, and no limit cycles are born."
+
+
+def _try(work: Callable[[], T]) -> T | None:
+    """Return what work gives, or say in words why it gives nothing."""
+    try:
+        return work()
+    except (ValueError, TransientError, BifurcationError) as error:
+        st.error(f"{error}", title="This cannot be computed")
+        return None

@@ -1,0 +1,104 @@
+"""What the page of the imbalance response says in words."""
+
+from collections.abc import Callable
+from typing import Literal
+
+import streamlit as st
+
+from rotorcalc import Machine, Rotor
+from rotorcalc.unbalance_curves import damping_variants, journal_mass_variants
+from rotorcalc.units import Units
+from ui.computed import View
+from ui.results import digits
+
+SHOWN: dict[Literal["axes", "XY"], str] = {"axes": "Orbit's axes", "XY": "X and Y"}
+VARIED: dict[Literal["damping", "mass"], str] = {
+    "damping": "Midspan damping",
+    "mass": "Journal mass",
+}
+ORBIT_MARKS = (
+    "Dots: where each is when the imbalance points down; arrowheads: the sense of whirl. Eq. 5.38."
+)
+VARIANTS: dict[str, Callable[[Machine], tuple[Rotor, ...]]] = {
+    "damping": damping_variants,
+    "mass": journal_mass_variants,
+}
+
+
+def say_balanced(view: View) -> bool:
+    """Say that a balanced rotor stands still, and return whether it is one."""
+    balanced = view.machine.rotor.imbalance == 0.0
+    if balanced:
+        st.info(
+            "The rotor is perfectly balanced (u = 0): nothing drives a synchronous motion, and "
+            "disk and journal rest in their equilibrium. Move the slider **Imbalance u** in the "
+            "sidebar's group Shaft and disk to see a response."
+        )
+    return balanced
+
+
+def say_limits(view: View, units: Units) -> None:
+    """Warn where the response shown is not what would happen."""
+    if not view.is_stable:
+        st.error(
+            "The machine is unstable at its running speed: it whirls with growing amplitude, and "
+            "the steady response shown there would not last."
+        )
+    reach = view.clearance_orbit.reach
+    if reach >= 1.0:
+        C = float(units.film.of(view.machine.bearing.radial_clearance))
+        st.warning(
+            f"By this linear theory the journal would move {digits(reach * C)} {units.film.name} "
+            f"from the bearing's centre, beyond the clearance of {digits(C)} {units.film.name}. "
+            "The film stiffens long before: take its orbit as a sign of trouble, not as a size."
+        )
+
+
+def amplitude_caption(view: View) -> str:
+    """Return what the chart of amplitudes says."""
+    peaks = (
+        "diamonds (with X and Y dotted lines) mark the largest orbits"
+        if len(view.disk_peaks.speed) or len(view.journal_peaks.speed)
+        else "no peak up to the top speed"
+    )
+    unstable = (
+        " Shaded: unstable, no steady response exists." if len(view.response.unstable) else ""
+    )
+    return f"Zero to peak, about equilibrium; {peaks}.{unstable} Eq. 5.38."
+
+
+def senses(view: View) -> str:
+    """Return in which sense disk and journal whirl at the running speed."""
+    orbits = view.orbits
+    journal = _sense(bool(orbits.journal_forward))
+    if orbits.is_rigid:
+        return f"The shaft is rigid: disk and journal move alike. The orbit runs {journal}."
+    disk = _sense(bool(orbits.disk_forward))
+    if disk == journal:
+        return f"Disk and journal both whirl {disk}."
+    return f"The disk whirls {disk}, the journal {journal}."
+
+
+def explain_family(view: View, varied: Literal["damping", "mass"]) -> None:
+    """Say what the family's lines are."""
+    rotor = view.machine.rotor
+    if varied == "damping":
+        shares = (
+            "the centred film's damping"
+            if rotor.is_rigid
+            else "the critical damping of the disk on its shaft, 2√(Kᵣₒₜ M)"
+        )
+        st.markdown(
+            "The thickest line is this machine, the others the same with a damper at midspan of "
+            f"0, 5, 10, 20 and 50 % of {shares}. Dotted where the machine is unstable."
+        )
+        return
+    st.markdown(
+        "The thickest line is this machine, the others the same with 0, 5, 10, 20 and 40 % of half "
+        "the rotor's mass moved from the disk to each journal. Dotted where the machine is "
+        "unstable. The imbalance is the disk's, so a lighter disk is also driven less."
+    )
+
+
+def _sense(forward: bool) -> str:
+    return "forward, with the shaft" if forward else "backward, against the shaft"

@@ -1,0 +1,148 @@
+"""The modes at the running speed, in words."""
+
+import math
+
+import streamlit as st
+
+from rotorcalc import modes
+from rotorcalc.arrays import ComplexArray
+from rotorcalc.modes import ModeShapes
+from rotorcalc.onset.search import Onset
+from rotorcalc.unbalance_response import orbit_ellipse
+from rotorcalc.units import Units
+from ui.computed import View
+
+ALTS = {
+    "locus": "Eigenvalues in the complex plane as the speed rises: left of the imaginary axis a "
+    "mode decays, right of it the mode grows. A slider under the chart moves the speed.",
+    "growth": "Real part of each eigenvalue against speed; positive is unstable.",
+    "frequency": "Whirl frequency of each mode against speed, with the speed and half of it.",
+    "damping": "Damping ratio of each mode against speed.",
+    "natural": "Natural frequency of each mode against speed, beside that of a rigid rotor on the "
+    "film and of the shaft alone.",
+    "decrement": "Logarithmic decrement of each mode against speed.",
+    "shape": "Orbits of disk and journal in one mode, seen along the shaft.",
+}
+CAPTIONS = {
+    "locus": "Eigenvalues λ of Eq. 5.38 (rigid) and of the calculation sheet (flexible), the upper "
+    "half of the plane; the lower is its mirror image. Dotted rays: constant damping ratio ζ.",
+    "growth": "Real part of λ: unstable as soon as one is positive. Eq. 5.42 holds at zero.",
+    "frequency": "Imaginary part of λ. The film's whirl follows ½× (Eq. 5.48); imbalance excites "
+    "a mode where it crosses 1×.",
+    "damping": "ζ = −Re λ/|λ|: zero at the onset; 1, dotted, where a mode does not oscillate.",
+    "natural": "|λ|, beside √(K_eq/M) of a rigid rotor on the film (Eq. 5.47) and √(K_rot/M) of "
+    "the shaft in rigid bearings. The rigid rotor's onset is where its mode meets √(K_eq/M).",
+    "decrement": "δ = −2π Re λ/|Im λ|: each turn's amplitude is e^(−δ) of the one before.",
+    "shape": "Right eigenvector of λ, its largest displacement 1; orbits about equilibrium. X "
+    "points down along the load, the shaft turns counterclockwise, from X to Y.",
+}
+HOW_TO_READ = """
+**How to read these charts**
+
+- Modes are numbered by rising frequency at the lowest speed, and keep their number where curves
+  cross.
+- Two eigenvalues that are mirror images are one mode; only the one with Im λ ≥ 0 is drawn.
+- A **real eigenvalue does not oscillate**: the journal creeps back through the oil. It has a growth
+  rate, drawn dotted, but no frequency and no decrement.
+- The rigid rotor's curve √(K_eq/M) is its whirl frequency *at* the onset. Below the onset its mode
+  follows half the running speed instead.
+"""
+ABOUT_MODES = """
+Film and shaft carry the whirl in series: the disk moves more than the journals by what the shaft
+bends. Near the onset the orbit is nearly a circle and turns **forward**, with the shaft: the
+cross-coupled stiffness K_XY − K_YX can feed only a forward whirl.
+
+The table gives the direction and the ratio of the orbit's axes, minor to major. A real eigenvalue
+has no orbit: disk and journals creep along a line.
+"""
+
+
+def choose_shaft(view: View) -> bool:
+    """Show the choice between the shaft as it is and a rigid one; return whether it bends."""
+    if view.machine.rotor.is_rigid:
+        st.caption("The shaft is rigid: disk and journals move as one.")
+        return False
+    st.session_state.setdefault("locus_shaft", "flexible")
+    chosen = st.segmented_control(
+        "Shaft",
+        ["flexible", "rigid"],
+        key="locus_shaft",
+        required=True,
+        persist_state="session",
+        help="The shaft as the sidebar has it, or the same rotor on a rigid shaft.",
+    )
+    return chosen != "rigid"
+
+
+def crossing(onset: Onset, top_speed: float, units: Units) -> str:
+    """Return in words where a mode crosses the imaginary axis."""
+    if math.isinf(onset.speed):
+        return "No mode crosses the imaginary axis: this film cannot make this rotor whirl."
+    speed = f"{float(units.speed.of(onset.speed)):.0f} {units.speed.name}"
+    if onset.speed == 0.0:
+        return "Without load the film has no direct stiffness, and the rotor whirls at any speed."
+    if onset.speed > top_speed:
+        return f"The onset, {speed}, lies above the top speed of this chart."
+    whirl = f"{float(units.speed.of(onset.whirl_frequency)):.0f} {units.speed.name}"
+    ratio = f"{onset.whirl_frequency / onset.speed:.3f}"
+    return (
+        f"A mode crosses the imaginary axis at {speed}, whirling at {whirl}, {ratio} of the speed."
+    )
+
+
+def choose_mode(here: ModeShapes, leading: int, units: Units) -> int:
+    """Show the choice of a mode; return its index."""
+    names = [
+        f"{i + 1}: {_frequency(complex(value), units)}" for i, value in enumerate(here.eigenvalues)
+    ]
+    chosen = st.selectbox(
+        "Mode", range(len(names)), index=leading, format_func=lambda i: names[i], key="locus_mode"
+    )
+    return leading if chosen is None else chosen
+
+
+def table(here: ModeShapes, speed: float, units: Units) -> str:
+    """Return the modes at the running speed as a table in Markdown, a column each for a phone."""
+    count = len(here.eigenvalues)
+    columns = (_column(here, i, speed, units) for i in range(count))
+    names = (
+        "Mode", f"Whirl frequency [{units.speed.name}]", "× speed",
+        f"Growth rate [{units.growth.name}]", "Damping ratio ζ", "Log. decrement δ",
+        "Disk's orbit", "Journal's orbit",
+    )  # fmt: skip
+    head, *rows = zip(names, *columns, strict=True)
+    lines = (head, (":--", *["--:"] * count), *rows)
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
+
+
+def _column(here: ModeShapes, i: int, speed: float, units: Units) -> tuple[str, ...]:
+    value = complex(here.eigenvalues[i])
+    rate = f"{value.real:.4g}".replace("-", "−")
+    if value.imag <= 0.0:
+        words = "does not oscillate" if value.imag == 0.0 else "mirror image of another mode"
+        return f"{i + 1}", words, "", rate, "", "", "–", "–"
+    ratio, decrement = float(modes.damping_ratio(value)), float(modes.logarithmic_decrement(value))
+    return (
+        f"{i + 1}",
+        f"{float(units.speed.of(value.imag)):.0f}",
+        f"{value.imag / speed:.3f}",
+        rate,
+        f"{ratio:.4f}".replace("-", "−"),
+        f"{decrement:.3f}".replace("-", "−"),
+        _direction(here.disk[i]),
+        _direction(here.journal[i]),
+    )
+
+
+def _direction(phasors: ComplexArray) -> str:
+    orbit = orbit_ellipse(phasors[0], phasors[1])
+    roundness = float(orbit.semi_minor / orbit.semi_major)
+    if math.isnan(roundness) or abs(roundness) < 0.005:
+        return "along a line"
+    return f"{'forward' if roundness > 0 else 'backward'}, {abs(roundness):.2f}"
+
+
+def _frequency(value: complex, units: Units) -> str:
+    if value.imag <= 0.0:
+        return "does not oscillate"
+    return f"{float(units.speed.of(value.imag)):.0f} {units.speed.name}"

@@ -1,0 +1,261 @@
+"""What the stability page asks of the core: records for its charts, its visitor's choices, answers.
+
+Inputs go here by their keys in `ui.inputs`; the core names them by the fields of its records.
+"""
+
+import math
+from functools import lru_cache
+
+import streamlit as st
+
+from rotorcalc import JournalBearing, Machine, design, film_curves, variation, whirl_energy
+from rotorcalc.analysis import FilmCurves
+from rotorcalc.arrays import Array
+from rotorcalc.figures.design import Quantity
+from rotorcalc.figures.stability import Crossing, Energies, FilmFigure
+from rotorcalc.onset import closed_form
+from rotorcalc.units import SI, Units
+from ui.computed import View
+from ui.inputs import INPUTS
+from ui.jobs import cache, work
+from ui.results import digits
+
+# The core's names for the inputs that move an onset.
+FIELDS = {
+    "mass": "rotor.mass", "load": "load", "T": "temperature", "mu": "oil.reference_viscosity",
+    "alpha": "oil.temperature_coefficient", "C": "bearing.radial_clearance",
+    "D": "bearing.diameter", "L": "bearing.length", "k": "rotor.shaft_stiffness",
+    "cs": "rotor.disk_damping", "mj": "rotor.journal_mass",
+}  # fmt: skip
+_KEYS = {name: key for key, name in FIELDS.items()}
+# Whose effect goes by ratios: drawn and searched over a logarithmic axis.
+_BY_RATIO = {"mass", "load", "mu", "C", "D", "L", "k"}
+_SMALLEST_LOAD = 10.0  # N, the end of a logarithmic axis
+# Cells a side of a map: where the onset has a closed form, and where each cell takes eigenvalues.
+_FINE, _COARSE = 60, 11
+_onset_map = cache.Kept(work.onset_map, entries=32, megabytes=8)
+_sensitivities = cache.Kept(design.sensitivities, entries=64, megabytes=4)
+_solution = cache.Kept(work.solution, entries=64, megabytes=4)
+BARE = (
+    "Midspan damping or journal mass: the closed forms, drawn dashed, are those of the rotor "
+    "without them and no longer tell the onset. The vertical line does, found on the eigenvalues."
+)
+WORK = r"""
+\begin{gathered}
+\oint \mathbf F\cdot d\mathbf x = \underbrace{(K_{XY}-K_{YX})\,A}_{\text{fed in}}
+ - \underbrace{\pi\omega\,\mathbf P^{*}\mathbf C\,\mathbf P}_{\text{taken out}} \\
+\mathbf F=-\mathbf K\mathbf x-\mathbf C\dot{\mathbf x},\quad
+\mathbf x=\mathrm{Re}\{\mathbf P e^{j\omega t}\} \\
+A=\oint x\,dy=\pi\,\mathrm{Im}(P_X\overline{P}_Y)
+\end{gathered}
+"""
+WORK_WORDS = (
+    "The symmetric part of K gives back what it takes. Only $K_{XY}-K_{YX}$ does work on a closed "
+    "orbit: it pushes along the motion, a force that follows the whirl, and in proportion to the "
+    "orbit's area."
+)
+TORNADO = (
+    "One input 10 % less or more, all others kept; a temperature, whose zero means nothing, moves "
+    "by the degrees shown. Beside each input: the onset's movement for less / more. Rotor mass "
+    "takes the load with it where that is half the weight. Inputs at zero or infinite are left out."
+)
+# Fig. 5.10's static sags over clearance, beside this machine's own.
+_SAGS = (0.0, 0.3, 1.0, 3.0, 10.0)
+
+
+# --- Records for the charts -------------------------------------------------------------------
+
+
+def crossing(view: View) -> Crossing:
+    """Return where the machine goes unstable."""
+    return Crossing(onset=view.onset, closed_form=closed_form.has_closed_form(view.machine))
+
+
+def film_figure(view: View, over_eccentricity: bool = False) -> FilmFigure:
+    """Return what the notes' figures share."""
+    bearing = view.machine.bearing
+    here = None if view.unloaded else film_curves(bearing, view.point.sommerfeld)
+    return FilmFigure(view.curves, _film_limit(bearing), here, over_eccentricity)
+
+
+def sags(view: View) -> tuple[float, ...]:
+    """Return the static sags over clearance of Fig. 5.10, this machine's last."""
+    return (*_SAGS, view.machine.static_sag / view.machine.bearing.radial_clearance)
+
+
+def flexible_curves(view: View) -> Array:
+    """Return p_sf for each of the sags over the film's curves."""
+    return whirl_energy.flexible_curves(view.curves, sags(view))
+
+
+def flexible_here(view: View) -> float:
+    """Return this machine's p_sf at the running speed."""
+    here = film_figure(view).here
+    return math.nan if here is None else whirl_energy.flexible_curves(here, sags(view)[-1:]).item()
+
+
+def energies(view: View) -> Energies:
+    """Return the energy of the whirl orbit over speed; the machine has an onset."""
+    machine, onset = view.machine, view.onset
+    orbit = whirl_energy.whirl_orbit(machine, onset)
+    met = whirl_energy.whirl_energy(machine, onset.speed, orbit) if onset.speed > 0.0 else None
+    return Energies(
+        over=whirl_energy.whirl_energy(machine, view.sweep.speed, orbit),
+        here=whirl_energy.whirl_energy(machine, view.speed, orbit),
+        at_onset=met,
+    )
+
+
+def has_orbit(view: View) -> bool:
+    """Return whether the machine has an onset and so a whirl orbit; say so if it has none."""
+    if math.isinf(view.onset.speed):
+        st.info("This machine has no onset, and so no whirl orbit to feed.")
+        return False
+    return True
+
+
+def balance(view: View, units: Units) -> str:
+    """Return the energy balance at the running speed in words."""
+    here, running = energies(view).here, f"{digits(float(units.speed.of(view.speed)))} rpm"
+    if view.onset.speed == 0.0:
+        return (
+            "Without load the film has no direct stiffness and the whirl is infinitely slow: "
+            f"damping takes nothing out, and at {running} as at any speed the orbit grows."
+        )
+    ratio = float((here.film_loss + here.disk_loss) / here.fed_in)
+    whirl_rpm = digits(float(units.speed.of(view.onset.whirl_frequency)))
+    outcome = "dies away" if ratio > 1.0 else "grows"
+    return (
+        f"At its onset this machine whirls at {whirl_rpm} rpm. In that orbit, but at a running "
+        f"speed of {running}, damping takes out **{ratio:.3g} times** what cross-coupling feeds "
+        f"in: the whirl {outcome}."
+    )
+
+
+@lru_cache(maxsize=16)
+def _film_limit(bearing: JournalBearing) -> FilmCurves:
+    return whirl_energy.film_limit(bearing)
+
+
+# --- What moves the onset ---------------------------------------------------------------------
+
+
+def quantity(key: str, machine: Machine, units: Units) -> Quantity:
+    """Return an input as an axis over its slider's range, as far as that makes machines."""
+    item, in_si = INPUTS[key], INPUTS[key].unit(SI)
+    low, high = in_si.to_si(item.low), in_si.to_si(item.high)
+    if key == "load":
+        low = _SMALLEST_LOAD
+    if key == "mj":
+        high = min(high, 0.95 * machine.rotor.half_mass)
+    if key == "mass":
+        low = max(low, 2.1 * machine.rotor.journal_mass)
+    return Quantity(item.label, item.symbol, item.unit(units), low, high, log=key in _BY_RATIO)
+
+
+def choose_input(label: str, default: str, key: str, without: str = "") -> str:
+    """Show a choice among the inputs that move the onset; return the chosen one's key."""
+    options = [name for name in FIELDS if name != without]
+    chosen = st.selectbox(
+        label,
+        options,
+        index=options.index(default if default in options else options[0]),
+        format_func=lambda name: f"{INPUTS[name].label} {INPUTS[name].symbol}",
+        key=key,
+        persist_state="session",
+    )
+    return chosen or default
+
+
+def choose_target(view: View, units: Units) -> float:
+    """Show a field for the onset wanted; return it [rad/s]."""
+    key = "stability_target"
+    if not st.session_state.get("stability_target_typed"):
+        st.session_state[key] = float(round(1.2 * float(units.speed.of(view.speed)), -1))
+    rpm = st.number_input(
+        f"Onset wanted [{units.speed.name}]",
+        min_value=10.0,
+        max_value=1e6,
+        step=100.0,
+        format="%.0f",
+        key=key,
+        persist_state="session",
+        on_change=lambda: st.session_state.update(stability_target_typed=True),
+        help="Until you type one, 1.2 times the running speed.",
+    )
+    return units.speed.to_si(rpm)
+
+
+def value(view: View, key: str) -> float:
+    """Return a machine's value of an input in SI."""
+    return variation.value_of(view.machine, FIELDS[key])
+
+
+def choose_abscissa() -> bool:
+    """Show the choice of the notes' figures' abscissa; return whether it is the eccentricity."""
+    chosen = st.segmented_control(
+        "Over",
+        ["σ", "ε"],
+        default="σ",
+        required=True,
+        key="stability_over",
+        persist_state="session",
+    )
+    return chosen == "ε"
+
+
+def names(units: Units) -> dict[str, str]:
+    """Return the words for the core's inputs, as the tornado lists them."""
+    step = f"{design.TEMPERATURE_STEP * units.temperature.per_si:g} {units.temperature.name}"
+    return {name: f"{INPUTS[key].label} {INPUTS[key].symbol}" for name, key in _KEYS.items()} | {
+        "temperature": f"{INPUTS['T'].label} {INPUTS['T'].symbol} ±{step}"
+    }
+
+
+def onset_map(view: View, x: str, y: str, units: Units) -> design.OnsetMap:
+    """Return the onset over two inputs, with its progress shown where each cell takes long."""
+    machine = view.machine
+    axes = [(FIELDS[key], q.low, q.high, q.log)
+            for key in (x, y) for q in [quantity(key, machine, units)]]  # fmt: skip
+    if closed_form.has_closed_form(machine) and not {x, y} & {"cs", "mj"}:
+        return _onset_map(machine, *axes, _FINE)
+    bar = st.progress(0.0, "Eigenvalues at every point of the map …")
+    found = _onset_map(machine, *axes, _COARSE, tell=bar.progress)
+    bar.empty()
+    return found
+
+
+def sensitivities(view: View) -> design.Sensitivities:
+    """Return how far the onset moves with each input."""
+    return _sensitivities(view.machine)
+
+
+def solution(view: View, key: str, target: float, units: Units) -> design.OnsetSolution:
+    """Return the values of an input that put the onset at a speed."""
+    axis = quantity(key, view.machine, units)
+    return _solution(view.machine, FIELDS[key], target, axis.low, axis.high)
+
+
+def answer(found: design.OnsetSolution, axis: Quantity, now: float, units: Units) -> str:
+    """Return in words which values meet the target, or that none does and what can be reached."""
+    speed = f"{digits(float(units.speed.of(found.target)))} {units.speed.name}"
+    if len(found.solutions):
+        values = " or ".join(f"**{axis.text(value)}**" for value in found.solutions)
+        return f"{axis.words} {values} puts the onset at {speed}; now it is {_now(axis, now)}."
+    low, high = (float(units.speed.of(end)) for end in found.reachable)
+    ends = f"{axis.text(axis.low)} and {axis.text(axis.high)}"
+    if low == high:
+        return f"{axis.words} does not move the onset of this machine."
+    reached = f"{digits(low)} and {_speed_word(high)} {units.speed.name}"
+    return (
+        f"No value of the {axis.words.lower()} between {ends} puts the onset at {speed}: it stays "
+        f"between {reached}."
+    )
+
+
+def _now(axis: Quantity, value: float) -> str:
+    return "infinite" if math.isinf(value) else axis.text(value)
+
+
+def _speed_word(rpm: float) -> str:
+    return "infinity," if math.isinf(rpm) else digits(rpm)

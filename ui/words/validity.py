@@ -1,0 +1,35 @@
+"""The validity panel: where the model holds for this machine, and where it is strained."""
+
+import streamlit as st
+
+from rotorcalc.validity import Check, validity
+from ui.computed import View
+from ui.results import digits
+
+_BADGES = {"good": "green", "caution": "orange", "outside": "red"}
+_FILM = ":small[Film: short, laminar, isoviscous, aligned, rigid walls. Orbits: small.]"
+_WORDS = {"good": "holds", "caution": "strained", "outside": "outside"}
+
+
+def draw(view: View) -> None:
+    """Show each assumption with its number and limits; the headline tells the worst."""
+    checks = validity(view.point)
+    worst = max(checks, key=lambda check: list(_BADGES).index(check.level))
+    strained = [check for check in checks if check.level != "good"]
+    headline = (
+        "The model holds" if not strained else f"The model is {_WORDS[worst.level]}: {worst.name}"
+    )
+    with st.expander(headline, expanded=False, key="validity", icon=_icon(worst)):
+        st.markdown("\n\n".join([*map(_line, checks), _FILM]))
+
+
+def _icon(worst: Check) -> str:
+    icons = {"good": "check_circle", "caution": "warning", "outside": "error"}
+    return f":material/{icons[worst.level]}:"
+
+
+def _line(check: Check) -> str:
+    badge = f":{_BADGES[check.level]}-badge[{_WORDS[check.level]}]"
+    limits = f"limits {digits(check.caution)} and {digits(check.limit)}"
+    text = f"{badge} {check.name}: **{digits(check.value)}** ({limits})"
+    return text if check.level == "good" else f"{text}: {check.reason}."
