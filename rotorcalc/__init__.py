@@ -8,9 +8,10 @@ from rotorcalc import coefficients, films, frames, modes, stability, unbalance_r
 from rotorcalc.analysis import FilmCurves, Sweep, analyse, film_curves
 from rotorcalc.machine import JournalBearing, Machine, Oil, Rotor
 from rotorcalc.nonlinear import signals
+from rotorcalc.nonlinear.continuation import BifurcationError
 from rotorcalc.nonlinear.energy import EnergyBalance, energy_balance
 from rotorcalc.nonlinear.hopf import Hopf, hopf
-from rotorcalc.nonlinear.limit_cycles import Bifurcation, BifurcationError, bifurcation
+from rotorcalc.nonlinear.limit_cycles import Bifurcation, bifurcation
 from rotorcalc.nonlinear.measured_onset import Onsets, onsets
 from rotorcalc.nonlinear.transient import Start, Transient, TransientError, simulate, start_on_mode
 from rotorcalc.onset.search import Onset, onset_speed

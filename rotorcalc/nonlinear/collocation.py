@@ -1,0 +1,125 @@
+"""A limit cycle as a trigonometric polynomial, and the balance of forces that it must meet.
+
+A cycle of frequency ω is sought as a trigonometric polynomial for the journal, x(τ), τ = ωt, that
+meets the balance of film and rotor at equally spaced τ (collocation, which converges faster than
+any power of their number):
+
+    F_film(x, ẋ) − Z_rotor x + F_o = 0.
+
+The rotor is linear, so Z_rotor is its impedance at each harmonic, exact for a rigid rotor, a
+flexible one, journal mass and midspan damping.
+
+Source: Seydel, Practical Bifurcation and Stability Analysis, third edition, section 7.2.
+"""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.films import film_motion
+from rotorcalc.machine import Machine
+from rotorcalc.nonlinear.rotor_impedance import impedance
+
+_DIFFERENCE = 1e-6
+
+
+class Cycle(NamedTuple):
+    """A limit cycle: the journal's path in C, (m, 2), the whirl ratio ω/Ω, and Ω [rad/s]."""
+
+    path: Array
+    ratio: float
+    speed: float
+
+    def vector(self) -> Array:
+        """Return all unknowns as one vector."""
+        return np.concatenate([self.path.T.ravel(), [math.log(self.ratio), math.log(self.speed)]])
+
+    @classmethod
+    def of(cls, vector: Array) -> "Cycle":
+        """Return the cycle that a vector holds."""
+        path = vector[:-2].reshape(2, -1).T
+        return cls(path, math.exp(vector[-2]), math.exp(vector[-1]))
+
+    def resampled(self, points: int) -> "Cycle":
+        """Return the same trigonometric polynomial at another, odd number of points."""
+        m = len(self.path)
+        half = np.fft.rfft(self.path, axis=0)[: (min(points, m) + 1) // 2]
+        return self._replace(path=np.fft.irfft(half, n=points, axis=0) * (points / m))
+
+    def tail(self) -> float:
+        """Return the largest of the last eighth of the polynomial's coefficients, in C."""
+        size = np.abs(np.fft.rfft(self.path, axis=0)) / len(self.path)
+        return float(size[-max(len(size) // 8, 2) :].max())
+
+
+class Balance:
+    """The balance of film, rotor and load around a cycle, in the film's unit of force."""
+
+    def __init__(self, machine: Machine) -> None:
+        bearing = machine.bearing
+        self.machine, self.C = machine, bearing.radial_clearance
+        self.film_per_speed = machine.viscosity * bearing.radius * bearing.length**3 / self.C**2
+        self.force, _ = film_motion(bearing)
+
+    def residual(self, cycle: Cycle) -> tuple[Array, Array]:
+        """Return the residual, (2m,), and its derivatives by all unknowns, (2m, 2m + 2)."""
+        m, unit = len(cycle.path), self.film_per_speed * cycle.speed
+        D = differentiation(m)
+        velocity = cycle.ratio * (D @ cycle.path)
+        film, by_place, by_velocity = self.film(cycle.path, velocity)
+        omega = cycle.ratio * cycle.speed
+        rotor, by_log = self.rotor(omega, m)
+        scale = self.C / unit
+        load = np.array([self.machine.static_load / unit, 0.0])
+        residual = film - scale * (rotor @ cycle.path) + load
+        jacobian = np.zeros((2 * m, 2 * m + 2))
+        for i in (0, 1):
+            rows = slice(i * m, (i + 1) * m)
+            for j in (0, 1):
+                block = by_velocity[:, i, j, None] * (cycle.ratio * D)
+                block[np.diag_indices(m)] += by_place[:, i, j]
+                jacobian[rows, j * m : (j + 1) * m] = block - (scale * rotor if i == j else 0.0)
+            stiffer = scale * (by_log @ cycle.path[:, i])
+            jacobian[rows, -2] = np.sum(by_velocity[:, i] * velocity, axis=-1) - stiffer
+            jacobian[rows, -1] = scale * (rotor @ cycle.path[:, i]) - load[i] - stiffer
+        return residual.T.ravel(), jacobian
+
+    def rotor(self, omega: float, m: int) -> tuple[Array, Array]:
+        """Return the rotor's impedance to the journal, and its derivative by ln ω, (m, m) [N/m]."""
+        k = harmonics(m)
+        Z, slope = impedance(self.machine.rotor, k * omega)
+        return _circulant(Z), _circulant(slope * k * omega)
+
+    def film(self, place: Array, velocity: Array) -> tuple[Array, Array, Array]:
+        """Return the film's force, (m, 2), and its derivatives by place and velocity, (m, 2, 2)."""
+        states = np.concatenate([place, velocity], axis=1)
+        force = self._forces(states)
+        slopes = np.empty((len(place), 2, 4))
+        for j in range(4):
+            step = np.zeros(4)
+            step[j] = _DIFFERENCE
+            ahead, behind = self._forces(states + step), self._forces(states - step)
+            slopes[:, :, j] = (ahead - behind) / (2.0 * _DIFFERENCE)
+        return force, slopes[:, :, :2], slopes[:, :, 2:]
+
+    def _forces(self, states: Array) -> Array:
+        return np.array([self.force(*state) for state in states.tolist()])
+
+
+def _circulant(spectrum: ComplexArray) -> Array:
+    """Return the real matrix that multiplies a periodic signal's harmonics by a spectrum."""
+    m = len(spectrum)
+    first = np.fft.ifft(spectrum).real
+    return first[(np.arange(m)[:, None] - np.arange(m)[None, :]) % m]
+
+
+def differentiation(m: int) -> Array:
+    """Return the matrix of d/dτ on m points of a period, m odd."""
+    return _circulant((1j * harmonics(m)).astype(complex))
+
+
+def harmonics(m: int) -> Array:
+    """Return the orders of the harmonics that m points hold, as an FFT has them."""
+    return np.fft.fftfreq(m, 1.0 / m).astype(float)

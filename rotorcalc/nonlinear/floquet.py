@@ -1,0 +1,46 @@
+"""Whether a limit cycle is stable: Floquet multipliers of the motion linearised about it.
+
+Source: Seydel, Practical Bifurcation and Stability Analysis, third edition, section 7.4.
+"""
+
+from dataclasses import replace
+from typing import cast
+
+import numpy as np
+from scipy.linalg import expm
+
+from rotorcalc import modes
+from rotorcalc.arrays import Array
+from rotorcalc.machine import Machine
+from rotorcalc.nonlinear.collocation import Balance, Cycle, differentiation
+
+
+def multiplier(machine: Machine, cycle: Cycle) -> float:
+    """Return the largest modulus of the Floquet multipliers, the one that is always 1 left out.
+
+    The state matrix A(τ) of small motions about the cycle is integrated over its period by
+    exponentials of its values in the middle of many steps (Magnus, second order, extrapolated).
+    """
+    fine, coarse = (
+        _monodromy(machine, cycle.resampled(points * len(cycle.path))) for points in (2, 1)
+    )
+    values = np.linalg.eigvals(fine + (fine - coarse) / 3.0)
+    rest = np.delete(values, np.argmin(np.abs(values - 1.0)))
+    return float(np.abs(rest).max())
+
+
+def _monodromy(machine: Machine, cycle: Cycle) -> Array:
+    balance, m = Balance(machine), len(cycle.path)
+    velocity = cycle.ratio * (differentiation(m) @ cycle.path)
+    _, by_place, by_velocity = balance.film(cycle.path, velocity)
+    stiffness = balance.film_per_speed * cycle.speed / balance.C
+    balanced = replace(machine.rotor, imbalance=0.0)
+    A = modes.state_matrix(balanced, -stiffness * by_place, -stiffness / cycle.speed * by_velocity)
+    # Each step has A in its middle; the first is cut in two, so that the period begins at τ = 0.
+    step = 2.0 * np.pi / (cycle.ratio * cycle.speed * m)
+    half = cast("Array", expm(A[0] * (0.5 * step)))
+    steps = expm(A[1:] * step)
+    product: Array = half
+    for through in steps:
+        product = through @ product
+    return half @ product
