@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from rotorcalc import modes
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import equilibrium
+from rotorcalc.display import Result
 from rotorcalc.films import FilmState, film_state
 from rotorcalc.frames import rotate
 from rotorcalc.machine import JournalBearing, Machine
@@ -23,7 +24,7 @@ Axes: TypeAlias = Literal["XY", "rt"]
 
 
 @dataclass(frozen=True, eq=False)
-class Sweep:
+class Sweep(Result):
     """Everything that the calculation sheet computes, over running speed; n is the speeds' shape.
 
     Attributes
@@ -159,7 +160,7 @@ def analyse(machine: Machine, speed: ArrayLike) -> Sweep:
 
 
 @dataclass(frozen=True, eq=False)
-class FilmCurves:
+class FilmCurves(Result):
     """A bearing's dimensionless film and whirl threshold over the modified Sommerfeld number.
 
     Attributes
@@ -199,7 +200,7 @@ def film_curves(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmCurves:
 
 
 @dataclass(frozen=True, eq=False)
-class ForceCoefficients:
+class ForceCoefficients(Result):
     """A film's force coefficients in one frame, all with dimensions or all without.
 
     Attributes

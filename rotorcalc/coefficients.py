@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotorcalc.arrays import Array, BoolArray, real_array
+from rotorcalc.display import Result
 from rotorcalc.films import FilmState, film_added_mass, film_coefficients, film_pressure, film_state
 from rotorcalc.machine import Machine
 
@@ -19,7 +20,7 @@ LAMINAR, BULK_FLOW = 6.0 / 5.0, 1.0
 
 
 @dataclass(frozen=True, eq=False)
-class Equilibrium:
+class Equilibrium(Result):
     """A bearing in static equilibrium, with dimensions.
 
     Attributes
@@ -59,7 +60,7 @@ class Equilibrium:
 
 
 @dataclass(frozen=True, eq=False)
-class PressureField:
+class PressureField(Result):
     """Thickness and pressure of a film over the unwrapped bearing, with dimensions.
 
     Attributes
@@ -94,7 +95,7 @@ class PressureField:
 
 
 @dataclass(frozen=True, eq=False)
-class FilmForces:
+class FilmForces(Result):
     """Static forces of a film on the journal, with dimensions.
 
     Attributes
@@ -114,7 +115,7 @@ class FilmForces:
 
 
 @dataclass(frozen=True, eq=False)
-class AddedMass:
+class AddedMass(Result):
     """The mass of oil that moves with the journal, and what it weighs against.
 
     Attributes
@@ -137,7 +138,7 @@ class AddedMass:
 
 
 @dataclass(frozen=True, eq=False)
-class Unloading:
+class Unloading(Result):
     """A film's coefficients on the way to the centre: its load varied, speed and oil as they are.
 
     Attributes

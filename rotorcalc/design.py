@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq, minimize_scalar
 
 from rotorcalc.arrays import Array
+from rotorcalc.display import Result
 from rotorcalc.machine import Machine
 from rotorcalc.onset.closed_form import has_closed_form
 from rotorcalc.onset.many import onset_speeds
@@ -54,7 +55,7 @@ _HIT = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class OnsetMap:
+class OnsetMap(Result):
     """Onset speed over two inputs.
 
     Attributes
@@ -112,7 +113,7 @@ class Sensitivities:
 
 
 @dataclass(frozen=True, eq=False)
-class OnsetSolution:
+class OnsetSolution(Result):
     """The values of one input that put the onset at a speed.
 
     Attributes
@@ -123,8 +124,10 @@ class OnsetSolution:
         Onset speed asked for [rad/s].
     solutions : array, (k,)
         All values that give it, rising; none where the onset never takes the target's value.
-    values, onset : array, (n,)
-        Values over the range that was searched, and the onset there [rad/s].
+    values : array, (n,)
+        Values over the range that was searched.
+    onset : array, (n,)
+        The onset there [rad/s].
     """
 
     field: str

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linear_sum_assignment
 
 from rotorcalc.arrays import Array, BoolArray, ComplexArray
+from rotorcalc.display import Result
 from rotorcalc.machine import Rotor
 
 _I = np.eye(2)
@@ -29,7 +30,7 @@ _ROWS_AT_ONCE = 32
 
 
 @dataclass(frozen=True, eq=False)
-class ModeShapes:
+class ModeShapes(Result):
     """The free motions e^{λt} of a machine: eigenvalues λ, and what moves how in each.
 
     A mode's motion is Re{P e^{λt}}, P its phasors here. Each mode is scaled so that the largest of

@@ -12,11 +12,12 @@ from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.display import Result
 from rotorcalc.modes import ModeShapes
 
 
 @dataclass(frozen=True, eq=False)
-class Locus:
+class Locus(Result):
     """Eigenvalues over speed, a column a mode, and the same modes at the running speed.
 
     The modes keep one order in all fields: at the lowest speed the oscillating ones by rising

@@ -18,6 +18,7 @@ from rotorcalc import modes
 from rotorcalc.analysis import Sweep
 from rotorcalc.arrays import Array, BoolArray, ComplexArray, IntArray
 from rotorcalc.coefficients import checked_speed, equilibrium, stiffness_and_damping
+from rotorcalc.display import Result
 from rotorcalc.machine import Machine, Rotor
 from rotorcalc.numerics import routh
 from rotorcalc.onset.closed_form import has_closed_form
@@ -44,7 +45,7 @@ _JOURNAL_MASS = (0.0, 0.05, 0.1, 0.2, 0.4)
 
 
 @dataclass(frozen=True, eq=False)
-class BodyResponse:
+class BodyResponse(Result):
     """The steady response of a disk or a journal.
 
     Attributes
@@ -63,7 +64,7 @@ class BodyResponse:
 
 
 @dataclass(frozen=True, eq=False)
-class ResponseCurves:
+class ResponseCurves(Result):
     """The steady response of a machine over speed, and at its running speed.
 
     Attributes
@@ -98,7 +99,7 @@ class ResponseCurves:
 
 
 @dataclass(frozen=True, eq=False)
-class Orbits:
+class Orbits(Result):
     """Orbits of disk and journal about their static equilibrium, point by point.
 
     Attributes
@@ -122,7 +123,7 @@ class Orbits:
 
 
 @dataclass(frozen=True, eq=False)
-class ClearanceOrbit:
+class ClearanceOrbit(Result):
     """The journal's orbit where it runs, in its clearance.
 
     Attributes
@@ -148,7 +149,7 @@ class ClearanceOrbit:
 
 
 @dataclass(frozen=True, eq=False)
-class ResponseFamily:
+class ResponseFamily(Result):
     """The orbits' size over speed for several rotors in one machine's bearings.
 
     Attributes

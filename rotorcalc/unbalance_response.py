@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from rotorcalc.arrays import Array, BoolArray, ComplexArray, IntArray
 from rotorcalc.coefficients import checked_speed, stiffness_and_damping
+from rotorcalc.display import Result
 from rotorcalc.machine import Machine, Rotor
 
 # The imbalance (cos Ωt, sin Ωt) as phasors.
@@ -25,7 +26,7 @@ _ZOOMS, _ZOOM_POINTS = 2, 65
 
 
 @dataclass(frozen=True, eq=False)
-class OrbitEllipse:
+class OrbitEllipse(Result):
     """The ellipse that two phasors draw, each field of shape (...), lengths in the phasors' unit.
 
     Attributes
@@ -50,7 +51,7 @@ class OrbitEllipse:
 
 
 @dataclass(frozen=True, eq=False)
-class ResponsePeaks:
+class ResponsePeaks(Result):
     """Local maxima of an orbit's size over speed, each field of shape (peaks,).
 
     Attributes
@@ -66,7 +67,7 @@ class ResponsePeaks:
 
 
 @dataclass(frozen=True, eq=False)
-class Rotors:
+class Rotors(Result):
     """Several rotors as one: their fields of the same names in `Rotor`, each of shape (...)."""
 
     shaft_stiffness: Array

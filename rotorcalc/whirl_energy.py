@@ -17,6 +17,7 @@ from rotorcalc import modes
 from rotorcalc.analysis import FilmCurves, Sweep, film_curves
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import equilibrium
+from rotorcalc.display import Result
 from rotorcalc.machine import JournalBearing, Machine, Rotor
 from rotorcalc.onset.search import Onset
 from rotorcalc.onset.whirl import flexible_threshold
@@ -28,7 +29,7 @@ _CIRCLE: ComplexArray = np.array([1.0, -1.0j])  # turns forward
 
 
 @dataclass(frozen=True, eq=False)
-class Thresholds:
+class Thresholds(Result):
     """What the threshold of whirl means for a machine at each speed, each field of shape (...).
 
     All hold without midspan damping and journal mass; with a flexible shaft and a rigid one.
@@ -57,7 +58,7 @@ class Thresholds:
 
 
 @dataclass(frozen=True, eq=False)
-class WhirlOrbit:
+class WhirlOrbit(Result):
     """The orbit in which a machine whirls at its onset.
 
     Attributes
@@ -77,7 +78,7 @@ class WhirlOrbit:
 
 
 @dataclass(frozen=True, eq=False)
-class WhirlEnergy:
+class WhirlEnergy(Result):
     """What the whirl orbit would gain and lose in one turn at each speed, each of shape (...).
 
     Energies are per bearing, per turn and per area of the journal's orbit [J/m² = N/m].

@@ -8,6 +8,7 @@ import numpy as np
 
 from rotorcalc import modes
 from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.display import Result
 from rotorcalc.figures import style
 from rotorcalc.figures.root_locus import HARDLY_SWINGS, points, whirl_frequency, window
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
@@ -21,7 +22,7 @@ Item = dict[str, Any]
 
 
 @dataclass(frozen=True, eq=False)
-class OverSpeed:
+class OverSpeed(Result):
     """What every chart of modes over speed shows: the modes, their onset, the reader's units."""
 
     locus: Locus

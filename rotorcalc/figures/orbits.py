@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rotorcalc.arrays import Array
+from rotorcalc.display import Result
 from rotorcalc.figures import plane, style, text
 from rotorcalc.figures.animation import playable, scrubbed
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
@@ -32,7 +33,7 @@ _LEGEND = {"orientation": "h", "x": 0, "yref": "container", "y": 0, "yanchor": "
 
 
 @dataclass(frozen=True, eq=False)
-class GrowthCurve:
+class GrowthCurve(Result):
     """Growth rates of the whirl over speed, by the eigenvalues and as measured in time.
 
     Attributes
@@ -54,7 +55,7 @@ class GrowthCurve:
 
 
 @dataclass(frozen=True, eq=False)
-class RunUp:
+class RunUp(Result):
     """A run-up's spectra, with the linear theory's whirl and speeds to mark on them.
 
     Attributes

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from rotorcalc.analysis import FilmCurves
 from rotorcalc.arrays import Array
+from rotorcalc.display import Result
 from rotorcalc.figures import style
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
 from rotorcalc.onset.search import Onset
@@ -35,7 +36,7 @@ class Crossing:
 
 
 @dataclass(frozen=True, eq=False)
-class FilmFigure:
+class FilmFigure(Result):
     """What the notes' figures share: the film's curves, their end, this machine, the abscissa.
 
     `here` is the film at the running speed, None without load, where σ is infinite.
@@ -58,7 +59,7 @@ class FilmFigure:
 
 
 @dataclass(frozen=True, eq=False)
-class Energies:
+class Energies(Result):
     """The energy of the whirl orbit over speed, at the running speed and at the onset."""
 
     over: WhirlEnergy

@@ -9,11 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotorcalc.arrays import Array, BoolArray
+from rotorcalc.display import Result
 from rotorcalc.frames import vector
 
 
 @dataclass(frozen=True, eq=False)
-class FilmState:
+class FilmState(Result):
     """The film in static equilibrium, dimensionless.
 
     Stiffness and damping are in units of the film, not of the load as k and c of Eq. 5.32 are:
@@ -91,7 +92,7 @@ class FilmState:
 
 
 @dataclass(frozen=True, eq=False)
-class FilmField:
+class FilmField(Result):
     """Thickness and pressure of the film over the bearing's surface, dimensionless.
 
     Attributes

@@ -17,6 +17,7 @@ import numpy as np
 from scipy.interpolate import make_interp_spline
 
 from rotorcalc.arrays import Array
+from rotorcalc.display import Result
 from rotorcalc.films import film_motion
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.transient import Transient
@@ -25,7 +26,7 @@ _DEGREE = 7
 
 
 @dataclass(frozen=True, eq=False)
-class EnergyBalance:
+class EnergyBalance(Result):
     """The energy of a motion since its start, per bearing, each of shape (n,) [J].
 
     Attributes

@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike
 from scipy.integrate import odeint
 
 from rotorcalc.arrays import Array
+from rotorcalc.display import Result
 from rotorcalc.films import film_motion
 from rotorcalc.machine import Machine
 
@@ -32,7 +33,7 @@ _LONGEST_STEP = 0.25
 
 
 @dataclass(frozen=True, eq=False)
-class Start:
+class Start(Result):
     """A state to start from, each of shape (2,), in X, Y from the bearing's centre [m], [m/s]."""
 
     journal: Array

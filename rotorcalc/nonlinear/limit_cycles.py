@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from rotorcalc.arrays import Array, BoolArray, ComplexArray
 from rotorcalc.coefficients import equilibrium
+from rotorcalc.display import Result
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.collocation import Balance, Cycle, harmonics
 from rotorcalc.nonlinear.continuation import BifurcationError, followed
@@ -27,7 +28,7 @@ _NEAREST_WALL = 0.97
 
 
 @dataclass(frozen=True, eq=False)
-class Bifurcation:
+class Bifurcation(Result):
     """Limit cycles in the order in which they were found, from the onset on; n of them.
 
     Attributes

@@ -16,6 +16,7 @@ import numpy as np
 from rotorcalc import modes
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import Equilibrium, equilibrium
+from rotorcalc.display import Result
 from rotorcalc.films import film_gap
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.equations import Start, resting
@@ -30,7 +31,7 @@ _FAR = 1.5
 
 
 @dataclass(frozen=True, eq=False)
-class Release:
+class Release(Result):
     """The motion of a released journal beside the linear theory's; n samples.
 
     Attributes

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.display import Result
 from rotorcalc.nonlinear.transient import Transient
 
 # Where the synchronous line and whirl are looked for [orders].
@@ -26,7 +27,7 @@ _MOST_MODES = 12
 
 
 @dataclass(frozen=True, eq=False)
-class Spectrum:
+class Spectrum(Result):
     """Amplitudes of a motion over orders of running speed, n of them, rising from negative ones.
 
     Attributes
@@ -51,7 +52,7 @@ class Spectrum:
 
 
 @dataclass(frozen=True, eq=False)
-class Waterfall:
+class Waterfall(Result):
     """Spectra of the forward circles over a run-up.
 
     Attributes

@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike
 from rotorcalc import modes
 from rotorcalc.arrays import Array
 from rotorcalc.coefficients import checked_speed, equilibrium
+from rotorcalc.display import Result
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.equations import Equations, Motion, Start, integrated, resting
 from rotorcalc.nonlinear.limit_cycles import bifurcation
@@ -52,7 +53,7 @@ _STRETCH = 20
 
 
 @dataclass(frozen=True, eq=False)
-class Transient:
+class Transient(Result):
     """A motion over time, from the bearing's centre.
 
     Attributes

@@ -12,10 +12,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotorcalc.arrays import Array
+from rotorcalc.display import Result
 
 
 @dataclass(frozen=True, eq=False)
-class WhirlOnset:
+class WhirlOnset(Result):
     """The threshold of whirl at one equilibrium, dimensionless, each of shape (...).
 
     Attributes

@@ -1,0 +1,147 @@
+"""How results show themselves in a notebook: a few lines of text, or a table in HTML.
+
+A result is a frozen record of arrays, which written out in full would fill pages. Shown are each
+field's shape, the range of its values and its unit, and in HTML what it is. Unit and meaning are
+those of the record's docstring, so that they stand in one place.
+"""
+
+import functools
+import html
+import inspect
+import re
+import reprlib
+import textwrap
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
+from typing import Any, NamedTuple, cast
+
+import numpy as np
+
+WIDTH, LINES = 100, 12
+_UNIT = re.compile(r"\[([^\]]*)\]")
+_ATTRIBUTE = re.compile(r"(\w+(?:, \w+)*) : ")
+# Arrays of no more numbers than this are written out.
+_FEW = 3
+
+
+class Result:
+    """A record of arrays that shows itself briefly; its subclasses are frozen dataclasses."""
+
+    def __init_subclass__(cls) -> None:
+        """Keep `dataclass` from giving a subclass a text with every number of its arrays."""
+        cls.__repr__ = Result.__repr__  # a class that has one keeps it
+
+    def __repr__(self) -> str:
+        """Return at most `LINES` lines of at most `WIDTH` columns."""
+        rows = list(_rows(self))
+        # All fields where they fit, else as many as leave two lines for the others' names.
+        shown = rows if len(rows) < LINES else rows[: LINES - 3]
+        lines = [type(self).__name__, *_columns(shown)]
+        if rest := [row.field for row in rows[len(shown) :]]:
+            names = f"and {len(rest)} more: {', '.join(rest)}"
+            lines += [f"  {line}" for line in textwrap.wrap(names, WIDTH - 2, max_lines=2)]
+        return "\n".join(line.rstrip()[:WIDTH] for line in lines)
+
+    def _repr_html_(self) -> str:
+        """Return all fields as a table in HTML."""
+        title, _ = _described(type(self))
+        rows = "".join(
+            f"<tr>{''.join(map(_cell, row))}</tr>" for row in [_Row._fields, *_rows(self)]
+        )
+        return f"<p><b>{type(self).__name__}</b>: {html.escape(title)}</p><table>{rows}</table>"
+
+
+class _Row(NamedTuple):
+    field: str
+    shape: str
+    values: str
+    unit: str
+    meaning: str
+
+
+def _rows(record: Result, prefix: str = "") -> Iterator[_Row]:
+    """Yield a row a field; the fields of a result within a result have dotted names."""
+    _, described = _described(type(record))
+    for field in fields(record):  # pyright: ignore[reportArgumentType] - a dataclass, as they all
+        name, value = prefix + field.name, getattr(record, field.name)
+        if isinstance(value, Result):
+            yield from _rows(value, f"{name}.")
+        elif not field.name.startswith("_"):
+            unit, meaning = described.get(field.name, ("", ""))
+            yield _Row(name, _shape(value), _values(value), unit, meaning)
+
+
+def _columns(rows: list[_Row]) -> Iterator[str]:
+    """Yield rows as lines whose columns stand below each other, without the meaning."""
+    widths = [max(len(row[i]) for row in rows) for i in range(3)]
+    for row in rows:
+        cells = [cell.ljust(width) for cell, width in zip(row, widths, strict=False)]
+        yield "  ".join(["", *cells, row.unit])
+
+
+def _cell(text: str) -> str:
+    return f'<td style="text-align: left">{html.escape(text)}</td>'
+
+
+def units(record: type) -> dict[str, str]:
+    """Return the unit of each field of a record, as its docstring tells it."""
+    _, described = _described(record)
+    return {field.name: described.get(field.name, ("", ""))[0] for field in fields(record)}
+
+
+@functools.cache
+def _described(record: type) -> tuple[str, dict[str, tuple[str, str]]]:
+    """Return the first line of a record's docstring, and unit and meaning of its attributes."""
+    title, _, rest = (inspect.getdoc(record) or "").partition("\n")
+    texts: dict[str, str] = {}
+    names = ""
+    for line in rest.splitlines():
+        if heading := _ATTRIBUTE.match(line):
+            names = heading[1]
+        elif line.startswith(" "):
+            texts[names] = f"{texts.get(names, '')} {line.strip()}".strip()
+    found = {
+        name: (unit, text)
+        for names, text in texts.items()
+        for name, unit in _with_units(names.split(", "), text, title)
+    }
+    return title, found
+
+
+def _with_units(names: list[str], text: str, title: str) -> list[tuple[str, str]]:
+    """Return the names that share a text with the unit of each: "K_ij [N/m] and C_ij [N·s/m]"."""
+    found = _UNIT.findall(text) or _UNIT.findall(title)  # "..., each of shape (n,) [J]."
+    if len(found) == 1:
+        found = found * len(names)
+    # Where a field has one unit or another, as the record's maker had it, none is told.
+    return list(zip(names, found if len(found) == len(names) else [""] * len(names), strict=True))
+
+
+def _shape(value: Any) -> str:
+    if isinstance(value, tuple):
+        return f"({len(cast('tuple[Any, ...]', value))},)"
+    return str(np.shape(value)).replace(" ", "") if np.ndim(value) else ""
+
+
+def _values(value: Any) -> str:
+    if isinstance(value, np.ndarray):
+        return _range(cast("np.ndarray[Any, Any]", value))
+    if isinstance(value, tuple):
+        kinds = {type(each).__name__ for each in cast("tuple[object, ...]", value)}
+        return " or ".join(sorted(kinds))
+    if is_dataclass(value):
+        return type(cast("object", value)).__name__
+    return f"{value:.5g}" if isinstance(value, float | complex) else reprlib.repr(value)
+
+
+def _range(values: Any) -> str:
+    """Return the numbers of an array where they are few, else the smallest and the largest."""
+    if values.dtype.kind not in "fc":
+        found, counts = np.unique(values, return_counts=True)
+        return ", ".join(f"{count} {each}" for each, count in zip(found, counts, strict=True))
+    if values.size <= _FEW:
+        return ", ".join(f"{number:.5g}" for number in values.ravel().tolist())
+    if values.dtype.kind == "c":
+        return f"size {_range(np.abs(values))}"
+    known = values[~np.isnan(values)]
+    return f"{known.min():.5g} … {known.max():.5g}" if known.size else "nan"
