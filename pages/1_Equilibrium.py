@@ -22,7 +22,7 @@ def locus(page: Page) -> None:
     left, right = st.columns(2)
     with left:
         page.chart(
-            lambda v: place.locus(v.curves, v.sweep, v.at_round_speeds, v.point, units),
+            lambda c: place.locus(c.curves, c.sweep, c.at_round_speeds, c.point, units),
             "locus",
             alt="Path of the journal in the clearance circle, from the wall to the middle.",
             caption="Path of the journal, with rpm along it; dotted, any speed. Eqs. 5.7, 5.8.",
@@ -33,10 +33,10 @@ def locus(page: Page) -> None:
             label_visibility="collapsed", key="equilibrium_over", persist_state="session",
         )  # fmt: skip
         page.chart(
-            lambda v: (
-                place.position_over_speed(v.sweep, v.point, units)
+            lambda c: (
+                place.position_over_speed(c.sweep, c.point, units)
                 if over == "Over speed"
-                else place.position_over_sommerfeld(v.curves, v.sweep, v.point, units)
+                else place.position_over_sommerfeld(c.curves, c.sweep, c.point, units)
             ),
             "position",
             alt="Eccentricity ratio and attitude angle, the running speed marked on both.",
@@ -49,14 +49,14 @@ def film_and_pressure(page: Page) -> None:
     left, right = st.columns(2)
     with left:
         page.chart(
-            lambda v: film.film_around(v.film, v.point, units), "film",
+            lambda c: film.film_around(c.film, c.point, units), "film",
             alt="Thickness and pressure of the film once around the journal, and the load.",
             caption="Film and pressure above ambient at mid-length; θ in the sense of "
             "rotation. Eqs. 5.19, 5.25.",
         )  # fmt: skip
     with right:
         page.chart(
-            lambda v: film.pressure_map(v.film, v.point, units), "pressure",
+            lambda c: film.pressure_map(c.film, c.point, units), "pressure",
             alt="Contour map of the film's pressure over angle and axial position.",
             caption="The film unwrapped: a parabola along z, ambient at both ends. Eq. 5.25.",
         )  # fmt: skip
@@ -67,14 +67,14 @@ def forces(page: Page) -> None:
     left, right = st.columns(2)
     with left:
         page.chart(
-            lambda v: film.forces(v.force_curves, v.forces, units), "forces",
+            lambda c: film.forces(c.force_curves, c.forces, units), "forces",
             alt="Resultant, tangential and radial force of the film over eccentricity ratio.",
             caption="At the running speed: the journal sits where the resultant meets the "
             "load. Eqs. 5.5, 5.6, Fig. 5.2.",
         )  # fmt: skip
     with right:
         page.chart(
-            lambda v: film.force_balance(v.forces, v.point, units), "balance",
+            lambda c: film.force_balance(c.forces, c.point, units), "balance",
             alt="Right-angled triangle of load, tangential and radial film force.",
             caption="The forces close a triangle; φ lies between load and radial force. "
             "Eqs. 5.4, 5.7.",
@@ -84,7 +84,7 @@ def forces(page: Page) -> None:
 def losses(page: Page) -> None:
     units = page.units
     left, right = st.columns(2)
-    friction = place.drag_torque if page.view.unloaded else place.friction_coefficient
+    friction = place.drag_torque if page.computed.unloaded else place.friction_coefficient
     for column, draw, caption in (
         (left, place.power_loss, "Drag torque times speed, all turned into heat. Sheet."),
         (right, place.side_flow, "Oil that leaves at both ends and has to be fed. Sheet."),
@@ -94,7 +94,7 @@ def losses(page: Page) -> None:
         name = draw.__name__
         with column:
             page.chart(
-                lambda v, draw=draw: draw(v.sweep, v.point, units), name,
+                lambda c, draw=draw: draw(c.sweep, c.point, units), name,
                 alt=f"{name.replace('_', ' ').capitalize()} over running speed.",
                 caption=caption,
             )  # fmt: skip

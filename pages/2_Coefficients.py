@@ -24,7 +24,7 @@ def content(page: Page) -> None:
         "Why only cross-coupling": only_cross_coupling,
     })  # fmt: skip
     st.subheader("At the running speed", anchor=False)
-    words.show_matrices(page.view, axes, page.units)
+    words.show_matrices(page.computed, axes, page.units)
 
 
 def against_speed(page: Page, axes: Axes) -> None:
@@ -32,8 +32,8 @@ def against_speed(page: Page, axes: Axes) -> None:
     left, right = st.columns(2)
     with left:
         page.chart(
-            lambda v: draw.stiffness_against_speed(
-                v.sweep, v.point, v.coefficients(axes), v.coefficients_here(axes), units
+            lambda c: draw.stiffness_against_speed(
+                c.sweep, c.point, c.coefficients(axes), c.coefficients_here(axes), units
             ),
             "stiffness_speed",
             alt="Stiffness coefficients and equivalent stiffness of one bearing against speed.",
@@ -41,8 +41,8 @@ def against_speed(page: Page, axes: Axes) -> None:
         )
     with right:
         page.chart(
-            lambda v: draw.damping_against_speed(
-                v.sweep, v.point, v.coefficients(axes), v.coefficients_here(axes), units
+            lambda c: draw.damping_against_speed(
+                c.sweep, c.point, c.coefficients(axes), c.coefficients_here(axes), units
             ),
             "damping_speed",
             alt="Damping coefficients of one bearing against speed.",
@@ -55,14 +55,14 @@ def dimensionless(page: Page, axes: Axes, against: Literal["ε", "σ"]) -> None:
     for column, symbol in zip(st.columns(2), symbols, strict=True):
         with column:
             page.chart(
-                lambda v, symbol=symbol: draw.dimensionless(
-                    v.film_coefficients(axes), v.film_coefficients_here(axes), symbol, against
+                lambda c, symbol=symbol: draw.dimensionless(
+                    c.film_coefficients(axes), c.film_coefficients_here(axes), symbol, against
                 ),
                 f"{symbol}_{against}",
                 alt=f"Dimensionless coefficients {symbol} against {against}, logarithmic.",
                 caption=words.dimensionless_caption(symbol, against),
             )
-    words.say_unloaded(page.view)
+    words.say_unloaded(page.computed)
 
 
 def added_mass(page: Page) -> None:
@@ -70,10 +70,10 @@ def added_mass(page: Page) -> None:
     left, right = st.columns(2)
     with left:
         page.chart(
-            lambda v: draw.added_mass(
-                v.added_mass(LAMINAR),
-                v.added_mass(BULK_FLOW),
-                v.added_mass_here(LAMINAR),
+            lambda c: draw.added_mass(
+                c.added_mass(LAMINAR),
+                c.added_mass(BULK_FLOW),
+                c.added_mass_here(LAMINAR),
                 units,
             ),
             "added_mass",
@@ -81,7 +81,7 @@ def added_mass(page: Page) -> None:
             caption="Solid for laminar flow, dotted for bulk flow.",
         )
     with right:
-        words.show_added_mass(page.view, units)
+        words.show_added_mass(page.computed, units)
 
 
 def only_cross_coupling(page: Page) -> None:
@@ -89,14 +89,14 @@ def only_cross_coupling(page: Page) -> None:
     left, right = st.columns(2)
     with left:
         page.chart(
-            lambda v: draw.unloading(v.unloading, v.unloading_here, v.centred, units),
+            lambda c: draw.unloading(c.unloading, c.unloading_here, c.centred, units),
             "unloading",
             alt="Stiffness against eccentricity ratio: direct falls to zero, cross stays.",
             caption="At the running speed, the load alone varied; dashed: minus the value. "
             "Eqs. 5.35, 5.37.",
         )
     with right:
-        words.show_centred(page.view, units)
+        words.show_centred(page.computed, units)
 
 
 show(

@@ -19,14 +19,14 @@ def content(page: Page) -> None:
 
 
 def over_speed(draw, units):
-    return lambda v: draw(
-        whirl_energy.thresholds(v.sweep), whirl_energy.thresholds(v.point), ask.crossing(v), units
+    return lambda c: draw(
+        whirl_energy.thresholds(c.sweep), whirl_energy.thresholds(c.point), ask.crossing(c), units
     )
 
 
 def threshold(page: Page) -> None:
     units = page.units
-    if not ask.crossing(page.view).closed_form:
+    if not ask.crossing(page.computed).closed_form:
         st.info(ask.BARE)
     left, right = st.columns(2)
     with left:
@@ -58,30 +58,30 @@ def figures_of_the_notes(page: Page) -> None:
     left, right = st.columns(2)
     with left:
         page.chart(
-            lambda v: figures.whirl_ratio(ask.film_figure(v, over_eps)),
+            lambda c: figures.whirl_ratio(ask.film_figure(c, over_eps)),
             "whirl_ratio",
             alt="Whirl frequency ratio: one half for a centred journal, zero above the limit.",
             caption="Half-speed whirl of a light load; none above ε = 0.7560. Fig. 5.7, Eq. 5.46.",
         )
         page.chart(
-            lambda v: figures.critical_mass_number(ask.film_figure(v, over_eps)),
+            lambda c: figures.critical_mass_number(ask.film_figure(c, over_eps)),
             "critical_mass_number",
             alt="Dimensionless critical mass of the short bearing.",
             caption=r"$m_c = p_s^2 = M_c C Ω^2/F_o$. Fig. 5.9, Eqs. 5.45, 5.46.",
         )
     with right:
         page.chart(
-            lambda v: figures.threshold_speed(ask.film_figure(v, over_eps)),
+            lambda c: figures.threshold_speed(ask.film_figure(c, over_eps)),
             "threshold_speed",
             alt="Dimensionless threshold speed of a rigid rotor on the short bearing.",
             caption=r"$p_s = Ω_s\sqrt{MC/F_o}$, lowest at ε = 0.457. Fig. 5.8, Eq. 5.46.",
         )
         page.chart(
-            lambda v: figures.flexible_threshold(
-                ask.film_figure(v, over_eps),
-                ask.sags(v),
-                ask.flexible_curves(v),
-                ask.flexible_here(v),
+            lambda c: figures.flexible_threshold(
+                ask.film_figure(c, over_eps),
+                ask.sags(c),
+                ask.flexible_curves(c),
+                ask.flexible_here(c),
             ),
             "flexible_threshold",
             alt="Dimensionless threshold speed of flexible rotors for several static sags.",
@@ -91,14 +91,14 @@ def figures_of_the_notes(page: Page) -> None:
 
 
 def follower_force(page: Page) -> None:
-    if not ask.has_orbit(page.view):
+    if not ask.has_orbit(page.computed):
         return
     units = page.units
-    st.markdown(ask.balance(page.view, units))
+    st.markdown(ask.balance(page.computed, units))
     left, right = st.columns([2, 3])
     with left:
         page.chart(
-            lambda v: figures.energy_bars(ask.energies(v), units),
+            lambda c: figures.energy_bars(ask.energies(c), units),
             "energy_bars",
             alt="Energy fed in and taken out in one turn of the whirl orbit, at the "
             "running speed and at the onset, where the bars meet.",
@@ -106,7 +106,7 @@ def follower_force(page: Page) -> None:
         )
     with right:
         page.chart(
-            lambda v: figures.energy(ask.energies(v), ask.crossing(v), units),
+            lambda c: figures.energy(ask.energies(c), ask.crossing(c), units),
             "energy",
             alt="Energy fed into and taken out of the whirl orbit over running speed; the "
             "two lines meet at the onset.",
@@ -118,17 +118,17 @@ def follower_force(page: Page) -> None:
 
 
 def onset_map(page: Page) -> None:
-    view, units = page.view, page.units
+    computed, units = page.computed, page.units
     left, right = st.columns(2)
     with left:
         x = ask.choose_input("Across", "C", "stability_x")
     with right:
         y = ask.choose_input("Up", "T", "stability_y", without=x)
-    onsets = ask.onset_map(view, x, y, units)
-    axes = ask.quantity(x, view.machine, units), ask.quantity(y, view.machine, units)
+    onsets = ask.onset_map(computed, x, y, units)
+    axes = ask.quantity(x, computed.machine, units), ask.quantity(y, computed.machine, units)
     page.chart(
-        lambda v: what_if.onset_map(
-            onsets, axes, (ask.value(v, x), ask.value(v, y)), v.speed, units
+        lambda c: what_if.onset_map(
+            onsets, axes, (ask.value(c, x), ask.value(c, y)), c.speed, units
         ),
         "onset_map",
         alt="Contour map of the onset speed over two inputs, with this machine and the "
@@ -139,9 +139,9 @@ def onset_map(page: Page) -> None:
 
 
 def remedies(page: Page) -> None:
-    view, units = page.view, page.units
+    computed, units = page.computed, page.units
     page.chart(
-        lambda v: what_if.tornado(ask.sensitivities(v), ask.names(units), units),
+        lambda c: what_if.tornado(ask.sensitivities(c), ask.names(units), units),
         "tornado",
         alt="Movement of the onset speed for ten per cent less and more of each input.",
         caption=ask.TORNADO,
@@ -150,17 +150,17 @@ def remedies(page: Page) -> None:
     with left:
         vary = ask.choose_input("Change", "C", "stability_vary")
     with right:
-        target = ask.choose_target(view, units)
+        target = ask.choose_target(computed, units)
     found, axis = (
-        ask.solution(view, vary, target, units),
-        ask.quantity(vary, view.machine, units),
+        ask.solution(computed, vary, target, units),
+        ask.quantity(vary, computed.machine, units),
     )
-    st.markdown(ask.answer(found, axis, ask.value(view, vary), units))
+    st.markdown(ask.answer(found, axis, ask.value(computed, vary), units))
     page.chart(
-        lambda v: what_if.solution(
-            ask.solution(v, vary, target, units),
+        lambda c: what_if.solution(
+            ask.solution(c, vary, target, units),
             axis,
-            (ask.value(v, vary), v.onset.speed),
+            (ask.value(c, vary), c.onset.speed),
             units,
         ),
         "solution",

@@ -10,7 +10,7 @@ from ui.words import root_locus as words
 
 def content(page: Page) -> None:
     page.results("damping_ratio", "natural_frequency", "onset_speed", "whirl_frequency")
-    bends = words.choose_shaft(page.view)
+    bends = words.choose_shaft(page.computed)
     page.tabs("locus_tab", {
         "Complex plane": partial(plane, bends=bends),
         "Against speed": partial(against_speed, bends=bends),
@@ -19,15 +19,15 @@ def content(page: Page) -> None:
 
 
 def plane(page: Page, *, bends: bool) -> None:
-    view, units = page.view, page.units
+    computed, units = page.computed, page.units
     page.chart(
-        lambda v: locus_figures.plane(v.locus(bends), onset(v, bends=bends), units),
+        lambda c: locus_figures.plane(c.locus(bends), onset(c, bends=bends), units),
         "locus",
         alt=words.ALTS["locus"],
         caption=" ".join([
             words.CAPTIONS["locus"],
-            words.crossing(onset(view, bends=bends), view.top_speed, units),
-            locus_figures.beyond(view.locus(bends), units),
+            words.crossing(onset(computed, bends=bends), computed.top_speed, units),
+            locus_figures.beyond(computed.locus(bends), units),
         ]),
     )  # fmt: skip
 
@@ -35,35 +35,35 @@ def plane(page: Page, *, bends: bool) -> None:
 def against_speed(page: Page, *, bends: bool) -> None:
     units = page.units
 
-    def shown(v):
-        return figures.OverSpeed(v.locus(bends), onset(v, bends=bends), units)
+    def shown(c):
+        return figures.OverSpeed(c.locus(bends), onset(c, bends=bends), units)
 
     def chart(draw, key):
         page.chart(draw, key, alt=words.ALTS[key], caption=words.CAPTIONS[key])
 
     left, right = st.columns(2)
     with left:
-        chart(lambda v: figures.growth(shown(v)), "growth")
+        chart(lambda c: figures.growth(shown(c)), "growth")
     with right:
-        chart(lambda v: figures.frequency(shown(v)), "frequency")
+        chart(lambda c: figures.frequency(shown(c)), "frequency")
     left, right = st.columns(2)
     with left:
-        chart(lambda v: figures.damping(shown(v)), "damping")
+        chart(lambda c: figures.damping(shown(c)), "damping")
     with right:
         chart(
-            lambda v: figures.natural(shown(v), rigid=v.rigid_frequency, shaft=v.shaft_frequency),
+            lambda c: figures.natural(shown(c), rigid=c.rigid_frequency, shaft=c.shaft_frequency),
             "natural",
         )
     left, right = st.columns(2)
     with left:
-        chart(lambda v: figures.decrement(shown(v)), "decrement")
+        chart(lambda c: figures.decrement(shown(c)), "decrement")
     right.markdown(words.HOW_TO_READ)
 
 
 def mode_shape(page: Page, *, bends: bool) -> None:
-    view, units = page.view, page.units
-    locus = view.locus(bends)
-    st.markdown(words.table(locus.here, view.speed, units))
+    computed, units = page.computed, page.units
+    locus = computed.locus(bends)
+    st.markdown(words.table(locus.here, computed.speed, units))
     left, right = st.columns([2, 3])
     with left:
         mode = words.choose_mode(locus.here, locus.leading, units)
@@ -71,10 +71,10 @@ def mode_shape(page: Page, *, bends: bool) -> None:
         st.markdown(words.ABOUT_MODES)
     with right:
         page.chart(
-            lambda v: figures.shape(
-                v.locus(bends).here,
-                mode if v is view else v.locus(bends).leading,
-                rigid=v.machine.rotor.is_rigid or not bends,
+            lambda c: figures.shape(
+                c.locus(bends).here,
+                mode if c is computed else c.locus(bends).leading,
+                rigid=c.machine.rotor.is_rigid or not bends,
                 spiral=spiral,
             ),
             "shape",
@@ -83,8 +83,8 @@ def mode_shape(page: Page, *, bends: bool) -> None:
         )
 
 
-def onset(view, *, bends):
-    return view.onset if bends else view.rigid_onset
+def onset(computed, *, bends):
+    return computed.onset if bends else computed.rigid_onset
 
 
 show(

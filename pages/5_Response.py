@@ -9,9 +9,9 @@ from ui.words import response as words
 
 def content(page: Page) -> None:
     page.results("disk_amplitude", "journal_amplitude", "disk_peak", "journal_peak")
-    if words.say_balanced(page.view):
+    if words.say_balanced(page.computed):
         return
-    words.say_limits(page.view, page.units)
+    words.say_limits(page.computed, page.units)
     page.tabs("response_tabs", {
         "Against speed": against_speed,
         "Orbits": orbits,
@@ -20,7 +20,7 @@ def content(page: Page) -> None:
 
 
 def against_speed(page: Page) -> None:
-    view, units = page.view, page.units
+    computed, units = page.computed, page.units
     shown: Literal["axes", "XY"] = st.segmented_control(
         "Amplitudes of", list(words.SHOWN), format_func=words.SHOWN.__getitem__,
         key="response_shown", default="axes", required=True, persist_state="session",
@@ -28,14 +28,14 @@ def against_speed(page: Page) -> None:
     left, right = st.columns(2)
     with left:
         page.chart(
-            lambda v: draw.amplitude(v.response, shown, units),
+            lambda c: draw.amplitude(c.response, shown, units),
             "amplitude",
             alt="Amplitudes of disk and journal against speed, with peaks and unstable range.",
-            caption=words.amplitude_caption(view),
+            caption=words.amplitude_caption(computed),
         )
     with right:
         page.chart(
-            lambda v: draw.phase(v.response, units),
+            lambda c: draw.phase(c.response, units),
             "phase",
             alt="Phase lag of disk and journal behind the imbalance against speed.",
             caption="Lag of X behind cos Ωt and of Y behind sin Ωt, the imbalance's "
@@ -44,11 +44,11 @@ def against_speed(page: Page) -> None:
 
 
 def orbits(page: Page) -> None:
-    view, units = page.view, page.units
+    computed, units = page.computed, page.units
     left, right = st.columns(2)
     with left:
         page.chart(
-            lambda v: draw.in_clearance(v.clearance_orbit, v.sweep.journal_position, units),
+            lambda c: draw.in_clearance(c.clearance_orbit, c.sweep.journal_position, units),
             "clearance_orbit",
             alt="The journal's orbit about its equilibrium inside the clearance circle.",
             caption="The journal's centre in its clearance circle, about the point where it "
@@ -57,13 +57,13 @@ def orbits(page: Page) -> None:
         )
     with right:
         page.chart(
-            lambda v: draw.at_running_speed(v.orbits, units),
+            lambda c: draw.at_running_speed(c.orbits, units),
             "orbits",
             alt="Orbits of disk and journal at the running speed about the same point.",
-            caption=f"Both about equilibrium. {words.senses(view)} {words.ORBIT_MARKS}",
+            caption=f"Both about equilibrium. {words.senses(computed)} {words.ORBIT_MARKS}",
         )
     page.chart(
-        lambda v: draw.scrubber(v.orbit_steps, v.orbits, units),
+        lambda c: draw.scrubber(c.orbit_steps, c.orbits, units),
         "orbit_scrubber",
         alt="Orbits of disk and journal, with a slider over speed.",
         caption="The same at every speed; the slider starts at the running speed, and a "
@@ -72,17 +72,17 @@ def orbits(page: Page) -> None:
 
 
 def family(page: Page) -> None:
-    view, units = page.view, page.units
+    computed, units = page.computed, page.units
     varied: Literal["damping", "mass"] = st.segmented_control(
         "Vary", list(words.VARIED), format_func=words.VARIED.__getitem__,
         key="response_varied", default="damping", required=True, persist_state="session",
     )  # fmt: skip
-    words.explain_family(view, varied)
+    words.explain_family(computed, varied)
     left, right = st.columns(2)
     with left:
         page.chart(
-            lambda v: draw.family(
-                v.response_family(words.VARIANTS[varied]), "disk", varied, v.response, units
+            lambda c: draw.family(
+                c.response_family(words.VARIANTS[varied]), "disk", varied, c.response, units
             ),
             "family_disk",
             alt="Size of the disk's orbit against speed for several rotors.",
@@ -90,8 +90,8 @@ def family(page: Page) -> None:
         )
     with right:
         page.chart(
-            lambda v: draw.family(
-                v.response_family(words.VARIANTS[varied]), "journal", varied, v.response, units
+            lambda c: draw.family(
+                c.response_family(words.VARIANTS[varied]), "journal", varied, c.response, units
             ),
             "family_journal",
             alt="Size of the journal's orbit against speed for several rotors.",

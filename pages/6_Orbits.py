@@ -10,10 +10,10 @@ from ui.words import orbits as ask
 
 def content(shown: Page) -> None:
     answer = st.container()
-    asked = ask.choose_release(shown.view)
+    asked = ask.choose_release(shown.computed)
     page, found = ask.try_out(shown, asked)
     with answer:
-        ask.say_outcome(page.view, asked, found, page.units)
+        ask.say_outcome(page.computed, asked, found, page.units)
     page.tabs("orbits_tab", {
         "Orbit": partial(orbit, asked=asked),
         "In time": partial(in_time, asked=asked),
@@ -27,7 +27,7 @@ def content(shown: Page) -> None:
 
 def of_release(draw_release, page: Page, asked: ask.Ask):
     units = page.units
-    return lambda v: draw_release(ask.let_go(v, asked), units)
+    return lambda c: draw_release(ask.let_go(c, asked), units)
 
 
 def orbit(page: Page, asked: ask.Ask) -> None:
@@ -69,7 +69,7 @@ def in_time(page: Page, asked: ask.Ask) -> None:
 
 
 def spectrum(page: Page, asked: ask.Ask, found: Release) -> None:
-    ask.show_measured(page.view, found, page.units)
+    ask.show_measured(page.computed, found, page.units)
     left, right = st.columns([3, 2])
     with left:
         page.chart(
@@ -90,13 +90,13 @@ def spectrum(page: Page, asked: ask.Ask, found: Release) -> None:
 
 
 def run_up(page: Page) -> None:
-    view, units = page.view, page.units
+    computed, units = page.computed, page.units
     if (run := ask.ask_run_up(page)) is not None:
         page.alone().chart(
             lambda _, run=run: draw.waterfall(run, units), "orbits_waterfall",
             alt="Spectra over running speed: imbalance at 1×, whirl near ½× past the "
             "onset.",
-            caption=ask.run_up_caption(view),
+            caption=ask.run_up_caption(computed),
         )  # fmt: skip
 
 
@@ -105,7 +105,7 @@ def limit_cycles(page: Page) -> None:
     if (branch := ask.ask_cycles(page)) is not None:
         ask.say_cycles(branch, units)
         page.alone().chart(
-            lambda v, branch=branch: draw.cycles(branch, ask.swept(branch), v.speed, units),
+            lambda c, branch=branch: draw.cycles(branch, ask.swept(branch), c.speed, units),
             "orbits_cycles",
             alt="Size of the limit cycles over speed, stable and unstable, and two sweeps.",
             caption="Without imbalance: harmonic balance, stability by Floquet. At the "
@@ -115,10 +115,10 @@ def limit_cycles(page: Page) -> None:
 
 def onset_three_ways(page: Page) -> None:
     units = page.units
-    if (three := ask.ask_onsets(page.view)) is not None:
+    if (three := ask.ask_onsets(page.computed)) is not None:
         ask.say_onsets(three[0], units)
         ask.with_onset(page).chart(
-            lambda v: draw.onset_growth(*ask.three_onsets(v), units), "orbits_onset",
+            lambda c: draw.onset_growth(*ask.three_onsets(c), units), "orbits_onset",
             alt="Growth rate over speed: eigenvalues as a line, measured rates as points.",
             caption="Each point: 16 revolutions of the nonlinear motion after a kick of "
             "C/10000, its exponentials fitted. Without imbalance. Eqs. 5.38, 5.45 to 5.50.",

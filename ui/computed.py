@@ -59,7 +59,7 @@ _THETA = np.linspace(0.0, 2.0 * np.pi, 181)
 _ZETA = np.linspace(-0.5, 0.5, 21)
 
 
-class View:
+class Computed:
     """A machine at its running speed, with all that the pages show of it."""
 
     def __init__(self, machine: Machine, speed: float, top_speed: float) -> None:
@@ -234,9 +234,9 @@ class View:
         return self.machine.static_load == 0.0
 
 
-def view_of(values: Values) -> View:
-    """Return the view of kept values, or raise the core's ValueError."""
-    return _view(machine_of(values), *speeds_of(values))
+def computed_from(values: Values) -> Computed:
+    """Return what kept values lead to, or raise the core's ValueError."""
+    return _computed(machine_of(values), *speeds_of(values))
 
 
 def speeds(top_speed: float) -> Array:
@@ -245,8 +245,8 @@ def speeds(top_speed: float) -> Array:
 
 
 @lru_cache(maxsize=64)
-def _view(machine: Machine, speed: float, top_speed: float) -> View:
-    return View(machine, speed, top_speed)
+def _computed(machine: Machine, speed: float, top_speed: float) -> Computed:
+    return Computed(machine, speed, top_speed)
 
 
 @lru_cache(maxsize=64)
@@ -263,7 +263,7 @@ def _branches(machine: Machine, top_speed: float, flexible: bool) -> ComplexArra
 
 @lru_cache(maxsize=64)
 def _locus(machine: Machine, speed: float, top_speed: float, flexible: bool) -> Locus:
-    point = _view(machine, speed, top_speed).point
+    point = _computed(machine, speed, top_speed).point
     return root_locus(
         speeds(top_speed),
         _branches(machine, top_speed, flexible),

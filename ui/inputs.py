@@ -50,7 +50,7 @@ class Input:
             return value
         return float(self.unit(units).of(self.unit(SI).to_si(value)))
 
-    def kept(self, reading: float, units: Units) -> float:
+    def stored(self, reading: float, units: Units) -> float:
         """Return a visitor's reading as it is kept."""
         if units is SI:
             return reading
@@ -70,7 +70,7 @@ class Input:
             reading = math.inf if self.infinite and sent == self.infinite else float(str(sent))
         except ValueError:
             raise ValueError(f"{self.label}: {quoted(sent)} is no number") from None
-        value = self.kept(reading, units)
+        value = self.stored(reading, units)
         if problem := self.problem(value):
             raise ValueError(f"{self.name(units)} = {reading:g} {problem}")
         return value

@@ -6,11 +6,11 @@ from typing import Any
 
 from rotorcalc.figures import Chart, themed, with_baseline
 from rotorcalc.units import Units
-from ui.computed import View, view_of
+from ui.computed import Computed, computed_from
 from ui.inputs import Values, input_named
 from ui.results import RESULTS, row_key
 
-Draw = Callable[[View], Chart]
+Draw = Callable[[Computed], Chart]
 
 
 @dataclass
@@ -18,7 +18,7 @@ class Drawn:
     """A page as it was last drawn: its machine, the pinned one, and what it shows of them."""
 
     values: Values
-    baseline: View | None
+    baseline: Computed | None
     units: Units
     dark: bool
     charts: dict[str, Draw] = field(default_factory=dict)
@@ -29,23 +29,23 @@ class Drawn:
 
         Raises ValueError where there is no such input, or the value makes no machine.
         """
-        view = view_of(self.values | {name: input_named(name).taken(value, self.units)})
+        computed = computed_from(self.values | {name: input_named(name).taken(value, self.units)})
         return {
-            "charts": {key: self._moving(draw, view) for key, draw in self.charts.items()},
+            "charts": {key: self._moving(draw, computed) for key, draw in self.charts.items()},
             "rows": {
-                row_key(keys): [RESULTS[key].shown(view, self.units) for key in keys]
+                row_key(keys): [RESULTS[key].shown(computed, self.units) for key in keys]
                 for keys in self.rows
             },
         }
 
-    def _moving(self, draw: Draw, view: View) -> Chart:
+    def _moving(self, draw: Draw, computed: Computed) -> Chart:
         """Return a chart without its frames: nobody scrubs while holding a thumb."""
-        chart = dict(drawn(draw, view, self.baseline))
+        chart = dict(drawn(draw, computed, self.baseline))
         chart.pop("frames", None)
         return themed(chart, dark=self.dark)
 
 
-def drawn(draw: Draw, view: View, baseline: View | None) -> Chart:
+def drawn(draw: Draw, computed: Computed, baseline: Computed | None) -> Chart:
     """Return a chart of a machine, the pinned one's thin and grey behind it."""
-    chart = draw(view)
+    chart = draw(computed)
     return chart if baseline is None else with_baseline(chart, draw(baseline))

@@ -19,7 +19,7 @@ _KEY = "rotorcalc"
 
 
 @dataclass
-class State:
+class Session:
     """One visitor's machine and how it is shown."""
 
     preset: str
@@ -71,23 +71,23 @@ class State:
             self.values, self.baseline = self.baseline, self.values
 
 
-def state() -> State:
+def session() -> Session:
     """Return this session's state; a new session's comes from the address bar."""
     with suppress(KeyError):
         return st.session_state[_KEY]
     given = address.read(st.query_params.to_dict())
-    st.session_state[_KEY] = kept = State(
+    st.session_state[_KEY] = visitor = Session(
         preset=given.preset, values=given.values, units_name=given.units, problems=given.problems
     )
-    return kept
+    return visitor
 
 
 def write_address_bar() -> None:
     """Put the whole machine into the address bar, where it is not there yet."""
-    kept = state()
-    if kept.held:
+    visitor = session()
+    if visitor.held:
         return
-    params = address.write(kept.preset, kept.values, kept.units_name)
+    params = address.write(visitor.preset, visitor.values, visitor.units_name)
     if st.query_params.to_dict() != params:
         st.query_params.from_dict(params)
 
@@ -97,7 +97,7 @@ def mirror(key: str, value: object) -> bool:
 
     A page's widgets are its own: on arriving, `session_state` still answers for the last page's.
     """
-    needed = state().arriving or st.session_state.get(key) != value
+    needed = session().arriving or st.session_state.get(key) != value
     if needed:
         st.session_state[key] = value
     return needed

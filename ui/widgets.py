@@ -18,7 +18,7 @@ from rotorcalc.units import Units
 from ui.inputs import INPUTS, Input, Values, input_named
 from ui.preview import Drawn
 from ui.serving import settings
-from ui.session import mirror, state
+from ui.session import mirror, session
 
 
 class _Checked(BaseFigure):
@@ -41,7 +41,7 @@ def show_chart(chart: Chart, *, key: str, alt: str) -> None:
     config: dict[str, Any] = {
         "displaylogo": False,
         "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d"],
-        "toImageButtonOptions": {"format": state().image_format, "filename": key, "scale": 2},
+        "toImageButtonOptions": {"format": session().image_format, "filename": key, "scale": 2},
     }
     drawn = themed(chart, dark=is_dark())
     if settings.live() == "off":
@@ -52,13 +52,13 @@ def show_chart(chart: Chart, *, key: str, alt: str) -> None:
 
 def show_feed(page: Drawn | None) -> None:
     """Let sliders move what is drawn here, and charts and results follow them while held."""
-    if settings.live() == "off" or state().typed:
+    if settings.live() == "off" or session().typed:
         return
-    kept = state()
-    units = kept.units
+    visitor = session()
+    units = visitor.units
     _live().show_feed(
-        page if settings.live() == "drag" else None, kept.token, kept.frame,
-        {key: _sent(item, kept.values, units) for key, item in INPUTS.items()}, _mover(units),
+        page if settings.live() == "drag" else None, visitor.token, visitor.frame,
+        {key: _sent(item, visitor.values, units) for key, item in INPUTS.items()}, _mover(units),
     )  # fmt: skip
 
 
@@ -74,7 +74,7 @@ def is_dark() -> bool:
 
 def show_inputs(group: str, items: Sequence[Input]) -> None:
     """Show sliders, or fields to type in, that read and write the session's state."""
-    if settings.live() == "off" or state().typed:
+    if settings.live() == "off" or session().typed:
         for item in items:
             _own(item)
     else:
@@ -83,15 +83,15 @@ def show_inputs(group: str, items: Sequence[Input]) -> None:
 
 def _own(item: Input) -> None:
     """Show one of Streamlit's own sliders or fields."""
-    kept = state()
-    units = kept.units
-    shown = _shown(item, kept.values, units)
-    key = f"input_{item.key}_{units.name}_{'typed' if kept.typed else 'slider'}"
+    visitor = session()
+    units = visitor.units
+    shown = _shown(item, visitor.values, units)
+    key = f"input_{item.key}_{units.name}_{'typed' if visitor.typed else 'slider'}"
     common: dict[str, Any] = {
         "label": item.name(units), "key": key, "help": item.help, "on_change": _keep,
         "args": (item, key, units),
     }  # fmt: skip
-    if kept.typed:
+    if visitor.typed:
         _typed(item, shown, units, common)
     elif item.log:
         _log_slider(item, shown, units, common)
@@ -105,7 +105,7 @@ def _shown(item: Input, values: Values, units: Units) -> float:
 
 
 def _keep(item: Input, key: str, units: Units) -> None:
-    state().set_value(item.key, item.kept(float(st.session_state[key]), units))
+    session().set_value(item.key, item.stored(float(st.session_state[key]), units))
 
 
 def _live() -> ModuleType:
@@ -114,8 +114,8 @@ def _live() -> ModuleType:
 
 
 def _live_sliders(group: str, items: Sequence[Input]) -> None:
-    live, kept = _live(), state()
-    values, units = kept.values, kept.units
+    live, visitor = _live(), session()
+    values, units = visitor.values, visitor.units
 
     def slider(item: Input) -> object:
         low, high = item.shown(item.low, units), item.shown(item.high, units)
@@ -128,7 +128,7 @@ def _live_sliders(group: str, items: Sequence[Input]) -> None:
     live.show_sliders(
         [slider(item) for item in items],
         key=f"inputs_{group}_{units.name}",
-        frame=kept.frame,
+        frame=visitor.frame,
         on_move=_mover(units),
         while_held=settings.live() == "drag",
     )
@@ -147,13 +147,13 @@ def _mover(units: Units) -> Callable[[str, object, bool], None]:
 
 def _moved(name: str, units: Units, value: object, *, held: bool) -> None:
     """Keep what a live slider sent, or report why not."""
-    kept = state()
-    kept.held = held
+    visitor = session()
+    visitor.held = held
     try:
         item = input_named(name)
-        kept.set_value(item.key, item.taken(value, units))
+        visitor.set_value(item.key, item.taken(value, units))
     except ValueError as error:
-        kept.problems[:] = [f"{error}; it was left as it is."]
+        visitor.problems[:] = [f"{error}; it was left as it is."]
 
 
 def _slider(item: Input, shown: float, units: Units, common: dict[str, Any]) -> None:

@@ -10,7 +10,7 @@ from streamlit.testing.v1 import AppTest
 
 from ui.frame.page import PAGES
 from ui.inputs import INPUTS
-from ui.session import State
+from ui.session import Session
 
 ROOT = Path(__file__).resolve().parents[2]
 TIMEOUT = 60  # seconds; a run takes 0.05, but the machine may be busy
@@ -30,8 +30,8 @@ def visit(page: str, **query: str) -> AppTest:
     return at.run()
 
 
-def kept(at: AppTest) -> State:
-    """Return what the session keeps."""
+def session_of(at: AppTest) -> Session:
+    """Return the visitor's session."""
     return at.session_state["rotorcalc"]
 
 
@@ -74,7 +74,7 @@ def slider(at: AppTest, key: str) -> tuple[Any, Any, Any]:
         return found[0], found[0].min, found[0].max
     item = INPUTS[key.split("_", 1)[1].rsplit("_", 2)[0]]
     chosen = at.select_slider(key=key)
-    units = kept(at).units
+    units = session_of(at).units
     low = float(f"{item.shown(item.low, units):.3g}")
     high = float("inf") if item.infinite else float(f"{item.shown(item.high, units):.3g}")
     return chosen, low, high

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from streamlit.testing.v1 import AppTest
 
 from rotorcalc import PRESETS, Machine
-from tests.app.session import HOME, OTHERS, kept, open_part, visit
+from tests.app.session import HOME, OTHERS, open_part, session_of, visit
 from ui.inputs import INPUTS
 
 MARK = "zqx"  # in whatever is drawn, to find it again on the page
@@ -196,4 +196,4 @@ def test_no_upload_breaks_the_page_or_writes_on_it(text: str, name: str, sharing
         ).run()
     _unharmed(sharing)
     for key, item in INPUTS.items():
-        assert item.problem(kept(sharing).values[key]) == ""
+        assert item.problem(session_of(sharing).values[key]) == ""

@@ -49,7 +49,7 @@ def test_a_preset_lies_within_the_sliders(preset: str) -> None:
 def test_a_reading_comes_back(key: str, units: str, data: st.DataObject) -> None:
     item = INPUTS[key]
     value = data.draw(st.floats(item.low, item.high))
-    there_and_back = item.kept(item.shown(value, SYSTEMS[units]), SYSTEMS[units])
+    there_and_back = item.stored(item.shown(value, SYSTEMS[units]), SYSTEMS[units])
     # Of a temperature near 0 °C, which is 32 °F, only the absolute error is small.
     assert there_and_back == pytest.approx(value, rel=1e-12, abs=1e-12 * item.high)
 
@@ -70,13 +70,13 @@ def test_a_reading_comes_back(key: str, units: str, data: st.DataObject) -> None
 )
 def test_us_units(key: str, value: float, shown: float) -> None:
     assert INPUTS[key].shown(value, US) == pytest.approx(shown, rel=1e-12)
-    assert INPUTS[key].kept(shown, US) == pytest.approx(value, rel=1e-12)
+    assert INPUTS[key].stored(shown, US) == pytest.approx(value, rel=1e-12)
 
 
 @pytest.mark.parametrize("key", INPUTS)
 def test_si_needs_no_arithmetic(key: str) -> None:
     assert INPUTS[key].shown(0.1 + 0.2, SI) == 0.1 + 0.2
-    assert INPUTS[key].kept(0.1 + 0.2, SI) == 0.1 + 0.2
+    assert INPUTS[key].stored(0.1 + 0.2, SI) == 0.1 + 0.2
 
 
 def test_every_input_has_a_group_a_name_and_an_explanation() -> None:

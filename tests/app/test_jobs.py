@@ -9,7 +9,7 @@ import pytest
 from rotorcalc import onset_speed
 from tests.machines import SHEET
 from ui.jobs import queue
-from ui.jobs.cache import Kept, size_of
+from ui.jobs.cache import Cached, size_of
 from ui.jobs.queue import Turns
 
 
@@ -123,9 +123,9 @@ def test_two_who_ask_for_the_same_at_once_compute_it_once() -> None:
         time.sleep(0.05)
         return 2 * number
 
-    kept = Kept(work, entries=4, megabytes=1, turns=Turns(1, hire=Here))
+    cached = Cached(work, entries=4, megabytes=1, turns=Turns(1, hire=Here))
     found: list[int] = []
-    threads = [threading.Thread(target=lambda: found.append(kept(21))) for _ in range(4)]
+    threads = [threading.Thread(target=lambda: found.append(cached(21))) for _ in range(4)]
     for thread in threads:
         thread.start()
     for thread in threads:
@@ -135,11 +135,11 @@ def test_two_who_ask_for_the_same_at_once_compute_it_once() -> None:
 
 
 def test_results_are_kept_up_to_a_number_and_a_size() -> None:
-    few = Kept(np.zeros, entries=3, megabytes=100)
+    few = Cached(np.zeros, entries=3, megabytes=100)
     for n in range(1, 10):
         few(n)
     assert len(few) == 3
-    small = Kept(np.zeros, entries=100, megabytes=0.1)
+    small = Cached(np.zeros, entries=100, megabytes=0.1)
     for n in range(1000, 1040):
         small(n)
     assert small.size <= 0.1e6

@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import pytest
 
-from tests.app.session import HOME, PAGES, faults, kept, slider_keys, visit
+from tests.app.session import HOME, PAGES, faults, session_of, slider_keys, visit
 from ui.inputs import INPUTS
 from ui.live.chart import encoded
 from ui.serving import settings
@@ -52,25 +52,25 @@ def test_unknown_setting_is_refused_by_name(monkeypatch: pytest.MonkeyPatch) -> 
 )
 def test_nothing_but_a_value_in_range_is_kept(sent: object, monkeypatch) -> None:
     at = visit(HOME)
-    state = kept(at)
-    before = dict(state.values)
-    monkeypatch.setattr("ui.widgets.state", lambda: state)
-    _moved("C", state.units, sent, held=False)
-    assert state.values == before
-    assert len(state.problems) == 1
-    assert state.problems[0].startswith("Radial clearance")
+    visitor = session_of(at)
+    before = dict(visitor.values)
+    monkeypatch.setattr("ui.widgets.session", lambda: visitor)
+    _moved("C", visitor.units, sent, held=False)
+    assert visitor.values == before
+    assert len(visitor.problems) == 1
+    assert visitor.problems[0].startswith("Radial clearance")
 
 
 def test_a_value_is_kept_in_the_links_unit_and_the_last_word_is_a_rigid_shaft(monkeypatch) -> None:
     at = visit(HOME, units="US")
-    state = kept(at)
-    monkeypatch.setattr("ui.widgets.state", lambda: state)
-    _moved("C", state.units, 3.0, held=True)
-    assert state.values["C"] == pytest.approx(76.2)
-    assert state.held
-    _moved("k", state.units, "rigid", held=False)
-    assert state.values["k"] == float("inf")
-    assert state.problems == []
+    visitor = session_of(at)
+    monkeypatch.setattr("ui.widgets.session", lambda: visitor)
+    _moved("C", visitor.units, 3.0, held=True)
+    assert visitor.values["C"] == pytest.approx(76.2)
+    assert visitor.held
+    _moved("k", visitor.units, "rigid", held=False)
+    assert visitor.values["k"] == float("inf")
+    assert visitor.problems == []
 
 
 def test_arrays_travel_in_single_precision_and_keep_their_shape() -> None:

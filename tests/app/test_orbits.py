@@ -5,7 +5,7 @@ import re
 import pytest
 from streamlit.testing.v1 import AppTest
 
-from tests.app.session import charts, faults, kept, open_part, visit
+from tests.app.session import charts, faults, open_part, session_of, visit
 
 ORBITS = "pages/6_Orbits.py"
 
@@ -31,7 +31,7 @@ def press(at: AppTest, key: str) -> None:
 def test_demonstrations_set_up_machine_and_kick(demo: str, words: str) -> None:
     at = visit(ORBITS)
     press(at, f"orbits_{demo}")
-    assert kept(at).values["u"] == 0.0
+    assert session_of(at).values["u"] == 0.0
     assert re.search(words, said(at)), said(at)
     assert set(charts(at)) == {"chart_orbits_path", "chart_orbits_time"}
 
@@ -39,8 +39,8 @@ def test_demonstrations_set_up_machine_and_kick(demo: str, words: str) -> None:
 def test_onset_demonstrations_keep_the_machine_and_need_an_onset() -> None:
     at = visit(ORBITS, C="80")
     press(at, "orbits_above")
-    assert kept(at).values["C"] == 80.0
-    assert kept(at).values["rpm"] == pytest.approx(1.05 * 7000, rel=0.3)
+    assert session_of(at).values["C"] == 80.0
+    assert session_of(at).values["rpm"] == pytest.approx(1.05 * 7000, rel=0.3)
     at = visit(ORBITS, cs="100000")
     assert at.button(key="orbits_below").disabled
     assert not at.button(key="orbits_big").disabled
@@ -67,7 +67,7 @@ def test_long_work_starts_on_demand_and_is_kept_until_the_machine_changes() -> N
         at.run()
         assert set(charts(at)) == {chart}
         assert not [button for button in at.button if button.key == f"{key}_cancel"]
-    kept(at).set_value("C", 61.0)
+    session_of(at).set_value("C", 61.0)
     at.run()
     assert charts(at) == {}
     assert at.button(key="orbits_cycles")
@@ -115,8 +115,8 @@ def test_a_machine_that_swings_often_in_a_revolution_is_followed_for_fewer() -> 
 
 def test_a_pinned_machine_that_allows_no_release_is_left_out() -> None:
     at = visit(ORBITS, rpm="100", load="20000")
-    kept(at).pin()
-    kept(at).set_preset("sheet-1e8")
+    session_of(at).pin()
+    session_of(at).set_preset("sheet-1e8")
     at.slider(key="orbits_kick").set_value(0.9).run()
     assert not at.exception
     assert charts(at)

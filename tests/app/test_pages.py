@@ -17,8 +17,8 @@ from tests.app.session import (
     PAGES,
     charts,
     faults,
-    kept,
     open_part,
+    session_of,
     slider,
     slider_keys,
     tours,
@@ -55,7 +55,7 @@ def test_every_tab_at_every_preset(path: str, units: str) -> None:
     at = visit(path, units=units)
     for preset in PRESETS:
         at.selectbox(key="preset").set_value(preset).run()
-        assert kept(at).preset == preset
+        assert session_of(at).preset == preset
         for label in tours(at):
             assert faults(at) == [], (preset, label)
 
@@ -96,7 +96,7 @@ def _ends(at: AppTest, keys: list[str]) -> Iterator[tuple[str, float, list[str]]
 
 def _no_disk(at: AppTest) -> bool:
     """Tell whether the journals' mass leaves no disk, and the page says just that."""
-    values = kept(at).values
+    values = session_of(at).values
     said = [error.value for error in at.error]
     return (
         values["mj"] >= values["mass"] / 2

@@ -13,9 +13,9 @@ from tests.app.session import (
     PAGES,
     charts,
     faults,
-    kept,
     move,
     open_part,
+    session_of,
     tours,
     visit,
 )
@@ -36,16 +36,16 @@ def test_a_value_survives_a_change_of_page() -> None:
     for path in (*OTHERS, HOME):
         at.switch_page(path).run()
         assert at.slider(key="input_C_SI_slider").value == 85.0, path
-        assert kept(at).values["C"] == 85.0
+        assert session_of(at).values["C"] == 85.0
         assert at.query_params == {"C": "85"}
 
 
 def test_a_link_holds_on_every_page_with_no_slider_touched() -> None:
     at = visit(OTHERS[0], preset="sheet-1e7", C="80", rpm="3000", k="inf")
-    before = dict(kept(at).values)
+    before = dict(session_of(at).values)
     for path in (HOME, *OTHERS):
         at.switch_page(path).run()
-        assert kept(at).values == before
+        assert session_of(at).values == before
         assert _shown(at) == before | {"load": None}
         assert at.selectbox(key="preset").value == "sheet-1e7"
         assert at.toggle(key="load_follows").value
@@ -64,9 +64,9 @@ def _shown(at) -> dict[str, float | None]:
 def test_a_preset_resets_all_values() -> None:
     at = visit(HOME, C="80", cs="500")
     at.selectbox(key="preset").set_value("sheet-1e7").run()
-    assert kept(at).values == PRESET_VALUES["sheet-1e7"]
+    assert session_of(at).values == PRESET_VALUES["sheet-1e7"]
     at.selectbox(key="preset").set_value("sheet-1e8").run()
-    assert kept(at).values == PRESET_VALUES["sheet-1e8"]
+    assert session_of(at).values == PRESET_VALUES["sheet-1e8"]
     assert at.query_params == {}
 
 
@@ -77,12 +77,12 @@ def test_switching_units_leaves_the_machine(preset: str, typed: bool) -> None:
     if typed:
         open_part(at, "settings")
         at.toggle(key="typed").set_value(True).run()
-    before, machine = dict(kept(at).values), machine_of(kept(at).values).to_json()
+    before, machine = dict(session_of(at).values), machine_of(session_of(at).values).to_json()
     for units in ("US", "SI", "US", "SI"):
         _units(at, units)
-        assert kept(at).units_name == units
-        assert kept(at).values == before
-        assert machine_of(kept(at).values).to_json() == machine
+        assert session_of(at).units_name == units
+        assert session_of(at).values == before
+        assert machine_of(session_of(at).values).to_json() == machine
         assert faults(at) == []
 
 
@@ -97,7 +97,7 @@ def test_us_units_are_shown() -> None:
 def test_moving_a_slider_in_us_units_keeps_si() -> None:
     at = visit(HOME, units="US")
     at.slider(key="input_C_US_slider").set_value(4.0).run()
-    assert kept(at).values["C"] == pytest.approx(4 * 25.4, rel=1e-12)
+    assert session_of(at).values["C"] == pytest.approx(4 * 25.4, rel=1e-12)
 
 
 @pytest.mark.parametrize("path", PAGES)
@@ -117,9 +117,9 @@ def test_pin_and_compare(path: str) -> None:
     assert "Radial clearance" in differing.to_string()
     assert re.search(r"60\b.*85\b", differing.to_string())
     at.button(key="swap").click().run()
-    assert (kept(at).values["C"], kept(at).baseline["C"]) == (60.0, 85.0)
+    assert (session_of(at).values["C"], session_of(at).baseline["C"]) == (60.0, 85.0)
     at.button(key="unpin").click().run()
-    assert kept(at).baseline is None
+    assert session_of(at).baseline is None
     assert not any(_ghosts(figure) for figure in charts(at).values())
     assert faults(at) == []
 
@@ -141,7 +141,7 @@ def test_the_pinned_machine_survives_a_change_of_page_and_of_units() -> None:
     move(at, "C", 85.0)
     at.switch_page(OTHERS[0]).run()
     _units(at, "US")
-    assert kept(at).baseline == PRESET_VALUES["sheet-1e8"]
+    assert session_of(at).baseline == PRESET_VALUES["sheet-1e8"]
     assert any(_ghosts(figure) for figure in charts(at).values())
 
 
@@ -151,7 +151,7 @@ def test_a_broken_link_is_answered_in_words_and_nothing_else_is_lost() -> None:
     assert len(said) == 4
     for name in ("Radial clearance", "Diameter", "Reference viscosity", "colour"):
         assert any(name in words for words in said), name
-    assert kept(at).values == PRESET_VALUES["sheet-1e8"] | {"T": 70.0}
+    assert session_of(at).values == PRESET_VALUES["sheet-1e8"] | {"T": 70.0}
     assert at.query_params == {"T": "70"}
     move(at, "C", 85.0)
     assert not at.warning
@@ -159,11 +159,11 @@ def test_a_broken_link_is_answered_in_words_and_nothing_else_is_lost() -> None:
 
 def test_a_machine_file_comes_back_the_same() -> None:
     at = visit(HOME, C="81.3", load="1234.5", k="inf", rpm="5000")
-    machine = machine_of(kept(at).values)
+    machine = machine_of(session_of(at).values)
     other = visit(HOME, preset="fig-5-2")
     open_part(other, "share")
     other.file_uploader(key="upload").upload("machine.json", machine.to_json().encode()).run()
-    assert machine_of(kept(other).values) == machine
+    assert machine_of(session_of(other).values) == machine
     assert faults(other) == []
     assert not other.warning
 
@@ -184,7 +184,7 @@ def test_a_broken_machine_file_is_answered_in_words(text: str, word: str) -> Non
     (warning,) = at.warning
     assert "bad.json" in warning.value
     assert word in warning.value
-    assert kept(at).values == PRESET_VALUES["sheet-1e8"] | {"C": 80.0}
+    assert session_of(at).values == PRESET_VALUES["sheet-1e8"] | {"C": 80.0}
 
 
 def test_a_value_out_of_a_files_range_is_reported_by_name() -> None:
@@ -196,7 +196,7 @@ def test_a_value_out_of_a_files_range_is_reported_by_name() -> None:
     at.file_uploader(key="upload").upload("m.json", json.dumps(document).encode()).run()
     (warning,) = at.warning
     assert "Radial clearance" in warning.value
-    assert kept(at).values == PRESET_VALUES["sheet-1e8"] | {"T": 70.0}
+    assert session_of(at).values == PRESET_VALUES["sheet-1e8"] | {"T": 70.0}
 
 
 def test_the_shared_link_holds_the_whole_machine() -> None:
@@ -205,18 +205,18 @@ def test_the_shared_link_holds_the_whole_machine() -> None:
     query = dict(part.split("=") for part in at.code[0].value.split("?")[1].split("&"))
     again = address.read(query)
     assert again.problems == []
-    assert (again.preset, again.values) == (kept(at).preset, kept(at).values)
+    assert (again.preset, again.values) == (session_of(at).preset, session_of(at).values)
 
 
 def test_the_load_toggle_gives_the_weight_and_takes_it_back() -> None:
     at = visit(HOME)
-    weight = machine_of(kept(at).values).static_load
+    weight = machine_of(session_of(at).values).static_load
     at.toggle(key="load_follows").set_value(False).run()
-    assert kept(at).values["load"] == pytest.approx(weight, rel=1e-3)
+    assert session_of(at).values["load"] == pytest.approx(weight, rel=1e-3)
     move(at, "load", 0.0)
-    assert kept(at).values["load"] == 0.0
+    assert session_of(at).values["load"] == 0.0
     at.toggle(key="load_follows").set_value(True).run()
-    assert kept(at).values["load"] is None
+    assert session_of(at).values["load"] is None
 
 
 @pytest.mark.parametrize("temperature", [0.0, 40.0, 60.0, 150.0])
@@ -228,7 +228,7 @@ def test_every_grade_of_the_oil_library_can_be_used(temperature: float) -> None:
         at.button(key="use_grade").click().run()
         assert at.exception == []  # out of a slider's range is told in words
         if not at.warning:
-            assert kept(at).values["TR"] == temperature
+            assert session_of(at).values["TR"] == temperature
 
 
 def test_a_fitted_oil_passes_through_its_two_viscosities() -> None:
@@ -240,7 +240,7 @@ def test_a_fitted_oil_passes_through_its_two_viscosities() -> None:
     at.number_input(key="fit_mu2").set_value(5.0)
     at.run()
     at.button(key="use_fit").click().run()
-    oil = machine_of(kept(at).values).oil
+    oil = machine_of(session_of(at).values).oil
     assert float(oil.viscosity(40.0)) == pytest.approx(0.040, rel=1e-4)
     assert float(oil.viscosity(100.0)) == pytest.approx(0.005, rel=1e-4)
 
@@ -265,7 +265,7 @@ def test_every_result_explains_itself_at_the_limits_too(path: str) -> None:
     for key in explained:
         at.session_state[key] = True
     for values in LIMITS:
-        kept(at).values = PRESET_VALUES["sheet-1e8"] | values
+        session_of(at).values = PRESET_VALUES["sheet-1e8"] | values
         at.run()
         assert len(at.latex) >= len(explained), values
         assert faults(at) == [], values

@@ -16,7 +16,7 @@ from streamlit.runtime.scriptrunner import script_runner
 
 from rotorcalc.figures import Chart
 from tests.app.session import PAGES, slider, tours, visit
-from ui.computed import View
+from ui.computed import Computed
 from ui.frame.page import Page
 
 ROUNDS, WARMUP = 30, 3
@@ -75,12 +75,12 @@ def test_script(path: str, script_clock: None, benchmark: Any) -> None:
 
 @pytest.mark.benchmark(group="all charts of a page, results at hand", timer=time.process_time)
 def test_charts(path: str, monkeypatch: pytest.MonkeyPatch, benchmark: Any) -> None:
-    drawn: dict[str, tuple[Callable[[View], Chart], View]] = {}
+    drawn: dict[str, tuple[Callable[[Computed], Chart], Computed]] = {}
 
     def collect(
-        page: Page, draw: Callable[[View], Chart], key: str, *, alt: str, caption: str
+        page: Page, draw: Callable[[Computed], Chart], key: str, *, alt: str, caption: str
     ) -> None:
-        drawn[key] = draw, page.view
+        drawn[key] = draw, page.computed
 
     monkeypatch.setattr(Page, "chart", collect)
     at = visit(path)
@@ -89,7 +89,8 @@ def test_charts(path: str, monkeypatch: pytest.MonkeyPatch, benchmark: Any) -> N
 
     def draw_all() -> int:
         return sum(
-            len(plotly.io.to_json(draw(view), validate=False)) for draw, view in drawn.values()
+            len(plotly.io.to_json(draw(computed), validate=False))
+            for draw, computed in drawn.values()
         )
 
     benchmark.extra_info["charts"] = len(drawn)

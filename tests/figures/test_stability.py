@@ -14,7 +14,7 @@ from rotorcalc.figures import SI, US, Chart, Units, figure, with_baseline
 from rotorcalc.figures import design as what_if
 from rotorcalc.figures import stability as figures
 from rotorcalc.onset.search import Onset
-from ui.computed import View, view_of
+from ui.computed import Computed, computed_from
 from ui.inputs import INPUTS, PRESET_VALUES, Values
 from ui.words import stability as ask
 
@@ -36,49 +36,49 @@ VALUES: dict[str, Values] = {
 every_machine = pytest.mark.parametrize("values", VALUES.values(), ids=VALUES.keys())
 
 
-def _over_speed(draw: Callable[..., Chart], v: View, units: Units) -> Chart:
+def _over_speed(draw: Callable[..., Chart], c: Computed, units: Units) -> Chart:
     return draw(
-        whirl_energy.thresholds(v.sweep), whirl_energy.thresholds(v.point), ask.crossing(v), units
+        whirl_energy.thresholds(c.sweep), whirl_energy.thresholds(c.point), ask.crossing(c), units
     )
 
 
-def _fig_5_10(v: View, over_eps: bool) -> Chart:
+def _fig_5_10(c: Computed, over_eps: bool) -> Chart:
     return figures.flexible_threshold(
-        ask.film_figure(v, over_eps), ask.sags(v), ask.flexible_curves(v), ask.flexible_here(v)
+        ask.film_figure(c, over_eps), ask.sags(c), ask.flexible_curves(c), ask.flexible_here(c)
     )
 
 
-def _map(v: View, units: Units) -> Chart:
-    axes = (ask.quantity("C", v.machine, units), ask.quantity("load", v.machine, units))
+def _map(c: Computed, units: Units) -> Chart:
+    axes = (ask.quantity("C", c.machine, units), ask.quantity("load", c.machine, units))
     xs, ys = (np.geomspace(axis.low, axis.high, 4) for axis in axes)
-    onsets = design.onset_map(v.machine, x="radial_clearance", xs=xs, y="load", ys=ys)
+    onsets = design.onset_map(c.machine, x="radial_clearance", xs=xs, y="load", ys=ys)
     return what_if.onset_map(
-        onsets, axes, (ask.value(v, "C"), ask.value(v, "load")), v.speed, units
+        onsets, axes, (ask.value(c, "C"), ask.value(c, "load")), c.speed, units
     )
 
 
-def _solution(v: View, units: Units) -> Chart:
-    found = design.solve_onset(v.machine, vary="temperature", target=1.2 * v.speed, low=0, high=150)
-    axis = ask.quantity("T", v.machine, units)
-    return what_if.solution(found, axis, (v.machine.temperature, v.onset.speed), units)
+def _solution(c: Computed, units: Units) -> Chart:
+    found = design.solve_onset(c.machine, vary="temperature", target=1.2 * c.speed, low=0, high=150)
+    axis = ask.quantity("T", c.machine, units)
+    return what_if.solution(found, axis, (c.machine.temperature, c.onset.speed), units)
 
 
-CHARTS: dict[str, Callable[[View, Units], Chart]] = {
-    "threshold": lambda v, units: _over_speed(figures.threshold, v, units),
-    "whirl frequency": lambda v, units: _over_speed(figures.whirl_frequency, v, units),
-    "critical mass": lambda v, units: _over_speed(figures.critical_mass, v, units),
-    "whirl ratio over σ": lambda v, _: figures.whirl_ratio(ask.film_figure(v)),
-    "whirl ratio over ε": lambda v, _: figures.whirl_ratio(ask.film_figure(v, True)),
-    "p_s over σ": lambda v, _: figures.threshold_speed(ask.film_figure(v)),
-    "p_s over ε": lambda v, _: figures.threshold_speed(ask.film_figure(v, True)),
-    "p_s² over σ": lambda v, _: figures.critical_mass_number(ask.film_figure(v)),
-    "p_s² over ε": lambda v, _: figures.critical_mass_number(ask.film_figure(v, True)),
-    "p_sf over σ": lambda v, _: _fig_5_10(v, False),
-    "p_sf over ε": lambda v, _: _fig_5_10(v, True),
-    "energy bars": lambda v, units: figures.energy_bars(ask.energies(v), units),
-    "energy": lambda v, units: figures.energy(ask.energies(v), ask.crossing(v), units),
+CHARTS: dict[str, Callable[[Computed, Units], Chart]] = {
+    "threshold": lambda c, units: _over_speed(figures.threshold, c, units),
+    "whirl frequency": lambda c, units: _over_speed(figures.whirl_frequency, c, units),
+    "critical mass": lambda c, units: _over_speed(figures.critical_mass, c, units),
+    "whirl ratio over σ": lambda c, _: figures.whirl_ratio(ask.film_figure(c)),
+    "whirl ratio over ε": lambda c, _: figures.whirl_ratio(ask.film_figure(c, True)),
+    "p_s over σ": lambda c, _: figures.threshold_speed(ask.film_figure(c)),
+    "p_s over ε": lambda c, _: figures.threshold_speed(ask.film_figure(c, True)),
+    "p_s² over σ": lambda c, _: figures.critical_mass_number(ask.film_figure(c)),
+    "p_s² over ε": lambda c, _: figures.critical_mass_number(ask.film_figure(c, True)),
+    "p_sf over σ": lambda c, _: _fig_5_10(c, False),
+    "p_sf over ε": lambda c, _: _fig_5_10(c, True),
+    "energy bars": lambda c, units: figures.energy_bars(ask.energies(c), units),
+    "energy": lambda c, units: figures.energy(ask.energies(c), ask.crossing(c), units),
     "map": _map,
-    "tornado": lambda v, units: what_if.tornado(ask.sensitivities(v), ask.names(units), units),
+    "tornado": lambda c, units: what_if.tornado(ask.sensitivities(c), ask.names(units), units),
     "solution": _solution,
 }
 every_chart = pytest.mark.parametrize("draw", CHARTS.values(), ids=CHARTS.keys())
@@ -100,15 +100,15 @@ def _numbers(trace: dict[str, Any], key: str) -> np.ndarray:
 @every_machine
 @every_chart
 def test_chart_is_valid_and_says_no_nan(
-    values: Values, draw: Callable[[View, Units], Chart]
+    values: Values, draw: Callable[[Computed, Units], Chart]
 ) -> None:
-    _check(draw(view_of(values), SI))
+    _check(draw(computed_from(values), SI))
 
 
 @pytest.mark.parametrize("key", ["sheet-1e7", "damped"])
 @every_chart
-def test_chart_is_valid_in_us_units(key: str, draw: Callable[[View, Units], Chart]) -> None:
-    _check(draw(view_of(VALUES[key]), US))
+def test_chart_is_valid_in_us_units(key: str, draw: Callable[[Computed, Units], Chart]) -> None:
+    _check(draw(computed_from(VALUES[key]), US))
 
 
 # Without an onset there is no whirl orbit: the page says so and draws no energy.
@@ -116,9 +116,9 @@ def test_chart_is_valid_in_us_units(key: str, draw: Callable[[View, Units], Char
 def test_chart_is_valid_where_there_is_no_onset(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     draw = CHARTS[name]
     never = Onset(speed=math.inf, whirl_frequency=math.nan, eccentricity_ratio=math.nan)
-    monkeypatch.setattr(View, "onset", never)
+    monkeypatch.setattr(Computed, "onset", never)
     monkeypatch.setattr(ask, "sensitivities", lambda _: _endless())
-    _check(draw(view_of(VALUES["damped"]), SI))
+    _check(draw(computed_from(VALUES["damped"]), SI))
 
 
 def _endless() -> design.Sensitivities:
@@ -140,8 +140,8 @@ def _check(chart: Chart) -> None:
 
 @every_machine
 @every_chart
-def test_no_chart_is_empty(values: Values, draw: Callable[[View, Units], Chart]) -> None:
-    chart = draw(view_of(values), SI)
+def test_no_chart_is_empty(values: Values, draw: Callable[[Computed, Units], Chart]) -> None:
+    chart = draw(computed_from(values), SI)
     low, high = chart["layout"]["yaxis"]["range"]
     if chart["layout"]["yaxis"]["type"] == "log":
         low, high = 10.0**low, 10.0**high
@@ -153,28 +153,28 @@ def test_no_chart_is_empty(values: Values, draw: Callable[[View, Units], Chart])
 
 
 @every_chart
-def test_a_pinned_machine_can_stand_behind(draw: Callable[[View, Units], Chart]) -> None:
-    live, pinned = (draw(view_of(VALUES[key]), SI) for key in ("sheet-1e8", "damped"))
+def test_a_pinned_machine_can_stand_behind(draw: Callable[[Computed, Units], Chart]) -> None:
+    live, pinned = (draw(computed_from(VALUES[key]), SI) for key in ("sheet-1e8", "damped"))
     assert isinstance(figure(with_baseline(live, pinned)), go.Figure)
 
 
 @pytest.mark.parametrize("key", PRESETS)
 def test_the_crossing_lies_on_the_line_of_equal_speeds(key: str) -> None:
-    view = view_of(PRESET_VALUES[key])
-    chart = _over_speed(figures.threshold, view, SI)
+    computed = computed_from(PRESET_VALUES[key])
+    chart = _over_speed(figures.threshold, computed, SI)
     [mark] = [trace for trace in chart["data"] if trace["name"].startswith("onset")]
-    rpm = float(SI.speed.of(view.onset.speed))
+    rpm = float(SI.speed.of(computed.onset.speed))
     assert mark["x"] == pytest.approx([rpm])
     assert mark["y"] == pytest.approx([rpm])
     assert chart["layout"]["shapes"][0]["x0"] == pytest.approx(rpm)
 
 
 def test_with_damping_the_onset_is_a_line_of_its_own() -> None:
-    view = view_of(VALUES["damped"])
-    chart = _over_speed(figures.threshold, view, SI)
+    computed = computed_from(VALUES["damped"])
+    chart = _over_speed(figures.threshold, computed, SI)
     [line] = [trace for trace in chart["data"] if trace["name"].startswith("onset")]
     assert line["mode"] == "lines"
-    assert line["x"] == pytest.approx([float(SI.speed.of(view.onset.speed))] * 2)
+    assert line["x"] == pytest.approx([float(SI.speed.of(computed.onset.speed))] * 2)
     curves = [trace for trace in chart["data"] if trace["name"].endswith("bare")]
     assert [curve["line"]["dash"] for curve in curves] == ["dash", "dash"]
 
@@ -183,7 +183,7 @@ def test_axes_stay_where_they_are_while_a_slider_moves() -> None:
     ranges = {
         json.dumps(
             [
-                CHARTS[name](view_of(SHEET | {"C": clearance}), SI)["layout"][axis]["range"]
+                CHARTS[name](computed_from(SHEET | {"C": clearance}), SI)["layout"][axis]["range"]
                 for name in CHARTS
                 if name not in SLOW
                 for axis in ("xaxis", "yaxis")
@@ -197,35 +197,36 @@ def test_axes_stay_where_they_are_while_a_slider_moves() -> None:
 
 def test_the_bars_meet_at_the_onset() -> None:
     for key in ("sheet-1e8", "damped"):
-        gain, *losses = figures.energy_bars(ask.energies(view_of(VALUES[key])), SI)["data"]
+        gain, *losses = figures.energy_bars(ask.energies(computed_from(VALUES[key])), SI)["data"]
         taken = sum(loss["y"][1] for loss in losses)
         assert gain["y"][1] == pytest.approx(taken, rel=1e-9)
         assert len(losses) == (2 if key == "damped" else 1)
 
 
 def test_the_tornado_has_the_largest_on_top() -> None:
-    view = view_of(SHEET)
-    chart = what_if.tornado(ask.sensitivities(view), ask.names(SI), SI)
+    computed = computed_from(SHEET)
+    chart = what_if.tornado(ask.sensitivities(computed), ask.names(SI), SI)
     less, more = (np.abs(trace["x"]) for trace in chart["data"][:2])
     reach = np.maximum(less, more)
     assert np.all(np.diff(reach) >= 0.0)
     assert any("Film temperature T ±5 °C" in row for row in chart["layout"]["yaxis"]["ticktext"])
-    in_us = what_if.tornado(ask.sensitivities(view), ask.names(US), US)
+    in_us = what_if.tornado(ask.sensitivities(computed), ask.names(US), US)
     assert any("Film temperature T ±9 °F" in row for row in in_us["layout"]["yaxis"]["ticktext"])
 
 
 def test_a_map_keeps_its_ladder_of_colours() -> None:
     first, second = (
-        _map(view_of(PRESET_VALUES[key]), SI)["data"][0] for key in ("sheet-1e8", "friswell-5-5-1")
+        _map(computed_from(PRESET_VALUES[key]), SI)["data"][0]
+        for key in ("sheet-1e8", "friswell-5-5-1")
     )
     for key in ("zmin", "zmax", "contours"):
         assert first[key] == second[key]
 
 
 def test_the_solutions_stand_on_the_wanted_line() -> None:
-    view, axis = view_of(SHEET), ask.quantity("C", view_of(SHEET).machine, SI)
-    found = ask.solution(view, "C", 1.2 * view.speed, SI)
-    chart = what_if.solution(found, axis, (60e-6, view.onset.speed), SI)
+    computed, axis = computed_from(SHEET), ask.quantity("C", computed_from(SHEET).machine, SI)
+    found = ask.solution(computed, "C", 1.2 * computed.speed, SI)
+    chart = what_if.solution(found, axis, (60e-6, computed.onset.speed), SI)
     [mark] = [trace for trace in chart["data"] if trace["name"] == "meets it"]
     assert mark["x"] == pytest.approx([100.44, 459.40], rel=1e-4)
     assert mark["y"] == pytest.approx([7200.0, 7200.0])
@@ -234,8 +235,8 @@ def test_the_solutions_stand_on_the_wanted_line() -> None:
 
 
 def test_an_answer_says_what_can_be_reached_where_there_is_no_solution() -> None:
-    view, axis = view_of(SHEET), ask.quantity("T", view_of(SHEET).machine, SI)
-    found = ask.solution(view, "T", 2.0 * view.speed, SI)
+    computed, axis = computed_from(SHEET), ask.quantity("T", computed_from(SHEET).machine, SI)
+    found = ask.solution(computed, "T", 2.0 * computed.speed, SI)
     words = ask.answer(found, axis, 60.0, SI)
     assert "No value" in words
     assert "8296" in words
@@ -244,7 +245,7 @@ def test_an_answer_says_what_can_be_reached_where_there_is_no_solution() -> None
 
 @pytest.mark.parametrize("key", sorted(INPUTS.keys() - {"TR", "rho", "u", "rpm", "rpm_max"}))
 def test_every_input_that_moves_an_onset_can_be_varied(key: str) -> None:
-    view = view_of(VALUES["damped"])
-    axis = ask.quantity(key, view.machine, SI)
+    computed = computed_from(VALUES["damped"])
+    axis = ask.quantity(key, computed.machine, SI)
     for end in (axis.low, axis.high):
-        variation.varied(view.machine, {ask.FIELDS[key]: end})
+        variation.varied(computed.machine, {ask.FIELDS[key]: end})

@@ -16,7 +16,7 @@ import pytest
 from rotorcalc import Machine
 from rotorcalc.onset import whirl
 from rotorcalc.units import SI, US, Units
-from ui.computed import View, view_of
+from ui.computed import Computed, computed_from
 from ui.inputs import INPUTS, PRESET_VALUES, Values, values_of
 from ui.results import RESULTS
 from ui.sharing import export, report
@@ -37,34 +37,34 @@ every_case = pytest.mark.parametrize("case", CASES)
 either_system = pytest.mark.parametrize("units", [SI, US], ids=lambda units: units.name)
 
 
-def view(case: str) -> View:
-    return view_of(CASES[case])
+def computed(case: str) -> Computed:
+    return computed_from(CASES[case])
 
 
 def sheet(case: str, units: Units) -> tuple[list[str], np.ndarray]:
-    text = export.sweep_csv(view(case), units).decode("utf-8-sig")
+    text = export.sweep_csv(computed(case), units).decode("utf-8-sig")
     header, *rows = csv.reader(io.StringIO(text, newline=""))
     return header, np.array(rows, dtype=float)
 
 
 def test_cases_are_what_they_are_called() -> None:
-    assert view("no load").unloaded
-    assert view("rigid").machine.rotor.is_rigid
-    assert math.isinf(view("no onset").onset.speed)
+    assert computed("no load").unloaded
+    assert computed("rigid").machine.rotor.is_rigid
+    assert math.isinf(computed("no onset").onset.speed)
 
 
 # CSV
 
 
 def test_csv_begins_with_the_mark_by_which_excel_knows_utf_8() -> None:
-    assert export.sweep_csv(view("rigid"), SI).startswith(b"\xef\xbb\xbf")
+    assert export.sweep_csv(computed("rigid"), SI).startswith(b"\xef\xbb\xbf")
 
 
 @every_case
 @either_system
 def test_csv_agrees_with_the_sweep(case: str, units: Units) -> None:
     header, numbers = sheet(case, units)
-    sweep = view(case).sweep
+    sweep = computed(case).sweep
     lag = {"Disk": sweep.disk_response, "Journal": sweep.journal_response}
     expected = {
         f"Running speed Ω [{units.speed.name}]": units.speed.of(sweep.speed),
@@ -104,8 +104,8 @@ def test_csv_follows_the_units_shown() -> None:
 def test_csv_holds_every_eigenvalue_of_the_sweep(case: str) -> None:
     header, numbers = sheet(case, SI)
     for name, values in (
-        ("Rotor", view(case).sweep.flexible_eigenvalues),
-        ("Rigid rotor", view(case).sweep.rigid_eigenvalues),
+        ("Rotor", computed(case).sweep.flexible_eigenvalues),
+        ("Rigid rotor", computed(case).sweep.rigid_eigenvalues),
     ):
         if name == "Rotor" and case == "rigid":
             assert not any(title.startswith("Rotor:") for title in header)
@@ -118,11 +118,11 @@ def test_csv_holds_every_eigenvalue_of_the_sweep(case: str) -> None:
 
 
 def test_csv_writes_what_is_no_number_in_words_that_python_reads() -> None:
-    text = export.sweep_csv(view("no load"), SI).decode("utf-8-sig")
+    text = export.sweep_csv(computed("no load"), SI).decode("utf-8-sig")
     assert ",inf," in text
-    still = export.sweep_csv(view("no imbalance"), SI).decode("utf-8-sig")
+    still = export.sweep_csv(computed("no imbalance"), SI).decode("utf-8-sig")
     assert ",0,nan," in still  # nothing moves, so nothing lags
-    assert "nan" not in export.sweep_csv(view("sheet-1e8"), SI).decode("utf-8-sig")
+    assert "nan" not in export.sweep_csv(computed("sheet-1e8"), SI).decode("utf-8-sig")
 
 
 # JSON
@@ -130,8 +130,8 @@ def test_csv_writes_what_is_no_number_in_words_that_python_reads() -> None:
 
 @every_case
 def test_json_loads_back_equal(case: str) -> None:
-    text = export.machine_json(view(case)).decode()
-    assert Machine.from_json(text) == view(case).machine
+    text = export.machine_json(computed(case)).decode()
+    assert Machine.from_json(text) == computed(case).machine
     assert json.loads(text)["version"] == 1
 
 
@@ -141,7 +141,7 @@ def test_json_loads_back_equal(case: str) -> None:
 @cache
 def ross_rows(case: str) -> list[list[str | float]]:
     """Read the workbook's sheet as any reader of Office Open XML would."""
-    with zipfile.ZipFile(io.BytesIO(export.ross_table(view(case)))) as package:
+    with zipfile.ZipFile(io.BytesIO(export.ross_table(computed(case)))) as package:
         parts = {name: ET.fromstring(package.read(name)) for name in package.namelist()}  # noqa: S314
     space = {"s": "http://schemas.openxmlformats.org/spreadsheetml/2006/main"}
     cells = [
@@ -175,19 +175,19 @@ def in_our_axes(table: dict[str, np.ndarray], letter: str) -> np.ndarray:
 
 @every_case
 def test_ross_table_turned_back_is_the_sweep(case: str) -> None:
-    table, sweep = ross_table(case), view(case).sweep
+    table, sweep = ross_table(case), computed(case).sweep
     np.testing.assert_array_equal(table["speed"], sweep.speed)
     np.testing.assert_array_equal(in_our_axes(table, "k"), sweep.stiffness)
     np.testing.assert_array_equal(in_our_axes(table, "c"), sweep.damping)
 
 
 def test_ross_axes_are_a_rotation() -> None:
-    K = view("sheet-1e8").point.stiffness
+    K = computed("sheet-1e8").point.stiffness
     turned = export.ross_axes(K)
     # Whirl does not know how its axes lie, but knows in which sense the shaft turns: a mirrored
     # matrix has the other sign of k_xy − k_yx.
     assert turned[0, 1] - turned[1, 0] == pytest.approx(K[0, 1] - K[1, 0], rel=1e-15)
-    C = view("sheet-1e8").point.damping
+    C = computed("sheet-1e8").point.damping
     ours = whirl.whirl_onset(K, C)
     theirs = whirl.whirl_onset(turned, export.ross_axes(C))
     assert theirs.whirl_ratio == pytest.approx(ours.whirl_ratio, rel=1e-12)
@@ -196,7 +196,7 @@ def test_ross_axes_are_a_rotation() -> None:
 
 def test_ross_axes_agree_with_the_textbook_that_ross_follows() -> None:
     """Friswell et al., example 5.5.1: x horizontal, y vertical; MN/m, printed to four digits."""
-    K = export.ross_axes(view("friswell-5-5-1").point.stiffness) / 1e6
+    K = export.ross_axes(computed("friswell-5-5-1").point.stiffness) / 1e6
     np.testing.assert_allclose(K, [[12.81, 16.39], [-25.06, 8.815]], rtol=5e-4)
 
 
@@ -211,7 +211,7 @@ def test_ross_sheet_says_nothing_that_ross_takes_for_another_unit() -> None:
 
 
 def test_ross_table_is_the_same_file_each_time() -> None:
-    assert export.ross_table(view("rigid")) == export.ross_table(view("rigid"))
+    assert export.ross_table(computed("rigid")) == export.ross_table(computed("rigid"))
 
 
 # Report
@@ -250,8 +250,8 @@ class Reader(HTMLParser):
 
 @cache
 def read(case: str, pinned: str | None, units_name: str = "SI") -> Reader:
-    baseline = None if pinned is None else view(pinned)
-    page = report.report(view(case), baseline, {"SI": SI, "US": US}[units_name], LINK, "9.8.7")
+    baseline = None if pinned is None else computed(pinned)
+    page = report.report(computed(case), baseline, {"SI": SI, "US": US}[units_name], LINK, "9.8.7")
     return Reader(page.decode())
 
 
@@ -267,14 +267,18 @@ def test_report_is_whole_and_says_no_nan(case: str, pinned: str | None) -> None:
     assert "9.8.7" in text
     assert text.count("Eq. 5.") > 10
     ids = [attributes["id"] for _, attributes in page.tags if "id" in attributes]
-    assert ids == [figure.key for figures in sections(view(case)).values() for figure in figures]
+    assert ids == [
+        figure.key for figures in sections(computed(case)).values() for figure in figures
+    ]
 
 
 @every_case
 @either_system
 def test_report_shows_every_input_and_result(case: str, units: Units) -> None:
     text = read(case, None, units.name).text
-    for key, value in values_of(view(case).machine, view(case).speed, view(case).top_speed).items():
+    for key, value in values_of(
+        computed(case).machine, computed(case).speed, computed(case).top_speed
+    ).items():
         item = INPUTS[key]
         assert item.label in text
         if value is not None and math.isfinite(value):
@@ -318,7 +322,7 @@ def test_report_escapes_the_link() -> None:
 
 
 def test_report_makes_no_anchor_of_what_is_no_web_address() -> None:
-    page = report.report(view("rigid"), None, SI, "javascript:alert(1)", "1").decode()
+    page = report.report(computed("rigid"), None, SI, "javascript:alert(1)", "1").decode()
     reader = Reader(page)
     assert not any(tag == "a" for tag, _ in reader.tags)
     assert "javascript:alert(1)" in reader.text

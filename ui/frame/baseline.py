@@ -6,36 +6,36 @@ import streamlit as st
 
 from rotorcalc.units import Units
 from ui.inputs import INPUTS, Values
-from ui.session import state
+from ui.session import session
 
 
 def draw_buttons() -> None:
     """Draw the buttons that pin, swap and unpin."""
-    kept = state()
-    if kept.baseline is None:
+    visitor = session()
+    if visitor.baseline is None:
         st.button(
-            "Pin this machine", key="pin", width="stretch", on_click=kept.pin,
+            "Pin this machine", key="pin", width="stretch", on_click=visitor.pin,
             help="Keeps it as A: charts draw it thin and grey, results show their change from it.",
         )  # fmt: skip
         return
     swap, unpin = st.columns(2)
-    swap.button("Swap with A", key="swap", width="stretch", on_click=kept.swap)
-    unpin.button("Unpin A", key="unpin", width="stretch", on_click=kept.unpin)
+    swap.button("Swap with A", key="swap", width="stretch", on_click=visitor.swap)
+    unpin.button("Unpin A", key="unpin", width="stretch", on_click=visitor.unpin)
 
 
 def draw_differences(units: Units) -> None:
     """Show the inputs that differ between the pinned machine and the live one."""
-    kept = state()
-    if kept.baseline is None:
+    visitor = session()
+    if visitor.baseline is None:
         return
     rows = [
         {
             "Input": item.name(units),
-            "A": _shown(key, kept.baseline, units),
-            "Now": _shown(key, kept.values, units),
+            "A": _shown(key, visitor.baseline, units),
+            "Now": _shown(key, visitor.values, units),
         }
         for key, item in INPUTS.items()
-        if kept.baseline[key] != kept.values[key]
+        if visitor.baseline[key] != visitor.values[key]
     ]
     if rows:
         st.table(rows, border="horizontal", width="content", hide_index=True,

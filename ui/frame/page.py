@@ -8,12 +8,12 @@ import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
 
 from rotorcalc.units import Units
-from ui.computed import View, view_of
+from ui.computed import Computed, computed_from
 from ui.frame import baseline, sidebar
 from ui.preview import Draw, Drawn, drawn
 from ui.results import show_results
 from ui.serving import one_at_a_time, version
-from ui.session import state, write_address_bar
+from ui.session import session, write_address_bar
 from ui.sharing import popover
 from ui.widgets import chart_key, is_dark, show_chart, show_feed
 from ui.words import validity
@@ -67,8 +67,8 @@ PAGES = {
 class Page:
     """A page's machine, the pinned one beside it, and the units shown."""
 
-    view: View
-    baseline: View | None
+    computed: Computed
+    baseline: Computed | None
     units: Units
     follows: Drawn
     # Whether the content runs with the frame as one.
@@ -76,7 +76,7 @@ class Page:
 
     def chart(self, draw: Draw, key: str, *, alt: str, caption: str) -> None:
         """Show a chart of the live machine, the pinned one thin and grey behind it."""
-        show_chart(drawn(draw, self.view, self.baseline), key=key, alt=alt)
+        show_chart(drawn(draw, self.computed, self.baseline), key=key, alt=alt)
         self.follows.charts[chart_key(key)] = draw
         st.caption(caption)
 
@@ -95,12 +95,12 @@ class Page:
     def run_whole(self) -> None:
         """Let the page run whole, for a click can end such a run, but none of a fragment's."""
         if not self.whole:
-            state().whole = True
+            session().whole = True
             st.rerun()
 
     def results(self, *keys: str) -> None:
         """Show results in a row, each with its equation and its change from the pinned machine."""
-        show_results(self.view, self.baseline, self.units, *keys)
+        show_results(self.computed, self.baseline, self.units, *keys)
         self.follows.rows.append(keys)
 
 
@@ -114,8 +114,8 @@ def show(
     """
     with one_at_a_time.PAGES.through():
         foot = _frame(title, sentence)
-        kept = state()
-        whole, kept.whole = kept.whole, False
+        visitor = session()
+        whole, visitor.whole = visitor.whole, False
         if whole:
             _content(content, foot, follows=follows, whole=True)
         else:
@@ -131,9 +131,9 @@ def _frame(title: str, sentence: str) -> DeltaGenerator:
         menu_items={"About": _ABOUT},
     )
     st.html(_STYLE)
-    kept = state()
-    kept.frame += 1
-    kept.arriving = kept.page != title
+    visitor = session()
+    visitor.frame += 1
+    visitor.arriving = visitor.page != title
     with st.sidebar:
         sidebar.draw_presets()
         baseline.draw_buttons()
@@ -141,7 +141,7 @@ def _frame(title: str, sentence: str) -> DeltaGenerator:
         popover.draw()
         foot = st.container()
         st.caption(version.label())
-    kept.page = title
+    visitor.page = title
     _navigation()
     st.header(title, anchor=False)
     st.markdown(sentence)
@@ -161,24 +161,24 @@ def _page(foot: DeltaGenerator, *, follows: bool) -> Page:
     A fragment may write into the sidebar's foot where it has done so when the whole page ran; the
     feed, through which a better value comes, is written in any case.
     """
-    kept = state()
+    visitor = session()
     write_address_bar()
-    for problem in kept.problems:
+    for problem in visitor.problems:
         st.warning(problem)
     try:
-        view = view_of(kept.values)
-        pinned = None if kept.baseline is None else view_of(kept.baseline)
+        computed = computed_from(visitor.values)
+        pinned = None if visitor.baseline is None else computed_from(visitor.baseline)
     except ValueError as error:
         with foot:
             show_feed(None)
         st.error(f"{error}", title=NO_MACHINE)
         st.stop()
-    kept.drawn = Drawn(dict(kept.values), pinned, kept.units, dark=is_dark())
+    visitor.drawn = Drawn(dict(visitor.values), pinned, visitor.units, dark=is_dark())
     with foot:
-        validity.draw(view)
-        show_feed(kept.drawn if follows else None)
-    baseline.draw_differences(kept.units)
-    return Page(view=view, baseline=pinned, units=kept.units, follows=kept.drawn)
+        validity.draw(computed)
+        show_feed(visitor.drawn if follows else None)
+    baseline.draw_differences(visitor.units)
+    return Page(computed=computed, baseline=pinned, units=visitor.units, follows=visitor.drawn)
 
 
 def _navigation() -> None:

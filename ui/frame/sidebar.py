@@ -6,7 +6,7 @@ from rotorcalc import PRESETS, Oil
 from rotorcalc.oils import ISO_VG, fitted_oil, iso_oil
 from rotorcalc.units import SI, SYSTEMS
 from ui.inputs import GROUPS, INPUTS, OPEN_GROUPS, machine_of
-from ui.session import mirror, state
+from ui.session import mirror, session
 from ui.widgets import show_inputs
 
 
@@ -25,20 +25,20 @@ def draw_inputs() -> None:
 
 def draw_presets() -> None:
     """Draw the choice of a preset."""
-    kept = state()
-    mirror("preset", kept.preset)
+    visitor = session()
+    mirror("preset", visitor.preset)
     st.selectbox(
         "Preset",
         options=list(PRESETS),
         format_func=lambda key: PRESETS[key].title,
         key="preset",
-        help=PRESETS[kept.preset].note,
-        on_change=lambda: kept.set_preset(st.session_state["preset"]),
+        help=PRESETS[visitor.preset].note,
+        on_change=lambda: visitor.set_preset(st.session_state["preset"]),
     )
 
 
 def _load() -> None:
-    follows = state().values["load"] is None
+    follows = session().values["load"] is None
     mirror("load_follows", follows)
     st.toggle("Load is half the rotor's weight", key="load_follows", on_change=_toggle_load)
     if not follows:
@@ -46,12 +46,12 @@ def _load() -> None:
 
 
 def _toggle_load() -> None:
-    kept = state()
+    visitor = session()
     if st.session_state["load_follows"]:
-        kept.set_value("load", None)
+        visitor.set_value("load", None)
     else:
-        weight = machine_of(kept.values | {"load": None, "mj": 0.0}).static_load
-        kept.set_value("load", min(round(weight, 1), INPUTS["load"].high))
+        weight = machine_of(visitor.values | {"load": None, "mj": 0.0}).static_load
+        visitor.set_value("load", min(round(weight, 1), INPUTS["load"].high))
 
 
 def _oil_library() -> None:
@@ -64,7 +64,7 @@ def _oil_library() -> None:
 
 
 def _grades() -> None:
-    temperature = state().values["T"]
+    temperature = session().values["T"]
     assert temperature is not None  # noqa: S101 - only a load may be absent
     grade = st.selectbox("ISO viscosity grade", list(ISO_VG), key="grade", persist_state="session")
     st.caption(
@@ -99,8 +99,8 @@ def _fit() -> None:
 
 def _take_over(oil: Oil) -> None:
     """Put an oil into the inputs, and report what of it lies outside their ranges."""
-    kept = state()
-    kept.problems.clear()
+    visitor = session()
+    visitor.problems.clear()
     in_si = {
         "mu": oil.reference_viscosity,
         "TR": oil.reference_temperature,
@@ -110,20 +110,20 @@ def _take_over(oil: Oil) -> None:
         item = INPUTS[key]
         reading = float(f"{float(item.unit(SI).of(value)):.6g}")
         if problem := item.problem(reading):
-            kept.problems.append(f"{item.label} = {reading:g} {problem}; it was left as it is.")
+            visitor.problems.append(f"{item.label} = {reading:g} {problem}; it was left as it is.")
         else:
-            kept.values[key] = reading
+            visitor.values[key] = reading
 
 
 def _settings() -> None:
-    kept = state()
+    visitor = session()
     settings = st.popover("Units and settings", width="stretch", key="settings", on_change="rerun")
     if not settings.open:
         return
     with settings:
-        mirror("units", kept.units_name)
-        mirror("typed", kept.typed)
-        mirror("image_format", kept.image_format)
+        mirror("units", visitor.units_name)
+        mirror("typed", visitor.typed)
+        mirror("image_format", visitor.image_format)
         st.segmented_control(
             "Units", list(SYSTEMS), key="units", on_change=_set_units, required=True
         )
@@ -135,12 +135,12 @@ def _settings() -> None:
 
 
 def _set_units() -> None:
-    state().units_name = st.session_state["units"]
+    session().units_name = st.session_state["units"]
 
 
 def _set_typed() -> None:
-    state().typed = st.session_state["typed"]
+    session().typed = st.session_state["typed"]
 
 
 def _set_image() -> None:
-    state().image_format = st.session_state["image_format"]
+    session().image_format = st.session_state["image_format"]

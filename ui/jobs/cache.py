@@ -16,7 +16,7 @@ from ui.serving import one_at_a_time
 T = TypeVar("T")
 
 
-class Kept(Generic[T]):
+class Cached(Generic[T]):
     """A module's heavy function, computed in its turn; its last results are kept up to a size."""
 
     def __init__(

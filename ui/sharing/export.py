@@ -14,7 +14,7 @@ from rotorcalc import orbit_ellipse
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.unbalance_response import phase_lag
 from rotorcalc.units import Unit, Units
-from ui.computed import View
+from ui.computed import Computed
 from ui.sharing import xlsx
 
 # Words, unit and SI values of a column.
@@ -46,13 +46,13 @@ _ROSS_COLUMNS = ("kxx", "kxy", "kyx", "kyy", "cxx", "cxy", "cyx", "cyy")
 _TO_ROSS = np.array([[0.0, 1.0], [-1.0, 0.0]])
 
 
-def sweep_csv(view: View, units: Units) -> bytes:
+def sweep_csv(computed: Computed, units: Units) -> bytes:
     """Return the sweep over speed as CSV, a row a speed, in the units shown.
 
     It begins with the mark by which Excel knows UTF-8; Python reads it as "utf-8-sig". Numbers have
     ten digits; "inf" is where there is no limit, "nan" where there is no number.
     """
-    columns = list(_columns(view, units))
+    columns = list(_columns(computed, units))
     numbers = np.stack([unit.of(values) for _, unit, values in columns], axis=-1)
     file = io.StringIO(newline="")
     writer = csv.writer(file)
@@ -61,14 +61,14 @@ def sweep_csv(view: View, units: Units) -> bytes:
     return file.getvalue().encode("utf-8-sig")
 
 
-def machine_json(view: View) -> bytes:
+def machine_json(computed: Computed) -> bytes:
     """Return the machine as JSON; `Machine.from_json` reads it back, equal."""
-    return view.machine.to_json().encode()
+    return computed.machine.to_json().encode()
 
 
-def ross_table(view: View) -> bytes:
+def ross_table(computed: Computed) -> bytes:
     """Return K and C over speed as the workbook that ROSS's `BearingElement.from_table` reads."""
-    sweep = view.sweep
+    sweep = computed.sweep
     K, C = (ross_axes(matrix).reshape(-1, 4) for matrix in (sweep.stiffness, sweep.damping))
     rows = np.column_stack([sweep.speed, K, C]).tolist()
     units = ("rad/s", *["N/m"] * 4, *["N*s/m"] * 4)
@@ -81,8 +81,8 @@ def ross_axes(coefficients: Array) -> Array:
     return _TO_ROSS @ coefficients @ _TO_ROSS.T + 0.0
 
 
-def _columns(view: View, units: Units) -> Iterator[Column]:
-    sweep = view.sweep
+def _columns(computed: Computed, units: Units) -> Iterator[Column]:
+    sweep = computed.sweep
     yield "Running speed Ω", units.speed, sweep.speed
     yield "Modified Sommerfeld number σ", units.number, sweep.sommerfeld
     yield "Eccentricity ratio ε", units.number, sweep.eccentricity_ratio
@@ -97,9 +97,9 @@ def _columns(view: View, units: Units) -> Iterator[Column]:
     yield "Critical mass per bearing M_c", units.mass, sweep.critical_mass
     yield "Threshold of the rigid rotor Ω_s", units.speed, sweep.rigid_threshold
     yield "Threshold of the flexible rotor Ω_sf", units.speed, sweep.flexible_threshold
-    if not view.machine.rotor.is_rigid:
-        yield from _eigenvalues("Rotor", units.growth, view.branches)
-    yield from _eigenvalues("Rigid rotor", units.growth, view.rigid_branches)
+    if not computed.machine.rotor.is_rigid:
+        yield from _eigenvalues("Rotor", units.growth, computed.branches)
+    yield from _eigenvalues("Rigid rotor", units.growth, computed.rigid_branches)
     yield from _orbit("Disk", units, sweep.disk_response)
     yield from _orbit("Journal", units, sweep.journal_response)
 

@@ -7,9 +7,9 @@ import streamlit as st
 
 from rotorcalc import Machine, __version__
 from rotorcalc.units import Units
-from ui.computed import View, view_of
+from ui.computed import Computed, computed_from
 from ui.inputs import speeds_of, values_of
-from ui.session import state
+from ui.session import session
 from ui.sharing import address
 
 
@@ -22,33 +22,39 @@ def draw() -> None:
         address = _link()
         st.caption("A link to this machine")
         st.code(address, language=None, wrap_lines=True)
-        kept = state()
+        visitor = session()
         with suppress(ValueError):  # no machine: said on the page
-            baseline = None if kept.baseline is None else view_of(kept.baseline)
-            _downloads(view_of(kept.values), baseline, kept.units, address)
+            baseline = None if visitor.baseline is None else computed_from(visitor.baseline)
+            _downloads(computed_from(visitor.values), baseline, visitor.units, address)
         st.file_uploader("Load a machine (JSON)", type="json", key="upload", on_change=_load)
 
 
 def _link() -> str:
-    kept = state()
+    visitor = session()
     parts = urlsplit(st.context.url or "")
-    query = urlencode(address.write(kept.preset, kept.values, kept.units_name))
+    query = urlencode(address.write(visitor.preset, visitor.values, visitor.units_name))
     return urlunsplit((parts.scheme, parts.netloc, parts.path, query, ""))
 
 
-def _downloads(view: View, baseline: View | None, units: Units, address: str) -> None:
+def _downloads(computed: Computed, baseline: Computed | None, units: Units, address: str) -> None:
     from ui.sharing import export, report  # noqa: PLC0415
 
     files = (
-        ("Machine (JSON)", "machine.json", "application/json", lambda: export.machine_json(view)),
-        ("Sweep over speed (CSV)", "sweep.csv", "text/csv", lambda: export.sweep_csv(view, units)),
+        (
+            "Machine (JSON)", "machine.json", "application/json",
+            lambda: export.machine_json(computed),
+        ),
+        (
+            "Sweep over speed (CSV)", "sweep.csv", "text/csv",
+            lambda: export.sweep_csv(computed, units),
+        ),
         (
             "K and C for ROSS (Excel)", export.ROSS_NAME, export.ROSS_MIME,
-            lambda: export.ross_table(view),
+            lambda: export.ross_table(computed),
         ),
         (
             "Report (HTML)", "report.html", "text/html",
-            lambda: report.report(view, baseline, units, address, __version__),
+            lambda: report.report(computed, baseline, units, address, __version__),
         ),
     )  # fmt: skip
     for label, name, mime, build in files:
@@ -60,7 +66,7 @@ def _downloads(view: View, baseline: View | None, units: Units, address: str) ->
 
 def _load() -> None:
     """Take over an uploaded machine; what cannot be used is reported by name."""
-    kept = state()
+    visitor = session()
     upload = st.session_state["upload"]
     if upload is None:
         return
@@ -68,10 +74,10 @@ def _load() -> None:
     try:
         machine = Machine.from_json(upload.getvalue().decode("utf-8"))
     except ValueError as error:
-        kept.problems[:] = [
+        visitor.problems[:] = [
             f"{address.quoted(upload.name)} was not loaded: {address.quoted(str(error))}"
         ]
         return
-    values = values_of(machine, *speeds_of(kept.values))
-    kept.values = address.checked_values(values, kept.preset, problems)
-    kept.problems[:] = problems
+    values = values_of(machine, *speeds_of(visitor.values))
+    visitor.values = address.checked_values(values, visitor.preset, problems)
+    visitor.problems[:] = problems

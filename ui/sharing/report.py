@@ -19,7 +19,7 @@ from rotorcalc import modes
 from rotorcalc.arrays import Array
 from rotorcalc.units import Unit, Units
 from rotorcalc.validity import validity
-from ui.computed import View
+from ui.computed import Computed
 from ui.inputs import GROUPS, INPUTS, Values, values_of
 from ui.results import RESULTS, digits
 from ui.sharing import report_charts
@@ -32,26 +32,28 @@ Cell: TypeAlias = tuple[str, str]
 _WORDS = {"good": "holds", "caution": "strained", "outside": "outside"}
 
 
-def report(view: View, baseline: View | None, units: Units, link: str, version: str) -> bytes:
+def report(
+    computed: Computed, baseline: Computed | None, units: Units, link: str, version: str
+) -> bytes:
     """Return the report as HTML: `link` reproduces the machine, `baseline` stands beside it."""
-    judged = verdict(view, units)
-    charts = report_charts.charts(view, baseline, units)
+    judged = verdict(computed, units)
+    charts = report_charts.charts(computed, baseline, units)
     page = string.Template(Path(__file__).with_suffix(".html").read_text(encoding="utf-8"))
     body = (
-        _inputs(view, baseline, units),
-        _results(view, baseline, units),
-        _matrices(view, units),
-        _modes(view, units),
-        _validity(view),
-        _reading(view, baseline),
+        _inputs(computed, baseline, units),
+        _results(computed, baseline, units),
+        _matrices(computed, units),
+        _modes(computed, units),
+        _validity(computed),
+        _reading(computed, baseline),
         *(
             _section(title, figures, charts)
-            for title, figures in report_charts.sections(view).items()
+            for title, figures in report_charts.sections(computed).items()
         ),
     )
     return page.substitute(
         title="Rotor on two journal bearings",
-        subtitle=escape(_subtitle(view, baseline, units)),
+        subtitle=escape(_subtitle(computed, baseline, units)),
         level=judged.level,
         verdict=escape(judged.sentence),
         body="\n".join(body),
@@ -81,19 +83,20 @@ def _anchor(link: str) -> str:
     return f'<a href="{text}">{text}</a>' if link.startswith(("http://", "https://")) else text
 
 
-def _subtitle(view: View, baseline: View | None, units: Units) -> str:
-    speed, bearing = units.speed, view.machine.bearing
+def _subtitle(computed: Computed, baseline: Computed | None, units: Units) -> str:
+    speed, bearing = units.speed, computed.machine.bearing
     size = " × ".join(digits(float(units.length.of(x))) for x in (bearing.diameter, bearing.length))
-    rotor = _shown(view.machine.rotor.mass, units.mass)
+    rotor = _shown(computed.machine.rotor.mass, units.mass)
     beside = "" if baseline is None else " A is the pinned machine that it is compared with."
     return (
         f"A rotor of {rotor} on bearings of {size} {units.length.name}, at "
-        f"{_shown(view.speed, speed)}; charts run to {_shown(view.top_speed, speed)}.{beside}"
+        f"{_shown(computed.speed, speed)}; charts run to {_shown(computed.top_speed, speed)}."
+        f"{beside}"
     )
 
 
-def _inputs(view: View, baseline: View | None, units: Units) -> str:
-    live = values_of(view.machine, view.speed, view.top_speed)
+def _inputs(computed: Computed, baseline: Computed | None, units: Units) -> str:
+    live = values_of(computed.machine, computed.speed, computed.top_speed)
     pinned = None
     if baseline is not None:
         pinned = values_of(baseline.machine, baseline.speed, baseline.top_speed)
@@ -125,25 +128,25 @@ def _value(key: str, values: Values, units: Units) -> str:
     return item.infinite if math.isinf(value) else _minus(f"{item.shown(value, units):.6g}")
 
 
-def _results(view: View, baseline: View | None, units: Units) -> str:
-    rows = (_result(key, view, baseline, units) for key in RESULTS)
+def _results(computed: Computed, baseline: Computed | None, units: Units) -> str:
+    rows = (_result(key, computed, baseline, units) for key in RESULTS)
     compared = [] if baseline is None else [("A", "n"), ("Change", "n")]
     head = _head("Result", ("Value", "n"), *compared, "Equation")
     return f"<h2>Results at the running speed</h2>{_table(head, rows)}"
 
 
-def _result(key: str, view: View, baseline: View | None, units: Units) -> str:
+def _result(key: str, computed: Computed, baseline: Computed | None, units: Units) -> str:
     result = RESULTS[key]
-    cells = [(result.label, ""), (_minus(result.shown(view, units)), "n")]
+    cells = [(result.label, ""), (_minus(result.shown(computed, units)), "n")]
     if baseline is not None:
-        change = (result.change(view, baseline) or "").removesuffix(" vs A")
+        change = (result.change(computed, baseline) or "").removesuffix(" vs A")
         cells.append((_minus(result.shown(baseline, units)), "n"))
         cells.append(("" if change == "+0 %" else _minus(change), "n"))
     return _row([*cells, (result.number, "")])
 
 
-def _matrices(view: View, units: Units) -> str:
-    K, C = view.point.stiffness, view.point.damping
+def _matrices(computed: Computed, units: Units) -> str:
+    K, C = computed.point.stiffness, computed.point.damping
     return (
         "<h2>Force coefficients at the running speed</h2>"
         f'<div class="beside">{_matrix("Stiffness K", K, units.stiffness)}'
@@ -161,10 +164,10 @@ def _matrix(name: str, matrix: Array, unit: Unit) -> str:
     return _table(head, rows)
 
 
-def _modes(view: View, units: Units) -> str:
+def _modes(computed: Computed, units: Units) -> str:
     rows = (
-        _mode(number, complex(value), view.speed, units)
-        for number, value in enumerate(view.locus(True).here.eigenvalues, start=1)
+        _mode(number, complex(value), computed.speed, units)
+        for number, value in enumerate(computed.locus(True).here.eigenvalues, start=1)
         if value.imag >= 0.0  # else the mirror image of another
     )
     head = _head(
@@ -190,29 +193,29 @@ def _mode(number: int, value: complex, speed: float, units: Units) -> str:
     return _row([(str(number), ""), *((_minus(text), "n") for text in texts)])
 
 
-def _validity(view: View) -> str:
+def _validity(computed: Computed) -> str:
     rows = (
         _row([
             (check.name, ""), (digits(check.value), "n"), (digits(check.caution), "n"),
             (digits(check.limit), "n"), (_WORDS[check.level], check.level),
             ("" if check.level == "good" else f"{check.reason}.", ""),
         ])
-        for check in validity(view.point)
+        for check in validity(computed.point)
     )  # fmt: skip
     limits = ("Strained at", "n"), ("Fails at", "n")
     head = _head("Assumption", ("Here", "n"), *limits, "Model", "Reason")
     return f"<h2>Where the model holds</h2>{_table(head, rows)}"
 
 
-def _reading(view: View, baseline: View | None) -> str:
+def _reading(computed: Computed, baseline: Computed | None) -> str:
     """Return how to read the charts."""
     lines = ["On every chart the yellow point is the running speed"]
     if baseline is not None:
         lines.append(", grey lines and rings are the pinned machine A")
     lines.append(".")
-    if view.machine.rotor.imbalance == 0.0:
+    if computed.machine.rotor.imbalance == 0.0:
         lines.append(" The rotor is balanced, so there is no response to show.")
-    elif not view.is_stable:
+    elif not computed.is_stable:
         lines.append(" Unstable at that speed, the machine has no steady response there.")
     return f'<p class="reading">{"".join(lines)}</p>'
 

@@ -18,7 +18,7 @@ from rotorcalc.figures import (
     with_baseline,
 )
 from rotorcalc.units import Units
-from ui.computed import View
+from ui.computed import Computed
 from ui.words import stability as ask
 
 Charts: TypeAlias = dict[str, Chart]
@@ -39,7 +39,7 @@ class Figure:
 
     key: str
     title: str
-    draw: Callable[[View, Units], Chart]
+    draw: Callable[[Computed, Units], Chart]
     caption: str
     width: int = HALF
     height: int = _HEIGHT
@@ -47,27 +47,27 @@ class Figure:
     legend: bool = True
 
 
-def _of_sweep(draw: Callable[..., Chart]) -> Callable[[View, Units], Chart]:
-    return lambda v, u: draw(v.sweep, v.point, u)
+def _of_sweep(draw: Callable[..., Chart]) -> Callable[[Computed, Units], Chart]:
+    return lambda c, u: draw(c.sweep, c.point, u)
 
 
-def _of_modes(draw: Callable[[modes.OverSpeed], Chart]) -> Callable[[View, Units], Chart]:
-    return lambda v, u: draw(modes.OverSpeed(v.locus(True), v.onset, u))
+def _of_modes(draw: Callable[[modes.OverSpeed], Chart]) -> Callable[[Computed, Units], Chart]:
+    return lambda c, u: draw(modes.OverSpeed(c.locus(True), c.onset, u))
 
 
-def _of_thresholds(draw: Callable[..., Chart]) -> Callable[[View, Units], Chart]:
-    return lambda v, u: draw(
-        whirl_energy.thresholds(v.sweep), whirl_energy.thresholds(v.point), ask.crossing(v), u
+def _of_thresholds(draw: Callable[..., Chart]) -> Callable[[Computed, Units], Chart]:
+    return lambda c, u: draw(
+        whirl_energy.thresholds(c.sweep), whirl_energy.thresholds(c.point), ask.crossing(c), u
     )
 
 
-def _of_coefficients(draw: Callable[..., Chart]) -> Callable[[View, Units], Chart]:
-    return lambda v, u: draw(v.sweep, v.point, v.coefficients("XY"), v.coefficients_here("XY"), u)
+def _of_coefficients(draw: Callable[..., Chart]) -> Callable[[Computed, Units], Chart]:
+    return lambda c, u: draw(c.sweep, c.point, c.coefficients("XY"), c.coefficients_here("XY"), u)
 
 
-def _dimensionless(symbol: Literal["k", "c"]) -> Callable[[View, Units], Chart]:
-    return lambda v, _: coefficients.dimensionless(
-        v.film_coefficients("XY"), v.film_coefficients_here("XY"), symbol, "σ"
+def _dimensionless(symbol: Literal["k", "c"]) -> Callable[[Computed, Units], Chart]:
+    return lambda c, _: coefficients.dimensionless(
+        c.film_coefficients("XY"), c.film_coefficients_here("XY"), symbol, "σ"
     )
 
 
@@ -76,12 +76,12 @@ SECTIONS: dict[str, tuple[Figure, ...]] = {
     "Static equilibrium": (
         Figure(
             "cross_section", "Bearing",
-            lambda v, u: machine.cross_section(v.point, v.film, u),
+            lambda c, u: machine.cross_section(c.point, c.film, u),
             "Film exaggerated; pressure at mid-length. Eq. 5.25.", height=285,
         ),
         Figure(
             "path", "Journal's path",
-            lambda v, u: equilibrium.locus(v.curves, v.sweep, v.at_round_speeds, v.point, u),
+            lambda c, u: equilibrium.locus(c.curves, c.sweep, c.at_round_speeds, c.point, u),
             "In the clearance circle. Eqs. 5.7, 5.8.", height=285,
         ),
         Figure(
@@ -90,7 +90,7 @@ SECTIONS: dict[str, tuple[Figure, ...]] = {
             titles={"yaxis": "ε [-]", "yaxis2": "φ [°]"},
         ),
         Figure(
-            "film", "Film", lambda v, u: film.film_around(v.film, v.point, u),
+            "film", "Film", lambda c, u: film.film_around(c.film, c.point, u),
             "Thickness, and pressure at mid-length. Eq. 5.25.",
             titles={"yaxis": "h [{units.film.name}]", "yaxis2": "p [{units.pressure.name}]"},
         ),
@@ -136,16 +136,16 @@ SECTIONS: dict[str, tuple[Figure, ...]] = {
         ),
         Figure(
             "whirl_ratio", "Whirl ratio",
-            lambda v, _: stability.whirl_ratio(ask.film_figure(v)), "Fig. 5.7, Eq. 5.46.",
+            lambda c, _: stability.whirl_ratio(ask.film_figure(c)), "Fig. 5.7, Eq. 5.46.",
         ),
         Figure(
             "threshold_speed", "Threshold of a rigid rotor",
-            lambda v, _: stability.threshold_speed(ask.film_figure(v)), "Fig. 5.8, Eq. 5.46.",
+            lambda c, _: stability.threshold_speed(ask.film_figure(c)), "Fig. 5.8, Eq. 5.46.",
         ),
     ),
     "Root locus": (
         Figure(
-            "plane", "Complex plane", lambda v, u: root_locus.plane(v.locus(True), v.onset, u),
+            "plane", "Complex plane", lambda c, u: root_locus.plane(c.locus(True), c.onset, u),
             "Eigenvalues with rising speed, upper half; dotted: constant damping ratio.",
             FULL, 300,
         ),
@@ -154,53 +154,53 @@ SECTIONS: dict[str, tuple[Figure, ...]] = {
         Figure("ratio", "Damping ratio", _of_modes(modes.damping), "ζ = −Re λ/|λ|."),
         Figure(
             "natural", "Natural frequency",
-            lambda v, u: modes.natural(
-                modes.OverSpeed(v.locus(True), v.onset, u),
-                rigid=v.rigid_frequency, shaft=v.shaft_frequency,
+            lambda c, u: modes.natural(
+                modes.OverSpeed(c.locus(True), c.onset, u),
+                rigid=c.rigid_frequency, shaft=c.shaft_frequency,
             ),
             "ω_n = |λ|. Eq. 5.47.",
         ),
     ),
     RESPONSE: (
         Figure(
-            "amplitude", "Amplitude", lambda v, u: response.amplitude(v.response, "axes", u),
+            "amplitude", "Amplitude", lambda c, u: response.amplitude(c.response, "axes", u),
             "Semi-axes of the orbits, zero to peak. Eq. 5.38.", FULL, 255,
         ),
         Figure(
-            "phase", "Phase lag", lambda v, u: response.phase(v.response, u),
+            "phase", "Phase lag", lambda c, u: response.phase(c.response, u),
             "Behind the imbalance, which turns forward. Eq. 5.38.", FULL, 225,
         ),
         Figure(
-            "orbits", "Orbits", lambda v, u: response.at_running_speed(v.orbits, u),
+            "orbits", "Orbits", lambda c, u: response.at_running_speed(c.orbits, u),
             "About equilibrium, at the running speed.", height=275,
         ),
         Figure(
             "clearance", "Journal in its clearance",
-            lambda v, u: response.in_clearance(v.clearance_orbit, v.sweep.journal_position, u),
+            lambda c, u: response.in_clearance(c.clearance_orbit, c.sweep.journal_position, u),
             "Dotted: equilibrium at other speeds.", height=275, legend=False,
         ),
     ),
 }  # fmt: skip
 
 
-def sections(view: View) -> dict[str, tuple[Figure, ...]]:
+def sections(computed: Computed) -> dict[str, tuple[Figure, ...]]:
     """Return the charts that a machine has: a balanced one has no response."""
-    if view.machine.rotor.imbalance > 0.0:
+    if computed.machine.rotor.imbalance > 0.0:
         return SECTIONS
     return {title: figures for title, figures in SECTIONS.items() if title != RESPONSE}
 
 
-def charts(view: View, baseline: View | None, units: Units) -> Charts:
+def charts(computed: Computed, baseline: Computed | None, units: Units) -> Charts:
     """Return the report's charts by key, another machine's behind the live one's."""
     return {
-        figure.key: _chart(figure, view, baseline, units)
-        for figures in sections(view).values()
+        figure.key: _chart(figure, computed, baseline, units)
+        for figures in sections(computed).values()
         for figure in figures
     }
 
 
-def _chart(figure: Figure, view: View, baseline: View | None, units: Units) -> Chart:
-    chart = _still(figure.draw(view, units))
+def _chart(figure: Figure, computed: Computed, baseline: Computed | None, units: Units) -> Chart:
+    chart = _still(figure.draw(computed, units))
     if baseline is not None:
         chart = with_baseline(chart, _still(figure.draw(baseline, units)))
     return {

@@ -6,7 +6,7 @@ import streamlit as st
 from rotorcalc.analysis import Axes, ForceCoefficients
 from rotorcalc.coefficients import BULK_FLOW, LAMINAR
 from rotorcalc.units import Unit, Units
-from ui.computed import View
+from ui.computed import Computed
 from ui.results import digits, tex
 
 FRAMES: dict[Axes, str] = {"XY": "X, Y: along the load", "rt": "r, t: line of centres"}
@@ -21,16 +21,16 @@ def matrix(symbol: str, values: np.ndarray, unit: Unit, axes: Axes = "XY") -> st
     return f"{_bracket(names)}={_bracket(numbers)}{_unit(unit)}"
 
 
-def show_matrices(view: View, axes: Axes, units: Units) -> None:
+def show_matrices(computed: Computed, axes: Axes, units: Units) -> None:
     """Show K, C and k, c at the running speed."""
-    here, film = view.coefficients_here(axes), view.film_coefficients_here(axes)
+    here, film = computed.coefficients_here(axes), computed.film_coefficients_here(axes)
     left, right = st.columns(2)
     with left:
         st.latex(matrix("K", here.stiffness, units.stiffness, axes))
-        _without_dimensions("k", film, film.stiffness, view)
+        _without_dimensions("k", film, film.stiffness, computed)
     with right:
         st.latex(matrix("C", here.damping, units.damping, axes))
-        _without_dimensions("c", film, film.damping, view)
+        _without_dimensions("c", film, film.damping, computed)
     st.caption(
         "K and C per bearing at the running speed, K_ij = −∂F_i/∂X_j (Eq. 5.14); "
         "k = KC/F_o and c = CΩC/F_o (Eq. 5.32). "
@@ -39,9 +39,9 @@ def show_matrices(view: View, axes: Axes, units: Units) -> None:
 
 
 def _without_dimensions(
-    symbol: str, film: ForceCoefficients, values: np.ndarray, view: View
+    symbol: str, film: ForceCoefficients, values: np.ndarray, computed: Computed
 ) -> None:
-    if view.unloaded:
+    if computed.unloaded:
         st.caption(f"{symbol} is in units of the load, and there is none: no number.")
     else:
         st.latex(matrix(symbol, values, Unit("-"), film.axes))
@@ -58,18 +58,18 @@ def dimensionless_caption(symbol: str, against: str) -> str:
     )
 
 
-def say_unloaded(view: View) -> None:
+def say_unloaded(computed: Computed) -> None:
     """Say why the dimensionless charts show no point without load."""
-    if view.unloaded:
+    if computed.unloaded:
         st.info(
             "Without load σ is infinite, ε is 0, and k and c, which are in units of the load, have "
             "no value: the charts show no running speed. K and C against speed do."
         )
 
 
-def show_centred(view: View, units: Units) -> None:
+def show_centred(computed: Computed, units: Units) -> None:
     """Explain why a centred bearing has only cross-coupling, with this machine's numbers."""
-    centred, here = view.centred, view.unloading_here
+    centred, here = computed.centred, computed.unloading_here
     unit = units.stiffness
     st.markdown(
         "Push a centred journal aside by a little. The film is now thinner where the journal went, "
@@ -83,27 +83,27 @@ def show_centred(view: View, units: Units) -> None:
     damping = tex(float(unit.of(centred.whirl_damping[0, 0])))
     st.latex(matrix("K", centred.stiffness, unit))
     st.latex(rf"\tfrac{{\Omega}}{{2}}C_{{XX}} = {damping}{_unit(unit)}")
-    st.markdown(_distance_from_centre(view, here.stiffness, units))
+    st.markdown(_distance_from_centre(computed, here.stiffness, units))
 
 
-def _distance_from_centre(view: View, K: np.ndarray, units: Units) -> str:
-    if view.unloaded:
+def _distance_from_centre(computed: Computed, K: np.ndarray, units: Units) -> str:
+    if computed.unloaded:
         return "This machine has no load: it runs exactly there, at ε = 0."
     unit = units.stiffness
     direct, cross = (digits(float(unit.of(K[place]))) for place in ((0, 0), (0, 1)))
     return (
-        f"Under its load it runs at ε = {digits(float(view.point.eccentricity_ratio))}, with "
+        f"Under its load it runs at ε = {digits(float(computed.point.eccentricity_ratio))}, with "
         f"K_XX = {direct} and K_XY = {cross} {unit.name}."
     )
 
 
-def show_added_mass(view: View, units: Units) -> None:
+def show_added_mass(computed: Computed, units: Units) -> None:
     """Tell how much the film's added mass is, on what assumption, and whether it matters."""
-    laminar, bulk = view.added_mass_here(LAMINAR), view.added_mass_here(BULK_FLOW)
+    laminar, bulk = computed.added_mass_here(LAMINAR), computed.added_mass_here(BULK_FLOW)
     share = float(laminar.to_rotor)
     st.latex(matrix("M", laminar.mass, units.mass))
     st.latex(r"M_{ij} = \alpha_m\frac{\rho R L^3}{12\,C}\,I_{ij}(\varepsilon)")
-    density = digits(float(units.density.of(view.machine.oil.density)))
+    density = digits(float(units.density.of(computed.machine.oil.density)))
     st.markdown(
         f"**{_percent(share)} of half the rotor's mass**: {_verdict(share)} With a flat profile of "
         f"velocity (bulk flow, α_m = 1) it is {_percent(float(bulk.to_rotor))}. At running speed "

@@ -13,7 +13,7 @@ def content(page: Page) -> None:
     """Draw the machine at a glance."""
     units = page.units
 
-    judged = verdict(page.view, units)
+    judged = verdict(page.computed, units)
     (st.success if judged.level == "stable" else st.error)(judged.sentence)
 
     bearing, results = st.columns([2, 3], gap="large")
@@ -23,8 +23,8 @@ def content(page: Page) -> None:
             required=True, persist_state="session", label_visibility="collapsed",
         )  # fmt: skip
         page.chart(
-            lambda v: machine.cross_section(
-                v.point, v.middle_film, units, to_scale=scale == "to scale"
+            lambda c: machine.cross_section(
+                c.point, c.middle_film, units, to_scale=scale == "to scale"
             ),
             "cross_section",
             alt="Cross-section of the bearing with the journal, the load and the film's pressure",
@@ -36,15 +36,17 @@ def content(page: Page) -> None:
         st.caption("Static equilibrium")
         page.results("eccentricity_ratio", "attitude_angle", "minimum_film_thickness", "power_loss")
         st.caption(
-            "Imbalance response" if page.view.is_stable else "Imbalance response, if it were stable"
+            "Imbalance response"
+            if page.computed.is_stable
+            else "Imbalance response, if it were stable"
         )
         page.results("disk_amplitude", "journal_amplitude", "disk_peak", "journal_peak")
 
     locus, threshold, swing = st.columns(3)
     with locus:
         page.chart(
-            lambda v: style.small(
-                equilibrium.locus(v.curves, v.sweep, v.at_round_speeds, v.point, units)
+            lambda c: style.small(
+                equilibrium.locus(c.curves, c.sweep, c.at_round_speeds, c.point, units)
             ),
             "home_locus",
             alt="Path of the journal's centre in the clearance circle, and its place now",
@@ -53,11 +55,11 @@ def content(page: Page) -> None:
         st.page_link("pages/1_Equilibrium.py", label="Static equilibrium")
     with threshold:
         page.chart(
-            lambda v: style.small(
+            lambda c: style.small(
                 stability.threshold(
-                    whirl_energy.thresholds(v.sweep),
-                    whirl_energy.thresholds(v.point),
-                    crossing(v),
+                    whirl_energy.thresholds(c.sweep),
+                    whirl_energy.thresholds(c.point),
+                    crossing(c),
                     units,
                 )
             ),
@@ -68,7 +70,7 @@ def content(page: Page) -> None:
         st.page_link("pages/3_Stability.py", label="Stability")
     with swing:
         page.chart(
-            lambda v: style.small(response.amplitude(v.response, "axes", units)),
+            lambda c: style.small(response.amplitude(c.response, "axes", units)),
             "home_response",
             alt="Size of the orbits of disk and journal over running speed",
             caption="How far disk and journals swing. Eq. 5.38.",

@@ -15,13 +15,13 @@ from rotorcalc.figures.orbits import GrowthCurve, RunUp
 from rotorcalc.figures.text import amount
 from rotorcalc.nonlinear.limit_cycles import sweep
 from rotorcalc.nonlinear.release import Release
-from ui.computed import View, view_of
+from ui.computed import Computed, computed_from
 from ui.frame.page import Page
 from ui.inputs import INPUTS, PRESET_VALUES
 from ui.jobs import cache, queue, work
 from ui.jobs.work import Progress
 from ui.results import digits, leading
-from ui.session import state
+from ui.session import session
 
 T = TypeVar("T")
 
@@ -60,16 +60,16 @@ class Ask:
 
 
 # Half a megabyte each, at most four.
-_release = cache.Kept(work.release, entries=32, megabytes=24, turns=queue.SHORT)
-_long_release = cache.Kept(work.release, entries=16, megabytes=40)
-_run_up = cache.Kept(work.run_up, entries=8, megabytes=16)
-_cycles = cache.Kept(bifurcation, entries=16, megabytes=16)
-_three = cache.Kept(work.three_onsets, entries=16, megabytes=4)
+_release = cache.Cached(work.release, entries=32, megabytes=24, turns=queue.SHORT)
+_long_release = cache.Cached(work.release, entries=16, megabytes=40)
+_run_up = cache.Cached(work.run_up, entries=8, megabytes=16)
+_cycles = cache.Cached(bifurcation, entries=16, megabytes=16)
+_three = cache.Cached(work.three_onsets, entries=16, megabytes=4)
 
 # --- How the journal is let go ----------------------------------------------------------------
 
 
-def choose_release(view: View) -> Ask:
+def choose_release(computed: Computed) -> Ask:
     """Show the demonstrations, kick and length; return what is asked for."""
     st.session_state.setdefault(_KICK, 0.30)
     st.session_state.setdefault(_REVOLUTIONS, 40)
@@ -77,7 +77,7 @@ def choose_release(view: View) -> Ask:
         for demo, (label, _, _) in _DEMOS.items():
             st.button(
                 label, key=f"orbits_{demo}", help=_ABOUT_DEMOS, on_click=_set_up, args=(demo,),
-                disabled=not _can_set_up(demo, view),
+                disabled=not _can_set_up(demo, computed),
             )  # fmt: skip
     left, right = st.columns(2)
     with left:
@@ -92,37 +92,37 @@ def choose_release(view: View) -> Ask:
     return Ask(kick, turns)
 
 
-def _can_set_up(demo: Demo, view: View) -> bool:
-    return demo in ("small", "big") or not INPUTS["rpm"].problem(_demo_rpm(demo, view))
+def _can_set_up(demo: Demo, computed: Computed) -> bool:
+    return demo in ("small", "big") or not INPUTS["rpm"].problem(_demo_rpm(demo, computed))
 
 
-def _demo_rpm(demo: Demo, view: View) -> float:
-    rpm = view.onset.speed * (0.95 if demo == "below" else 1.05) * 30.0 / math.pi
+def _demo_rpm(demo: Demo, computed: Computed) -> float:
+    rpm = computed.onset.speed * (0.95 if demo == "below" else 1.05) * 30.0 / math.pi
     return round(rpm, 1) if math.isfinite(rpm) else rpm
 
 
 def _set_up(demo: Demo) -> None:
-    kept = state()
+    visitor = session()
     if demo in ("small", "big"):
-        kept.set_preset("sheet-1e8")
-        kept.values |= _SUBCRITICAL
+        visitor.set_preset("sheet-1e8")
+        visitor.values |= _SUBCRITICAL
     else:
-        rpm = _demo_rpm(demo, view_of(kept.values))
-        kept.set_value("u", 0.0)
-        kept.set_value("rpm", rpm)
+        rpm = _demo_rpm(demo, computed_from(visitor.values))
+        visitor.set_value("u", 0.0)
+        visitor.set_value("rpm", rpm)
     _, st.session_state[_KICK], st.session_state[_REVOLUTIONS] = _DEMOS[demo]
 
 
-def let_go(view: View, ask: Ask, tell: Progress | None = None) -> Release:
+def let_go(computed: Computed, ask: Ask, tell: Progress | None = None) -> Release:
     """Return the release of a machine's journal."""
-    ask = _affordable(view, ask)
+    ask = _affordable(computed, ask)
     release = _long_release if ask.revolutions >= work.LONG else _release
-    return release(view.machine, view.speed, ask.kick, ask.revolutions, tell=tell)
+    return release(computed.machine, computed.speed, ask.kick, ask.revolutions, tell=tell)
 
 
-def _affordable(view: View, ask: Ask) -> Ask:
+def _affordable(computed: Computed, ask: Ask) -> Ask:
     """Return what is asked for, shorter where the machine swings many times in a revolution."""
-    swings = float(np.abs(view.point.flexible_eigenvalues.imag).max()) / view.speed
+    swings = float(np.abs(computed.point.flexible_eigenvalues.imag).max()) / computed.speed
     most = max(_FEWEST, round(_MOST_SWINGS / max(swings, 1.0)))
     return ask if ask.revolutions <= most else replace(ask, revolutions=most)
 
@@ -132,10 +132,10 @@ def try_out(page: Page, ask: Ask) -> tuple[Page, Release]:
 
     Say in words why there is none, and stop, where there is none.
     """
-    ask = _affordable(page.view, ask)
+    ask = _affordable(page.computed, ask)
     bar = st.progress(0.0, "Integrating …") if ask.revolutions >= work.LONG else None
     try:
-        found = let_go(page.view, ask, None if bar is None else bar.progress)
+        found = let_go(page.computed, ask, None if bar is None else bar.progress)
     except (ValueError, TransientError) as error:
         st.error(f"{error}", title="This release cannot be computed")
         st.stop()
@@ -153,7 +153,7 @@ def try_out(page: Page, ask: Ask) -> tuple[Page, Release]:
 # --- What became of it ------------------------------------------------------------------------
 
 
-def say_outcome(view: View, asked: Ask, found: Release, units: Units) -> None:
+def say_outcome(computed: Computed, asked: Ask, found: Release, units: Units) -> None:
     """Say in one sentence what the journal did, and in another what the linear theory said."""
     followed = round(float(found.revolutions[-1]))
     if followed < asked.revolutions and not found.stopped:
@@ -165,7 +165,7 @@ def say_outcome(view: View, asked: Ask, found: Release, units: Units) -> None:
         st.warning(f"The integration ended early: {found.stopped}.")
     whirls = _is_whirling(found)
     show = st.warning if whirls else st.success
-    show(f"{_outcome(found, units)} {_theory(view, found)}")
+    show(f"{_outcome(found, units)} {_theory(computed, found)}")
 
 
 def _is_whirling(found: Release) -> bool:
@@ -199,11 +199,11 @@ def _outcome(found: Release, units: Units) -> str:
     return f"After {turns} the motion is still {way}, up to {size}; {thin}."
 
 
-def _theory(view: View, found: Release) -> str:
+def _theory(computed: Computed, found: Release) -> str:
     rate = digits(abs(found.whirl.real))
     if math.isnan(found.whirl.real):
         return "The linear theory knows no whirl here."
-    if not view.is_stable:
+    if not computed.is_stable:
         said = f"The linear theory: unstable, a small whirl grows at {rate} 1/s"
         if not _is_whirling(found) and found.spectrum.synchronous > 0.0:
             return f"{said}. It takes whirl and imbalance apart; together, this holds that down."
@@ -214,11 +214,11 @@ def _theory(view: View, found: Release) -> str:
     return f"{said}."
 
 
-def show_measured(view: View, found: Release, units: Units) -> None:
+def show_measured(computed: Computed, found: Release, units: Units) -> None:
     """Show what the spectrum says beside what the linear theory says."""
     seen, C = found.spectrum, found.clearance
     ratio = "no whirl" if math.isnan(seen.whirl_ratio) else f"{seen.whirl_ratio:.4f}"
-    predicted = found.whirl.imag / view.speed
+    predicted = found.whirl.imag / computed.speed
     rows = [
         ("Whirl ratio, measured", ratio),
         ("Whirl ratio, linear", "none" if math.isnan(predicted) else f"{predicted:.4f}"),
@@ -261,20 +261,20 @@ def on_demand(
 
 def ask_run_up(page: Page) -> RunUp | None:
     """Return the run-up's spectra once asked for."""
-    view = page.view
-    token = ("run-up", view.machine, view.top_speed)
+    computed = page.computed
+    token = ("run-up", computed.machine, computed.top_speed)
     found = on_demand(
         page, "Run up to the top speed", "orbits_run_up", token,
-        lambda tell: _try(lambda: _run_up(view.machine, view.top_speed, tell=tell)),
+        lambda tell: _try(lambda: _run_up(computed.machine, computed.top_speed, tell=tell)),
     )  # fmt: skip
     if found is None:
         return None
-    return replace(found, onset=view.onset.speed, running_speed=view.speed)
+    return replace(found, onset=computed.onset.speed, running_speed=computed.speed)
 
 
-def run_up_caption(view: View) -> str:
+def run_up_caption(computed: Computed) -> str:
     """Return what the waterfall shows."""
-    stirred = view.machine.rotor.imbalance == 0.0
+    stirred = computed.machine.rotor.imbalance == 0.0
     return (
         f"{work.RUN_UP_REVOLUTIONS} revolutions from {work.RUN_UP_FROM:g} times the top speed to "
         "the top speed, the journal's forward circles; dashed: Im λ/Ω of the least damped whirl."
@@ -284,13 +284,13 @@ def run_up_caption(view: View) -> str:
 
 def ask_cycles(page: Page) -> Bifurcation | None:
     """Return the limit cycles once asked for; say in words why there are none."""
-    view, onset = page.view, page.view.onset.speed
+    computed, onset = page.computed, page.computed.onset.speed
     if not 0.0 < onset < math.inf:
         st.info(_no_onset(onset))
         return None
     return on_demand(
-        page, "Follow the limit cycles", "orbits_cycles", ("cycles", _balanced(view.machine)),
-        lambda tell: _try(lambda: _cycles(_balanced(view.machine), tell=tell)),
+        page, "Follow the limit cycles", "orbits_cycles", ("cycles", _balanced(computed.machine)),
+        lambda tell: _try(lambda: _cycles(_balanced(computed.machine), tell=tell)),
     )  # fmt: skip
 
 
@@ -330,20 +330,20 @@ def say_cycles(branch: Bifurcation, units: Units) -> None:
 # --- Three ways to the onset ------------------------------------------------------------------
 
 
-def ask_onsets(view: View) -> tuple[Onsets, GrowthCurve] | None:
+def ask_onsets(computed: Computed) -> tuple[Onsets, GrowthCurve] | None:
     """Return the onset found three ways, and growth over speed; say why where there is none."""
-    onset = view.onset.speed
+    onset = computed.onset.speed
     if not 0.0 < onset < math.inf:
         st.info(_no_onset(onset))
         return None
-    return _try(lambda: three_onsets(view))
+    return _try(lambda: three_onsets(computed))
 
 
-def three_onsets(view: View) -> tuple[Onsets, GrowthCurve]:
+def three_onsets(computed: Computed) -> tuple[Onsets, GrowthCurve]:
     """Return the onset found three ways, and growth over speed, of a machine that has one."""
-    found, curve = _three(_balanced(view.machine))
-    here = leading(view).real
-    return found, replace(curve, running_speed=view.speed, running_rate=here)
+    found, curve = _three(_balanced(computed.machine))
+    here = leading(computed).real
+    return found, replace(curve, running_speed=computed.speed, running_rate=here)
 
 
 def with_onset(page: Page) -> Page:

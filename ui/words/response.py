@@ -8,7 +8,7 @@ import streamlit as st
 from rotorcalc import Machine, Rotor
 from rotorcalc.unbalance_curves import damping_variants, journal_mass_variants
 from rotorcalc.units import Units
-from ui.computed import View
+from ui.computed import Computed
 from ui.results import digits
 
 SHOWN: dict[Literal["axes", "XY"], str] = {"axes": "Orbit's axes", "XY": "X and Y"}
@@ -25,9 +25,9 @@ VARIANTS: dict[str, Callable[[Machine], tuple[Rotor, ...]]] = {
 }
 
 
-def say_balanced(view: View) -> bool:
+def say_balanced(computed: Computed) -> bool:
     """Say that a balanced rotor stands still, and return whether it is one."""
-    balanced = view.machine.rotor.imbalance == 0.0
+    balanced = computed.machine.rotor.imbalance == 0.0
     if balanced:
         st.info(
             "The rotor is perfectly balanced (u = 0): nothing drives a synchronous motion, and "
@@ -37,16 +37,16 @@ def say_balanced(view: View) -> bool:
     return balanced
 
 
-def say_limits(view: View, units: Units) -> None:
+def say_limits(computed: Computed, units: Units) -> None:
     """Warn where the response shown is not what would happen."""
-    if not view.is_stable:
+    if not computed.is_stable:
         st.error(
             "The machine is unstable at its running speed: it whirls with growing amplitude, and "
             "the steady response shown there would not last."
         )
-    reach = view.clearance_orbit.reach
+    reach = computed.clearance_orbit.reach
     if reach >= 1.0:
-        C = float(units.film.of(view.machine.bearing.radial_clearance))
+        C = float(units.film.of(computed.machine.bearing.radial_clearance))
         st.warning(
             f"By this linear theory the journal would move {digits(reach * C)} {units.film.name} "
             f"from the bearing's centre, beyond the clearance of {digits(C)} {units.film.name}. "
@@ -54,22 +54,22 @@ def say_limits(view: View, units: Units) -> None:
         )
 
 
-def amplitude_caption(view: View) -> str:
+def amplitude_caption(computed: Computed) -> str:
     """Return what the chart of amplitudes says."""
     peaks = (
         "diamonds (with X and Y dotted lines) mark the largest orbits"
-        if len(view.disk_peaks.speed) or len(view.journal_peaks.speed)
+        if len(computed.disk_peaks.speed) or len(computed.journal_peaks.speed)
         else "no peak up to the top speed"
     )
     unstable = (
-        " Shaded: unstable, no steady response exists." if len(view.response.unstable) else ""
+        " Shaded: unstable, no steady response exists." if len(computed.response.unstable) else ""
     )
     return f"Zero to peak, about equilibrium; {peaks}.{unstable} Eq. 5.38."
 
 
-def senses(view: View) -> str:
+def senses(computed: Computed) -> str:
     """Return in which sense disk and journal whirl at the running speed."""
-    orbits = view.orbits
+    orbits = computed.orbits
     journal = _sense(bool(orbits.journal_forward))
     if orbits.is_rigid:
         return f"The shaft is rigid: disk and journal move alike. The orbit runs {journal}."
@@ -79,9 +79,9 @@ def senses(view: View) -> str:
     return f"The disk whirls {disk}, the journal {journal}."
 
 
-def explain_family(view: View, varied: Literal["damping", "mass"]) -> None:
+def explain_family(computed: Computed, varied: Literal["damping", "mass"]) -> None:
     """Say what the family's lines are."""
-    rotor = view.machine.rotor
+    rotor = computed.machine.rotor
     if varied == "damping":
         shares = (
             "the centred film's damping"

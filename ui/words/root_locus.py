@@ -10,7 +10,7 @@ from rotorcalc.modes import ModeShapes
 from rotorcalc.onset.search import Onset
 from rotorcalc.unbalance_response import orbit_ellipse
 from rotorcalc.units import Units
-from ui.computed import View
+from ui.computed import Computed
 
 ALTS = {
     "locus": "Eigenvalues in the complex plane as the speed rises: left of the imaginary axis a "
@@ -57,9 +57,9 @@ has no orbit: disk and journals creep along a line.
 """
 
 
-def choose_shaft(view: View) -> bool:
+def choose_shaft(computed: Computed) -> bool:
     """Show the choice between the shaft as it is and a rigid one; return whether it bends."""
-    if view.machine.rotor.is_rigid:
+    if computed.machine.rotor.is_rigid:
         st.caption("The shaft is rigid: disk and journals move as one.")
         return False
     st.session_state.setdefault("locus_shaft", "flexible")

@@ -15,7 +15,7 @@ from rotorcalc.figures.design import Quantity
 from rotorcalc.figures.stability import Crossing, Energies, FilmFigure
 from rotorcalc.onset import closed_form
 from rotorcalc.units import SI, Units
-from ui.computed import View
+from ui.computed import Computed
 from ui.inputs import INPUTS
 from ui.jobs import cache, work
 from ui.results import digits
@@ -33,9 +33,9 @@ _BY_RATIO = {"mass", "load", "mu", "C", "D", "L", "k"}
 _SMALLEST_LOAD = 10.0  # N, the end of a logarithmic axis
 # Cells a side of a map: where the onset has a closed form, and where each cell takes eigenvalues.
 _FINE, _COARSE = 60, 11
-_onset_map = cache.Kept(work.onset_map, entries=32, megabytes=8)
-_sensitivities = cache.Kept(design.sensitivities, entries=64, megabytes=4)
-_solution = cache.Kept(work.solution, entries=64, megabytes=4)
+_onset_map = cache.Cached(work.onset_map, entries=32, megabytes=8)
+_sensitivities = cache.Cached(design.sensitivities, entries=64, megabytes=4)
+_solution = cache.Cached(work.solution, entries=64, megabytes=4)
 BARE = (
     "Midspan damping or journal mass: the closed forms, drawn dashed, are those of the rotor "
     "without them and no longer tell the onset. The vertical line does, found on the eigenvalues."
@@ -66,64 +66,66 @@ _SAGS = (0.0, 0.3, 1.0, 3.0, 10.0)
 # --- Records for the charts -------------------------------------------------------------------
 
 
-def crossing(view: View) -> Crossing:
+def crossing(computed: Computed) -> Crossing:
     """Return where the machine goes unstable."""
-    return Crossing(onset=view.onset, closed_form=closed_form.has_closed_form(view.machine))
+    return Crossing(onset=computed.onset, closed_form=closed_form.has_closed_form(computed.machine))
 
 
-def film_figure(view: View, over_eccentricity: bool = False) -> FilmFigure:
+def film_figure(computed: Computed, over_eccentricity: bool = False) -> FilmFigure:
     """Return what the notes' figures share."""
-    bearing = view.machine.bearing
-    here = None if view.unloaded else film_curves(bearing, view.point.sommerfeld)
-    return FilmFigure(view.curves, _film_limit(bearing), here, over_eccentricity)
+    bearing = computed.machine.bearing
+    here = None if computed.unloaded else film_curves(bearing, computed.point.sommerfeld)
+    return FilmFigure(computed.curves, _film_limit(bearing), here, over_eccentricity)
 
 
-def sags(view: View) -> tuple[float, ...]:
+def sags(computed: Computed) -> tuple[float, ...]:
     """Return the static sags over clearance of Fig. 5.10, this machine's last."""
-    return (*_SAGS, view.machine.static_sag / view.machine.bearing.radial_clearance)
+    return (*_SAGS, computed.machine.static_sag / computed.machine.bearing.radial_clearance)
 
 
-def flexible_curves(view: View) -> Array:
+def flexible_curves(computed: Computed) -> Array:
     """Return p_sf for each of the sags over the film's curves."""
-    return whirl_energy.flexible_curves(view.curves, sags(view))
+    return whirl_energy.flexible_curves(computed.curves, sags(computed))
 
 
-def flexible_here(view: View) -> float:
+def flexible_here(computed: Computed) -> float:
     """Return this machine's p_sf at the running speed."""
-    here = film_figure(view).here
-    return math.nan if here is None else whirl_energy.flexible_curves(here, sags(view)[-1:]).item()
+    here = film_figure(computed).here
+    return (
+        math.nan if here is None else whirl_energy.flexible_curves(here, sags(computed)[-1:]).item()
+    )
 
 
-def energies(view: View) -> Energies:
+def energies(computed: Computed) -> Energies:
     """Return the energy of the whirl orbit over speed; the machine has an onset."""
-    machine, onset = view.machine, view.onset
+    machine, onset = computed.machine, computed.onset
     orbit = whirl_energy.whirl_orbit(machine, onset)
     met = whirl_energy.whirl_energy(machine, onset.speed, orbit) if onset.speed > 0.0 else None
     return Energies(
-        over=whirl_energy.whirl_energy(machine, view.sweep.speed, orbit),
-        here=whirl_energy.whirl_energy(machine, view.speed, orbit),
+        over=whirl_energy.whirl_energy(machine, computed.sweep.speed, orbit),
+        here=whirl_energy.whirl_energy(machine, computed.speed, orbit),
         at_onset=met,
     )
 
 
-def has_orbit(view: View) -> bool:
+def has_orbit(computed: Computed) -> bool:
     """Return whether the machine has an onset and so a whirl orbit; say so if it has none."""
-    if math.isinf(view.onset.speed):
+    if math.isinf(computed.onset.speed):
         st.info("This machine has no onset, and so no whirl orbit to feed.")
         return False
     return True
 
 
-def balance(view: View, units: Units) -> str:
+def balance(computed: Computed, units: Units) -> str:
     """Return the energy balance at the running speed in words."""
-    here, running = energies(view).here, f"{digits(float(units.speed.of(view.speed)))} rpm"
-    if view.onset.speed == 0.0:
+    here, running = energies(computed).here, f"{digits(float(units.speed.of(computed.speed)))} rpm"
+    if computed.onset.speed == 0.0:
         return (
             "Without load the film has no direct stiffness and the whirl is infinitely slow: "
             f"damping takes nothing out, and at {running} as at any speed the orbit grows."
         )
     ratio = float((here.film_loss + here.disk_loss) / here.fed_in)
-    whirl_rpm = digits(float(units.speed.of(view.onset.whirl_frequency)))
+    whirl_rpm = digits(float(units.speed.of(computed.onset.whirl_frequency)))
     outcome = "dies away" if ratio > 1.0 else "grows"
     return (
         f"At its onset this machine whirls at {whirl_rpm} rpm. In that orbit, but at a running "
@@ -167,11 +169,11 @@ def choose_input(label: str, default: str, key: str, without: str = "") -> str:
     return chosen or default
 
 
-def choose_target(view: View, units: Units) -> float:
+def choose_target(computed: Computed, units: Units) -> float:
     """Show a field for the onset wanted; return it [rad/s]."""
     key = "stability_target"
     if not st.session_state.get("stability_target_typed"):
-        st.session_state[key] = float(round(1.2 * float(units.speed.of(view.speed)), -1))
+        st.session_state[key] = float(round(1.2 * float(units.speed.of(computed.speed)), -1))
     rpm = st.number_input(
         f"Onset wanted [{units.speed.name}]",
         min_value=10.0,
@@ -186,9 +188,9 @@ def choose_target(view: View, units: Units) -> float:
     return units.speed.to_si(rpm)
 
 
-def value(view: View, key: str) -> float:
+def value(computed: Computed, key: str) -> float:
     """Return a machine's value of an input in SI."""
-    return variation.value_of(view.machine, FIELDS[key])
+    return variation.value_of(computed.machine, FIELDS[key])
 
 
 def choose_abscissa() -> bool:
@@ -212,9 +214,9 @@ def names(units: Units) -> dict[str, str]:
     }
 
 
-def onset_map(view: View, x: str, y: str, units: Units) -> design.OnsetMap:
+def onset_map(computed: Computed, x: str, y: str, units: Units) -> design.OnsetMap:
     """Return the onset over two inputs, with its progress shown where each cell takes long."""
-    machine = view.machine
+    machine = computed.machine
     axes = [(FIELDS[key], q.low, q.high, q.log)
             for key in (x, y) for q in [quantity(key, machine, units)]]  # fmt: skip
     if closed_form.has_closed_form(machine) and not {x, y} & {"cs", "mj"}:
@@ -225,15 +227,15 @@ def onset_map(view: View, x: str, y: str, units: Units) -> design.OnsetMap:
     return found
 
 
-def sensitivities(view: View) -> design.Sensitivities:
+def sensitivities(computed: Computed) -> design.Sensitivities:
     """Return how far the onset moves with each input."""
-    return _sensitivities(view.machine)
+    return _sensitivities(computed.machine)
 
 
-def solution(view: View, key: str, target: float, units: Units) -> design.OnsetSolution:
+def solution(computed: Computed, key: str, target: float, units: Units) -> design.OnsetSolution:
     """Return the values of an input that put the onset at a speed."""
-    axis = quantity(key, view.machine, units)
-    return _solution(view.machine, FIELDS[key], target, axis.low, axis.high)
+    axis = quantity(key, computed.machine, units)
+    return _solution(computed.machine, FIELDS[key], target, axis.low, axis.high)
 
 
 def answer(found: design.OnsetSolution, axis: Quantity, now: float, units: Units) -> str:

@@ -3,7 +3,7 @@
 import streamlit as st
 
 from rotorcalc.validity import Check, validity
-from ui.computed import View
+from ui.computed import Computed
 from ui.results import digits
 
 _BADGES = {"good": "green", "caution": "orange", "outside": "red"}
@@ -11,9 +11,9 @@ _FILM = ":small[Film: short, laminar, isoviscous, aligned, rigid walls. Orbits: 
 _WORDS = {"good": "holds", "caution": "strained", "outside": "outside"}
 
 
-def draw(view: View) -> None:
+def draw(computed: Computed) -> None:
     """Show each assumption with its number and limits; the headline tells the worst."""
-    checks = validity(view.point)
+    checks = validity(computed.point)
     worst = max(checks, key=lambda check: list(_BADGES).index(check.level))
     strained = [check for check in checks if check.level != "good"]
     headline = (

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from rotorcalc.units import Units
-from ui.computed import View
+from ui.computed import Computed
 from ui.results import digits
 
 
@@ -17,43 +17,43 @@ class Verdict:
     sentence: str
 
 
-def verdict(view: View, units: Units) -> Verdict:
+def verdict(computed: Computed, units: Units) -> Verdict:
     """Return the verdict on a machine at its running speed."""
-    running = _speed(view.speed, units)
-    if view.is_stable:
-        return Verdict("stable", f"Stable at {running}: {_outlook(view, units)}")
-    if view.unloaded:
+    running = _speed(computed.speed, units)
+    if computed.is_stable:
+        return Verdict("stable", f"Stable at {running}: {_outlook(computed, units)}")
+    if computed.unloaded:
         return Verdict(
             "unstable",
             f"Unstable at {running}: without load the film has no direct stiffness (Eq. 5.37), and "
             "the machine whirls at any speed.",
         )
-    return Verdict("unstable", f"Unstable at {running}: {_past(view, units)}")
+    return Verdict("unstable", f"Unstable at {running}: {_past(computed, units)}")
 
 
-def _outlook(view: View, units: Units) -> str:
-    onset = view.onset
+def _outlook(computed: Computed, units: Units) -> str:
+    onset = computed.onset
     if math.isinf(onset.speed):
         return "no speed makes this machine whirl."
-    if onset.speed > view.speed:
-        margin = (onset.speed / view.speed - 1.0) * 100.0
+    if onset.speed > computed.speed:
+        margin = (onset.speed / computed.speed - 1.0) * 100.0
         where = f"{_speed(onset.speed, units)}, {digits(margin)} % above"
-        return f"it goes unstable at {where}, {_whirl(view, units)}."
+        return f"it goes unstable at {where}, {_whirl(computed, units)}."
     return (
         f"it is past its range of whirl, which begins at {_speed(onset.speed, units)}, "
-        f"{_whirl(view, units)}."
+        f"{_whirl(computed, units)}."
     )
 
 
-def _past(view: View, units: Units) -> str:
-    onset = view.onset
-    excess = (1.0 - onset.speed / view.speed) * 100.0
+def _past(computed: Computed, units: Units) -> str:
+    onset = computed.onset
+    excess = (1.0 - onset.speed / computed.speed) * 100.0
     where = f"{_speed(onset.speed, units)}, {digits(excess)} % below"
-    return f"it went unstable at {where}, {_whirl(view, units)}."
+    return f"it went unstable at {where}, {_whirl(computed, units)}."
 
 
-def _whirl(view: View, units: Units) -> str:
-    onset = view.onset
+def _whirl(computed: Computed, units: Units) -> str:
+    onset = computed.onset
     frequency = digits(float(units.frequency.of(onset.whirl_frequency)))
     ratio = onset.whirl_frequency / onset.speed if onset.speed > 0.0 else math.nan
     return (
