@@ -4,25 +4,22 @@
         = change of kinetic and strain energy + loss in the film + loss in the damper
 
 per bearing, over any interval. The film's term is the work that the journal does on it beyond what
-the drive puts into shearing it; it is negative where the film feeds the whirl. The terms are
-integrals over the samples by a polynomial of seventh degree, piece by piece.
+the drive puts into shearing it; it is negative where the film feeds the whirl. The works are
+integrated with the equations of motion, revolution by revolution from the motion's own samples, so
+that they hold however coarse the samples are.
 
 Source: the equations of motion, Eq. 5.1 with imbalance forward, each times its velocity.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import make_interp_spline
 
 from rotorcalc.arrays import Array
 from rotorcalc.display import Result
-from rotorcalc.films import film_motion
 from rotorcalc.machine import Machine
-from rotorcalc.nonlinear.transient import Transient
-
-_DEGREE = 7
+from rotorcalc.nonlinear.equations import WORKS, Equations, Start, integrated
+from rotorcalc.nonlinear.transient import TOLERANCE, Transient, TransientError
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,90 +76,68 @@ def energy_balance(machine: Machine, motion: Transient) -> EnergyBalance:
     machine : Machine
         The machine that moved.
     motion : Transient
-        Its motion, sampled finely enough for its fastest part. Where a journal with mass is let go
-        at rest the film takes hold of it within a fraction of a revolution, which hundreds of
-        samples a revolution resolve; 64 serve what comes after.
+        Its motion.
 
     Returns
     -------
     EnergyBalance
-        Each term from the motion alone; over an interval it is the difference of two samples.
+        Stored energy and the load's work from the samples, the other works integrated anew between
+        them. Over an interval each term is the difference of two samples.
+
+    Raises
+    ------
+    TransientError
+        Where that integration cannot go on.
     """
     rotor = machine.rotor
-    journal, disk = motion.journal_velocity, motion.disk_velocity
     sag = motion.disk - motion.journal
     stiffness = 0.0 if rotor.is_rigid else rotor.shaft_stiffness
-    kinetic = 0.5 * rotor.disk_mass * _square(disk) + 0.5 * rotor.journal_mass * _square(journal)
+    kinetic = 0.5 * rotor.disk_mass * _square(motion.disk_velocity)
+    if rotor.journal_mass > 0.0:
+        kinetic = kinetic + 0.5 * rotor.journal_mass * _square(motion.journal_velocity)
     strain = 0.5 * stiffness * _square(sag)
-    integral = _integral(motion.time)
+    imbalance_work, film_loss, damper_loss = _works(machine, motion).T
     return EnergyBalance(
         time=motion.time,
-        imbalance_work=integral(np.sum(imbalance_force(machine, motion) * disk, axis=1)),
+        imbalance_work=imbalance_work,
         load_work=machine.static_load * (motion.disk[:, 0] - motion.disk[0, 0]),
         kinetic=kinetic - kinetic[0],
         strain=strain - strain[0],
-        film_loss=integral(-np.sum(film_force(machine, motion) * journal, axis=1)),
-        damper_loss=integral(rotor.disk_damping * _square(disk)),
+        film_loss=film_loss,
+        damper_loss=damper_loss,
     )
 
 
-def film_force(machine: Machine, motion: Transient) -> Array:
-    """Return the film's force on the journal along a motion.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine that moved.
-    motion : Transient
-        Its motion.
-
-    Returns
-    -------
-    array, (n, 2)
-        In X, Y [N].
-    """
-    bearing, C = machine.bearing, machine.bearing.radial_clearance
-    force, _ = film_motion(bearing)
-    velocity = motion.journal_velocity / (C * motion.speed[:, None])
-    states = np.concatenate([motion.journal / C, velocity], axis=1).tolist()
-    unit = machine.viscosity * motion.speed * bearing.radius * bearing.length**3 / C**2
-    return unit[:, None] * np.array([force(*state) for state in states])
+def _works(machine: Machine, motion: Transient) -> Array:
+    """Return the works of imbalance, film and damper since the start, (n, 3) [J]."""
+    angle = motion.angle
+    works = np.zeros((len(angle), WORKS))
+    if len(angle) == 1:  # what is left of a motion that failed at once
+        return works
+    (first, last), turned = motion.speed[[0, -1]].tolist(), float(angle[-1])
+    model = Equations(machine, first, last, turned=turned)
+    states = model.initial(_states(machine, motion))
+    rates, turn = model.motion_and_works(), int(np.sum(angle < 2.0 * np.pi))
+    for i in range(0, len(angle) - 1, turn):
+        span = slice(i, i + turn + 1)
+        start = np.concatenate([states[i], works[i]])
+        found, message = integrated(rates, start, angle[span], tolerance=TOLERANCE)
+        if message:
+            raise TransientError(f"the works could not be integrated ({message})", motion)
+        works[span] = found[:, -WORKS:]
+    return works * model.mass * (model.C * model.first) ** 2
 
 
-def imbalance_force(machine: Machine, motion: Transient) -> Array:
-    """Return the force of the imbalance on the disk along a motion, one side.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine that moved.
-    motion : Transient
-        Its motion.
-
-    Returns
-    -------
-    array, (n, 2)
-        m_d u (Ω² e + Ω̇ e⊥) in X, Y [N], with e = (cos θ, sin θ) and e⊥ = (sin θ, −cos θ).
-    """
-    rotor, turn = machine.rotor, motion.angle[-1] - motion.angle[0]
-    spin = (motion.speed[-1] ** 2 - motion.speed[0] ** 2) / (2.0 * turn)
-    cos, sin = np.cos(motion.angle), np.sin(motion.angle)
-    square = motion.speed**2
-    e = np.stack([square * cos + spin * sin, square * sin - spin * cos], axis=-1)
-    return rotor.disk_mass * rotor.imbalance * e
+def _states(machine: Machine, motion: Transient) -> Start:
+    """Return the states of a motion; a massless journal's velocity is no part of them."""
+    massless = machine.rotor.journal_mass == 0.0
+    return Start(
+        journal=motion.journal,
+        disk=motion.disk,
+        journal_velocity=motion.disk_velocity if massless else motion.journal_velocity,
+        disk_velocity=motion.disk_velocity,
+    )
 
 
 def _square(velocity: Array) -> Array:
     return np.sum(velocity**2, axis=1)
-
-
-def _integral(time: Array) -> Callable[[Array], Array]:
-    """Return the running integral over time from the first sample on."""
-
-    def integral(power: Array) -> Array:
-        if not np.any(power):
-            return np.zeros_like(power)
-        primitive = make_interp_spline(time, power, k=min(_DEGREE, len(time) - 1)).antiderivative()
-        return primitive(time) - primitive(time[0])
-
-    return integral

@@ -10,13 +10,14 @@ rotor with the film's force in place of its linear coefficients.
 """
 
 import math
+import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.integrate import odeint
+from scipy.integrate import ODEintWarning, odeint
 
 from rotorcalc.arrays import Array
 from rotorcalc.display import Result
@@ -27,6 +28,8 @@ from rotorcalc.machine import Machine
 Motion: TypeAlias = Callable[[Array, float], list[float]]
 
 _MOST_STEPS = 20_000  # between two angles
+# Works that `motion_and_works` adds to a state: of imbalance, film and damper.
+WORKS = 3
 # The longest step [rad]: at rest longer ones, of high order, blow rounding errors up to the
 # tolerance many times over before the error control sees them.
 _LONGEST_STEP = 0.25
@@ -77,14 +80,14 @@ class Equations:
         return 2.0 * np.asarray(angle, dtype=float) / (self.first + self.speed(angle))
 
     def initial(self, start: Start) -> Array:
-        """Return the state vector of a start."""
+        """Return the state vector of a start, or (n, m) of n states."""
         C, unit = self.C, self.C * self.first
         parts = [start.disk / C, start.disk_velocity / unit]
         if self.flexible:
             parts.append(start.journal / C)
         if self.flexible and not self.massless:
             parts.append(start.journal_velocity / unit)
-        return np.concatenate(parts)
+        return np.concatenate(parts, axis=-1)
 
     def motion(self) -> Motion:
         """Return the function of state and angle that LSODA integrates."""
@@ -161,6 +164,25 @@ class Equations:
 
         return motion
 
+    def motion_and_works(self) -> Motion:
+        """Return the same for a state that ends in the works of imbalance, film and damper.
+
+        Each since the start, those of film and damper as losses, in M C² Ω_0².
+        """
+        motion, force, drive = self.motion(), self.force, self._drive()
+        film, damper, place = self.film, self.damper, 4 if self.flexible else 0
+
+        def both(state: Array, angle: float) -> list[float]:
+            rates = motion(state[:-WORKS], angle)
+            u_x, u_y, nu = drive(angle)
+            (dX, dY), (dx, dy) = rates[:2], rates[place : place + 2]  # velocities by the angle
+            x, y = state[place : place + 2].tolist()
+            f_x, f_y = force(x, y, dx, dy)
+            given, lost = u_x * dX + u_y * dY, -film * nu * (f_x * dx + f_y * dy)
+            return [*rates, given, lost, damper * nu * (dX * dX + dY * dY)]
+
+        return both
+
     def journal(self, states: Array) -> Array:
         """Return the journal's positions in states, in C."""
         return states[..., 4:6] if self.flexible else states[..., :2]
@@ -225,18 +247,20 @@ def integrated(
     ArithmeticError
         Where the motion has no rates at a state.
     """
-    states, report = cast(
-        "tuple[Array, dict[str, Any]]",
-        odeint(  # pyright: ignore[reportCallIssue] - it takes a list of rates as well
-            motion,  # pyright: ignore[reportArgumentType]
-            state,
-            angles,
-            rtol=tolerance,
-            atol=tolerance * 1e-2,
-            mxstep=_MOST_STEPS,
-            hmax=_LONGEST_STEP,
-            full_output=True,
-        ),
-    )
+    with warnings.catch_warnings():  # what ended it is in the message
+        warnings.simplefilter("ignore", ODEintWarning)
+        states, report = cast(
+            "tuple[Array, dict[str, Any]]",
+            odeint(  # pyright: ignore[reportCallIssue] - it takes a list of rates as well
+                motion,  # pyright: ignore[reportArgumentType]
+                state,
+                angles,
+                rtol=tolerance,
+                atol=tolerance * 1e-2,
+                mxstep=_MOST_STEPS,
+                hmax=_LONGEST_STEP,
+                full_output=True,
+            ),
+        )
     message = str(report["message"])
     return states, "" if message == "Integration successful." else message
