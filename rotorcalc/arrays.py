@@ -26,6 +26,14 @@ def real_array(name: str, values: ArrayLike) -> Array:
     return array.astype(float, copy=False)
 
 
+def real_number(name: str, value: ArrayLike) -> float:
+    """Return `value` as a float, or raise ValueError naming what it is instead of one number."""
+    array = real_array(name, value)
+    if array.ndim > 0:
+        raise ValueError(f"{name} = {shown(value)}: must be one number, not an array")
+    return float(array)
+
+
 def shown(value: object) -> str:
     """Return a value as an error shows it: short, and whatever it is."""
     try:

@@ -22,8 +22,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotorcalc import modes
-from rotorcalc.arrays import Array
-from rotorcalc.coefficients import checked_speed, equilibrium
+from rotorcalc.arrays import Array, real_array, real_number, shown
+from rotorcalc.coefficients import equilibrium
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.equations import Equations, Motion, Start, integrated, resting
@@ -178,9 +178,9 @@ def start_on_mode(machine: Machine, speed: float, amplitude: float) -> Start:
     ValueError
         Where the speed is not positive or the amplitude is not positive and finite.
     """
-    if not 0.0 < amplitude < math.inf:
+    if not 0.0 < real_number("amplitude", amplitude) < math.inf:
         raise ValueError(f"amplitude = {amplitude} m: must be positive and finite")
-    state = equilibrium(machine, float(checked_speed(speed)))
+    state = equilibrium(machine, _checked_speed("speed", speed))
     shapes = modes.mode_shapes(machine.rotor, state.stiffness, state.damping)
     waves = np.flatnonzero(shapes.eigenvalues.imag > 0.0)
     mode = waves[np.argmax(shapes.eigenvalues.real[waves])]
@@ -274,8 +274,15 @@ def _stretch(
 
 
 def _checked_speeds(speed: float, final_speed: float | None) -> tuple[float, float]:
-    first = float(checked_speed(speed))
-    return first, first if final_speed is None else float(checked_speed(final_speed))
+    first = _checked_speed("speed", speed)
+    return first, first if final_speed is None else _checked_speed("final_speed", final_speed)
+
+
+def _checked_speed(name: str, value: float) -> float:
+    speed = real_number(name, value)
+    if not 0.0 < speed < math.inf:
+        raise ValueError(f"{name} = {speed} rad/s: must be positive and finite")
+    return speed
 
 
 def _check_length(revolutions: int, samples: int) -> None:
@@ -294,7 +301,7 @@ def _check_length(revolutions: int, samples: int) -> None:
 
 def _check_tolerance(tolerance: float) -> None:
     low, high = _TOLERANCES
-    if not low <= tolerance <= high:
+    if not low <= real_number("tolerance", tolerance) <= high:
         raise ValueError(f"tolerance = {tolerance}: must lie within {low:g} and {high:g}")
 
 
@@ -303,14 +310,9 @@ def _checked_start(machine: Machine, speed: float, start: ArrayLike | Start | No
     if start is None:
         start = resting(machine, equilibrium(machine, speed).film.position * C)
     elif not isinstance(start, Start):
-        position = np.asarray(start, dtype=float)
-        if position.shape != (2,):
-            raise ValueError(f"start: must be a position (X, Y), has the shape {position.shape}")
-        start = resting(machine, position)
+        start = resting(machine, _checked_vector("start", start))
     for name in ("journal", "disk", "journal_velocity", "disk_velocity"):
-        value = getattr(start, name)
-        if not np.all(np.isfinite(value)):
-            raise ValueError(f"start: {name} = {value} must be finite")
+        _checked_vector(f"start.{name}", getattr(start, name))
     distance = float(np.hypot(*start.journal))
     if distance >= C:
         raise ValueError(
@@ -318,3 +320,14 @@ def _checked_start(machine: Machine, speed: float, start: ArrayLike | Start | No
             f"than the radial clearance, {C:.6g} m"
         )
     return start
+
+
+def _checked_vector(name: str, value: ArrayLike) -> Array:
+    vector = real_array(name, value)
+    if vector.shape != (2,):
+        raise ValueError(
+            f"{name} = {shown(value)}: must be two numbers, X and Y, has the shape {vector.shape}"
+        )
+    if not np.all(np.isfinite(vector)):
+        raise ValueError(f"{name} = {shown(value)}: must be finite")
+    return vector

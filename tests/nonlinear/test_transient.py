@@ -17,6 +17,7 @@ from rotorcalc.films import short
 from rotorcalc.films.short import motion
 from rotorcalc.nonlinear.transient import (
     TOLERANCE,
+    Start,
     TransientError,
     last_state,
     simulate,
@@ -321,10 +322,27 @@ def test_progress_is_told_and_what_it_raises_ends_the_work():
         ({"speed": math.nan}, "speed"),
         ({"start": (C, 0.0)}, "less than the radial clearance"),
         ({"start": (math.nan, 0.0)}, "finite"),
-        ({"start": (0.0, 0.0, 0.0)}, "shape"),
+        ({"start": (0.0, 0.0, 0.0)}, "must be two numbers, X and Y, has the shape"),
+        ({"start": [[0.0], [0.0]]}, "must be two numbers"),
+        ({"start": [0.0, [0.0, 0.0]]}, "start = .*: must be an array of numbers"),
+        ({"start": "rest"}, "start = 'rest': must be a number or an array"),
+        ({"start": 0.0}, "must be two numbers"),
+        (
+            {
+                "start": Start(
+                    **dict.fromkeys(("journal", "disk", "journal_velocity"), np.zeros(2)),
+                    disk_velocity=np.zeros(3),
+                )
+            },
+            "start.disk_velocity",
+        ),
+        ({"speed": [600.0, 500.0]}, "speed = .*: must be one number"),
+        ({"speed": "600"}, "speed = '600'"),
+        ({"final_speed": [600.0, 500.0]}, "final_speed = .*: must be one number"),
+        ({"tolerance": "tight"}, "tolerance = 'tight'"),
         ({"tolerance": 1e-16}, "tolerance"),
         ({"tolerance": math.nan}, "tolerance"),
-        ({"final_speed": -1.0}, "speed"),
+        ({"final_speed": -1.0}, "final_speed = -1.0 rad/s: must be positive"),
     ],
 )
 def test_a_bad_request_is_refused_in_words(changes, words):
@@ -347,3 +365,10 @@ def test_a_motion_that_cannot_go_on_is_told_with_time_place_and_what_was_compute
     with pytest.raises(TransientError, match=r"found after .* s, with the journal at") as failure:
         simulate(SHEET, 5000 * RPM, revolutions=40)
     assert len(failure.value.partial.time) >= 1
+
+
+def test_an_integrator_that_gives_up_says_so_once(monkeypatch):
+    """In the error alone: SciPy's own warning would be an error here."""
+    monkeypatch.setattr("rotorcalc.nonlinear.equations._MOST_STEPS", 3)
+    with pytest.raises(TransientError, match="the integrator gave up"):
+        simulate(SHEET, 5000 * RPM, revolutions=2, samples_per_revolution=1, start=FAR)
