@@ -258,19 +258,35 @@ def _transient(model: Equations, angles: Array, states: Array) -> Transient:
 def _stretch(
     model: Equations, motion: Motion, state: Array, angles: Array, tolerance: float
 ) -> tuple[Array, str]:
-    """Return the good states over a stretch, and what ended it early, if anything did."""
-    try:
-        states, message = integrated(motion, state, angles, tolerance=tolerance)
-    except ArithmeticError as error:
-        return state[None, :], str(error)
+    """Return the good states over a stretch, and what ended it early, if anything did.
+
+    Where the integrator gives up it does not say which of its states are good: what is left is then
+    found by halving the stretch.
+    """
+    states, message = _attempt(motion, state, angles, tolerance)
+    if message and len(angles) > 2:
+        middle = len(angles) // 2
+        before, message = _stretch(model, motion, state, angles[: middle + 1], tolerance)
+        if message:
+            return before, message
+        after, message = _stretch(model, motion, before[-1], angles[middle:], tolerance)
+        return np.concatenate([before, after[1:]]), message
+    if message:
+        return state[None, :], message
     journal = model.journal(states)
     good = np.isfinite(states).all(axis=1) & (np.hypot(journal[:, 0], journal[:, 1]) < 1.0)
     reached = int(np.argmin(good)) if not good.all() else len(states)
     if reached < len(states):
         return states[: max(reached, 1)], "the journal came too close to the wall"
-    if message:
-        return states[:1], f"the integrator gave up ({message})"
     return states, ""
+
+
+def _attempt(motion: Motion, state: Array, angles: Array, tolerance: float) -> tuple[Array, str]:
+    try:
+        states, message = integrated(motion, state, angles, tolerance=tolerance)
+    except ArithmeticError as error:
+        return state[None, :], str(error)
+    return states, message and f"the integrator gave up ({message})"
 
 
 def _checked_speeds(speed: float, final_speed: float | None) -> tuple[float, float]:
