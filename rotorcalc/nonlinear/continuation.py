@@ -16,7 +16,7 @@ from rotorcalc.arrays import Array
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.collocation import Balance, Cycle, differentiation
-from rotorcalc.nonlinear.hopf import Hopf, whirl_plane
+from rotorcalc.nonlinear.hopf import Hopf, whirl_shape
 
 # Points around a cycle to begin with and at most, always odd; doubled where the polynomial's last
 # coefficients are larger than this share of the clearance.
@@ -32,14 +32,44 @@ class BifurcationError(RuntimeError):
     """The limit cycles could not be followed from the onset."""
 
 
+def small_cycle(balance: Balance, onset: Hopf, size: float) -> Cycle | None:
+    """Return a small cycle next to the onset, found from the whirl's linear mode.
+
+    Parameters
+    ----------
+    balance : Balance
+        The balance of the machine's forces.
+    onset : Hopf
+        Its onset.
+    size : float
+        Largest distance from rest of the linear whirl from which the search starts, in C.
+
+    Returns
+    -------
+    Cycle or None
+        The cycle as far from rest, by the length of the branch; None where the search fails.
+    """
+    born = _born(balance.machine, onset)
+    journal = whirl_shape(balance.machine, onset.speed, onset.whirl_frequency)
+    turn = np.exp(2j * np.pi * np.arange(_FEWEST_POINTS) / _FEWEST_POINTS)
+    guess = born._replace(path=born.path + size * np.real(turn[:, None] * journal))
+    away = guess.vector() - born.vector()
+    length = _length(away, _FEWEST_POINTS)
+    cycle, _ = _corrected(balance, born, away / length, length)
+    return cycle
+
+
 def followed(balance: Balance, onset: Hopf) -> Iterator[Cycle]:
     """Yield the cycles along their branch, from the first one that is not all but at rest."""
     last = _born(balance.machine, onset)
-    cycle, step = _first(balance, last, onset), _FIRST_STEP
+    cycle, step = small_cycle(balance, onset, _FIRST_AMPLITUDE), _FIRST_STEP
+    if cycle is None:
+        raise BifurcationError("no limit cycle found next to the onset")
     yield cycle
     while step >= _SHORTEST_STEP:
         last = last.resampled(len(cycle.path))
-        tangent = _unit(cycle.vector() - last.vector(), len(cycle.path))
+        chord = cycle.vector() - last.vector()
+        tangent = chord / _length(chord, len(cycle.path))
         found, steps = _corrected(balance, cycle, tangent, step)
         if found is None:
             step *= 0.4
@@ -55,8 +85,8 @@ def _weights(m: int) -> Array:
     return np.concatenate([np.full(2 * m, 1.0 / m), [1.0, 1.0]])
 
 
-def _unit(vector: Array, m: int) -> Array:
-    return vector / math.sqrt(float(np.sum(_weights(m) * vector**2)))
+def _length(vector: Array, m: int) -> float:
+    return math.sqrt(float(np.sum(_weights(m) * vector**2)))
 
 
 def _born(machine: Machine, onset: Hopf) -> Cycle:
@@ -64,20 +94,6 @@ def _born(machine: Machine, onset: Hopf) -> Cycle:
     place = equilibrium(machine, onset.speed).film.position
     path = np.tile(place, (_FEWEST_POINTS, 1))
     return Cycle(path, onset.whirl_frequency / onset.speed, onset.speed)
-
-
-def _first(balance: Balance, born: Cycle, onset: Hopf) -> Cycle:
-    """Return a small cycle next to the onset, on the whirl's linear mode."""
-    _, journal = whirl_plane(balance.machine, onset.speed)
-    turn = np.exp(2j * np.pi * np.arange(_FEWEST_POINTS) / _FEWEST_POINTS)
-    shape = np.real(turn[:, None] * journal)
-    guess = born._replace(path=born.path + _FIRST_AMPLITUDE * shape)
-    tangent = _unit(guess.vector() - born.vector(), _FEWEST_POINTS)
-    length = float(np.sum(_weights(_FEWEST_POINTS) * tangent * (guess.vector() - born.vector())))
-    cycle, _ = _corrected(balance, born, tangent, length)
-    if cycle is None:
-        raise BifurcationError("no limit cycle found next to the onset")
-    return cycle
 
 
 def _corrected(

@@ -8,34 +8,45 @@ the normal form. With ℓ < 0 a small whirl is born above the onset and grows ge
 (supercritical); with ℓ > 0 an unstable one shrinks towards the onset from below, and a kick larger
 than it makes the machine whirl though the linear theory calls it stable (subcritical).
 
-ℓ is the first Lyapunov coefficient, from the second and third derivatives of the equations of
-motion at rest. They come from polynomials through the film's own force at Chebyshev's points, so
-for every rotor and film model; the error shown is the difference of two such polynomials.
+ℓ is the first Lyapunov coefficient, by harmonic balance to the third order. Film, rotor and load
+balance in L(d/dt) x = ½D²F(u, u) + ⅙D³F(u, u, u), with u = (x, ẋ) from rest, F the film's force and
+L(jω) = K + jωC + Z_rotor(ω). A whirl A q e^{jωt}, L q = 0, shifts the journal's mean place by
+|A|² h_0 and swings at 2ω by A² h_2,
 
-Source: Kuznetsov, Elements of Applied Bifurcation Theory, third edition, Eq. 5.34 (projection onto
-the whirl's plane).
+    L(0) h_0 = D²F(Q, Q̄),    L(2jω) h_2 = ½D²F(Q, Q),    Q = (q, jωq),
+
+and what is left at ω, seen along the left null vector p of L(jω), changes A:
+
+    pᵀL'q Ȧ = pᵀ{D²F(Q, H_0) + D²F(Q̄, H_2) + ½D³F(Q, Q, Q̄)} |A|²A.
+
+Only the film's force is expanded; the rotor is linear and stands in L as it is. So this holds with
+massless journals too, where velocity as a function of position is singular close to rest.
+
+Source: Kuznetsov, Elements of Applied Bifurcation Theory, third edition, section 5.4 (projection
+onto the whirl's plane, here for a balance of forces in place of a system of first order).
 """
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import cast
+from dataclasses import dataclass
+from typing import NamedTuple, cast
 
 import numpy as np
-from numpy.polynomial import chebyshev
 
-from rotorcalc import modes
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import equilibrium
+from rotorcalc.films import film_gap, film_motion
 from rotorcalc.machine import Machine
-from rotorcalc.nonlinear.equations import Equations, resting
+from rotorcalc.nonlinear.film_expansion import FilmExpansion
+from rotorcalc.nonlinear.rotor_impedance import impedance
 from rotorcalc.onset.search import onset_speed
 
-# Points on a line, and how far it reaches, as a share of the way to the nearest singularity.
-_FINE, _COARSE = (24, 0.30), (20, 0.22)
+# Two answers by polynomials of so many points, the second a little beside the onset, by as much as
+# the onset itself may be wrong. ℓ is known to a few times their difference, or to the rounding of
+# the three terms of which it is the sum.
+_POINTS, _FEWER_POINTS = 17, 13
+_BESIDE = 1e-8
+_WIDER, _ROUNDING = 5.0, 1e-9
 _SPEED_STEP = 1e-4
-
-_Rates = Callable[[Array], Array]
 
 
 @dataclass(frozen=True)
@@ -51,7 +62,7 @@ class Hopf:
     lyapunov : float
         ℓ [1/s]: growth of the whirl per (a/C)². Negative for a supercritical onset.
     lyapunov_error : float
-        Difference of ℓ from that of a coarser polynomial [1/s].
+        Bound of the error of ℓ [1/s].
     growth_slope : float
         d(Re λ)/dΩ of the whirl's mode [-].
     clearance : float
@@ -67,8 +78,10 @@ class Hopf:
     clearance: float
 
     @property
-    def subcritical(self) -> bool:
-        """Whether the whirl is born unstable, below the onset."""
+    def subcritical(self) -> bool | None:
+        """Whether the whirl is born unstable, below the onset; None where that is not certain."""
+        if not abs(self.lyapunov) > self.lyapunov_error:
+            return None
         return self.lyapunov > 0.0
 
     def amplitude(self, speed: float) -> float:
@@ -82,7 +95,7 @@ class Hopf:
         Returns
         -------
         float
-            a [m]; not a number on the side of the onset where there is no such whirl.
+            a [m]; NaN on the side of the onset where there is no such whirl.
         """
         square = -self.growth_slope * (speed - self.speed) / self.lyapunov
         return self.clearance * math.sqrt(square) if square >= 0.0 else math.nan
@@ -94,7 +107,7 @@ def hopf(machine: Machine) -> Hopf:
     Parameters
     ----------
     machine : Machine
-        The machine, of whatever rotor.
+        The machine, with any rotor.
 
     Returns
     -------
@@ -110,131 +123,93 @@ def hopf(machine: Machine) -> Hopf:
     if not 0.0 < onset.speed < math.inf:
         why = "whirls at any speed" if onset.speed == 0.0 else "has no onset"
         raise ValueError(f"machine: {why}, so there is no Hopf bifurcation")
-    lyapunov, coarse = (_lyapunov(machine, onset.speed, *line) for line in (_FINE, _COARSE))
-    step = _SPEED_STEP * onset.speed
-    low, high = (_growth(machine, onset.speed + sign * step) for sign in (-1, 1))
+    terms = _lyapunov_terms(machine, onset.speed, onset.whirl_frequency, _POINTS)
+    beside = onset.speed * (1.0 + _BESIDE)
+    other = _lyapunov_terms(machine, beside, onset.whirl_frequency, _FEWER_POINTS)
+    difference = abs(float(np.sum(terms - other)))
     return Hopf(
         speed=onset.speed,
         whirl_frequency=onset.whirl_frequency,
         eccentricity_ratio=onset.eccentricity_ratio,
-        lyapunov=lyapunov,
-        lyapunov_error=abs(lyapunov - coarse),
-        growth_slope=(high - low) / (2.0 * step),
+        lyapunov=float(np.sum(terms)),
+        lyapunov_error=_WIDER * difference + _ROUNDING * float(np.sum(np.abs(terms))),
+        growth_slope=_growth_slope(machine, onset.speed, onset.whirl_frequency),
         clearance=machine.bearing.radial_clearance,
     )
 
 
-def whirl_plane(machine: Machine, speed: float) -> tuple[complex, ComplexArray]:
-    """Return the least damped whirl at a speed: its eigenvalue, and its journal's phasors.
+def whirl_shape(machine: Machine, speed: float, frequency: float) -> ComplexArray:
+    """Return the shape of the undamped whirl at an onset.
 
     Parameters
     ----------
     machine : Machine
         The machine.
-    speed : float
-        Running speed, Ω [rad/s].
+    speed, frequency : float
+        Running speed Ω and whirl frequency ω at the onset [rad/s].
 
     Returns
     -------
-    eigenvalue : complex
-        λ [1/s].
-    journal : complex array, (2,)
-        Phasors of X and Y [-], the largest displacement 1, reached at the phase 0.
+    complex array, (2,)
+        Phasors q of the journal's X and Y [-], the largest displacement 1, reached at the phase 0.
     """
-    state = equilibrium(machine, speed)
-    shapes = modes.mode_shapes(machine.rotor, state.stiffness, state.damping)
-    waves = np.flatnonzero(shapes.eigenvalues.imag > 0.0)
-    mode = waves[np.argmax(shapes.eigenvalues.real[waves])]
-    journal = shapes.journal[mode]
-    return complex(shapes.eigenvalues[mode]), journal * _unit(journal)
+    return _whirl(machine, speed, frequency).shape
 
 
-def _unit(journal: ComplexArray) -> complex:
-    """Return the factor that makes a mode's largest displacement 1 and real."""
-    turned = complex(np.exp(-0.5j * np.angle(np.sum(journal**2))))
-    return turned / float(np.linalg.norm((journal * turned).real))
+class _Whirl(NamedTuple):
+    """The null vectors of L: q, and p scaled to pᵀL'q = 1 with L' = dL/d(jω) [N·s/m]."""
+
+    shape: ComplexArray
+    left: ComplexArray
 
 
-def _growth(machine: Machine, speed: float) -> float:
-    state = equilibrium(machine, speed)
-    values = modes.refined_eigenvalues(machine.rotor, state.stiffness, state.damping)
-    return float(np.max(values.real[np.isfinite(values) & (values.imag > 0.0)]))
+def _whirl(machine: Machine, speed: float, frequency: float) -> _Whirl:
+    left, _, right = np.linalg.svd(_balance(machine, speed, frequency))
+    q: ComplexArray = right[-1].conj()
+    turned = q * np.exp(-0.5j * np.angle(np.sum(q**2)))  # its real part is the longest
+    q = turned / float(np.linalg.norm(turned.real))
+    p: ComplexArray = left[:, -1].conj()
+    _, by_frequency = impedance(machine.rotor, np.array([frequency]))
+    damping = equilibrium(machine, speed).damping
+    slope = damping - 1j * by_frequency[0] * np.eye(2)
+    return _Whirl(q, p / (p @ slope @ q))
 
 
-def _lyapunov(machine: Machine, speed: float, points: int, reach: float) -> float:
-    """Return ℓ [1/s] at the onset."""
-    lines = _Lines(machine, speed, points, reach)
-    A = lines.jacobian()
-    values, vectors = np.linalg.eig(A)
-    upper = np.where(np.imag(values) > 0.0, 0.0, np.inf)
-    whirl = int(np.argmin(np.abs(np.real(values)) + upper))
-    lam, q = complex(values[whirl]), vectors[:, whirl].astype(complex)
-    q = q * _unit(q[lines.journal])
-    left, columns = np.linalg.eig(A.T)
-    p = columns[:, np.argmin(np.abs(left - lam))].astype(complex)
-    p = p / (p @ q)  # p is not conjugated: pᵀ takes the place of the source's ⟨p, ·⟩
-    twice = 2j * lam.imag * np.eye(len(A)) - A
-    steady = cast("ComplexArray", np.linalg.solve(A, lines.second(q, q.conj())))
-    double = cast("ComplexArray", np.linalg.solve(twice, lines.second(q, q)))
-    cubic = lines.third(q) - 2.0 * lines.second(q, steady) + lines.second(q.conj(), double)
-    # The state is z q + z̄ q̄ with a = 2|z|, and rates are by Ωt.
-    return float((p @ cubic).real) / 8.0 * speed
+def _balance(machine: Machine, speed: float, frequency: float) -> ComplexArray:
+    """Return L(jω) = K + jωC + Z_rotor(ω) [N/m]."""
+    film = equilibrium(machine, speed)
+    Z, _ = impedance(machine.rotor, np.array([frequency]))
+    return film.stiffness + 1j * frequency * film.damping + Z[0] * np.eye(2)
 
 
-class _Lines:
-    """Derivatives of the equations of motion at rest, along lines through it, by Ωt and in C."""
-
-    def __init__(self, machine: Machine, speed: float, points: int, reach: float) -> None:
-        balanced = replace(machine, rotor=replace(machine.rotor, imbalance=0.0))
-        model = Equations(balanced, speed, speed, turned=2.0 * math.pi)
-        film = equilibrium(balanced, speed).film
-        position = film.position
-        self.rest = model.initial(resting(balanced, position * model.C))
-        self.rates = model.motion()
-        self.journal = slice(4, 6) if model.flexible else slice(0, 2)
-        # The force is not smooth at the wall, nor where the journal goes round at half speed.
-        self.room = reach * min(float(film.minimum_thickness), 0.5 * float(film.eccentricity_ratio))
-        self.nodes = np.cos(np.pi * (np.arange(points) + 0.5) / points)
-        fit = np.linalg.inv(chebyshev.chebvander(self.nodes, points - 1))
-        self.slopes = [_at_middle(points, order) @ fit for order in (1, 2, 3)]
-
-    def along(self, direction: Array, order: int) -> Array:
-        """Return the derivative of an order along a direction."""
-        size = float(np.abs(direction).max())
-        if size == 0.0:
-            return np.zeros_like(self.rest)
-        h = self.room / size
-        rates = np.array([
-            self.rates(self.rest + h * node * direction, 0.0) for node in self.nodes
-        ])  # fmt: skip
-        return self.slopes[order - 1] @ rates / h**order
-
-    def jacobian(self) -> Array:
-        """Return the matrix of first derivatives."""
-        return np.stack([self.along(axis, 1) for axis in np.eye(len(self.rest))], axis=1)
-
-    def second(self, u: ComplexArray, v: ComplexArray) -> ComplexArray:
-        """Return the second derivative B(u, v)."""
-        return (
-            self._second(u.real, v.real)
-            - self._second(u.imag, v.imag)
-            + 1j * (self._second(u.real, v.imag) + self._second(u.imag, v.real))
-        )
-
-    def third(self, q: ComplexArray) -> ComplexArray:
-        """Return the third derivative C(q, q, q̄)."""
-        a, b = q.real, q.imag
-        both, apart = self.along(a + b, 3), self.along(a - b, 3)
-        aaa, bbb = self.along(a, 3), self.along(b, 3)
-        aab, abb = (both - apart - 2.0 * bbb) / 6.0, (both + apart - 2.0 * aaa) / 6.0
-        return aaa + abb + 1j * (aab + bbb)
-
-    def _second(self, u: Array, v: Array) -> Array:
-        return (self.along(u + v, 2) - self.along(u - v, 2)) / 4.0
+def _growth_slope(machine: Machine, speed: float, frequency: float) -> float:
+    """Return d(Re λ)/dΩ, from pᵀ(L' dλ/dΩ + ∂L/∂Ω)q = 0."""
+    step = _SPEED_STEP * speed
+    low, high = (_balance(machine, speed + sign * step, frequency) for sign in (-1.0, 1.0))
+    q, p = _whirl(machine, speed, frequency)
+    return -float((p @ (high - low) @ q).real) / (2.0 * step)
 
 
-def _at_middle(points: int, order: int) -> Array:
-    """Return the derivatives of an order of Chebyshev's polynomials at 0."""
-    return np.array([
-        chebyshev.chebval(0.0, chebyshev.chebder(row, order)) for row in np.eye(points)
-    ], dtype=float)  # fmt: skip
+def _lyapunov_terms(machine: Machine, speed: float, frequency: float, points: int) -> Array:
+    """Return the three terms of ℓ [1/s]: by the mean shift, the second harmonic and the cubic."""
+    bearing, film = machine.bearing, equilibrium(machine, speed).film
+    force, _ = film_motion(bearing)
+    gap = float(film_gap(bearing, film.position))
+    expansion = FilmExpansion(force, film.position, gap, points)
+    q, p = _whirl(machine, speed, frequency)
+    swing = 1j * frequency / speed
+    Q = np.concatenate([q, swing * q])
+    along = expansion.whirl(Q)
+    # From the film's unit of force and clearances to N and m.
+    C = bearing.radial_clearance
+    unit = machine.viscosity * speed * bearing.radius * bearing.length**3 / C**3
+    steady, double = (_balance(machine, speed, harmonic * frequency) for harmonic in (0.0, 2.0))
+    h_0 = unit * cast("ComplexArray", np.linalg.solve(steady, along.QQ_))
+    h_2 = 0.5 * unit * cast("ComplexArray", np.linalg.solve(double, along.QQ))
+    cubic = [
+        expansion.second(Q, np.concatenate([h_0, 0.0 * h_0])),
+        expansion.second(Q.conj(), np.concatenate([h_2, 2.0 * swing * h_2])),
+        0.5 * along.QQQ_,
+    ]
+    # With a = 2|A|, |A|² = a²/4.
+    return 0.25 * unit * np.real(np.array(cubic) @ p)

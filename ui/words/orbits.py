@@ -305,12 +305,15 @@ def swept(branch: Bifurcation) -> tuple[Array, Array, Array]:
 def say_cycles(branch: Bifurcation, units: Units) -> None:
     """Say which way the whirl sets in."""
     found = branch.hopf
-    rate = f"ℓ = {digits(abs(found.lyapunov))} 1/s".replace(
-        "= ", "= " if found.subcritical else "= −"
-    )
+    rate = f"ℓ = {'−' if found.lyapunov < 0.0 else ''}{digits(abs(found.lyapunov))} 1/s"
     error = f"± {found.lyapunov_error:.1g}"
     at = f"ε = {found.eccentricity_ratio:.4f}"
-    if found.subcritical:
+    if found.subcritical is None:
+        st.info(
+            f"Subcritical or supercritical is not certain at {at}: {rate} ({error}). "
+            "The chart shows the cycles themselves."
+        )
+    elif found.subcritical:
         where = ""
         if len(branch.folds):
             fold = digits(float(units.speed.of(branch.folds.min())))

@@ -1,0 +1,118 @@
+"""Second and third derivatives of a film's force about a journal at rest.
+
+They come from polynomials through the force at Chebyshev's points on lines through the state of
+rest (x, x') = (x_0, 0), so for every film model that gives the force of a moving journal. How far
+such a line may reach differs by its direction: the force is singular at the wall, and not smooth
+where the journal's motion squeezes out all wedge, as in a plain bearing at half speed whirl. So
+each line is tried at shorter and shorter reach. Too long a line is not resolved by its polynomial,
+too short a one drowns in rounding: the reach is taken at which the answer changes least.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from rotorcalc.arrays import Array, ComplexArray
+
+# Force in X and Y from position and velocity of the journal.
+Force: TypeAlias = Callable[[float, float, float, float], tuple[float, float]]
+
+# The first reach over the way to the wall, the ratio of a reach to the last, and how many.
+_FARTHEST, _SHORTER, _MOST_REACHES = 0.9, 0.6, 40
+# The search ends when the change, once below this share of the derivative, grows tenfold again.
+_RESOLVED = 1e-6
+# Directions in the plane of a whirl: enough for its first three harmonics.
+_PHASES = np.pi * np.arange(4) / 4.0
+
+
+class WhirlDerivatives(NamedTuple):
+    """Derivatives along a whirl Q: D²F(Q, Q), D²F(Q, Q̄) and D³F(Q, Q, Q̄), each (2,)."""
+
+    QQ: ComplexArray
+    QQ_: Array
+    QQQ_: ComplexArray
+
+
+class FilmExpansion:
+    """The film's force about a journal at rest, position in C and velocity in CΩ.
+
+    Parameters
+    ----------
+    force : callable
+        (f_x, f_y) from (x, y, x', y'), in the film's unit.
+    place : array, (2,)
+        Where the journal rests, in C.
+    gap : float
+        Thinnest film there, in C: the way to the wall.
+    points : int
+        Points on a line.
+    """
+
+    def __init__(self, force: Force, place: Array, gap: float, points: int) -> None:
+        self.force, self.gap = force, gap
+        self.rest = np.concatenate([place, [0.0, 0.0]])
+        self.nodes = np.cos(np.pi * (np.arange(points) + 0.5) / points)
+        fit = np.linalg.inv(chebyshev.chebvander(self.nodes, points - 1))
+        self.slopes = np.stack([_at_middle(points, order) @ fit for order in (2, 3)])
+
+    def along(self, direction: Array) -> Array:
+        """Return the second and third derivatives of the force along a direction, (2, 2)."""
+        size = float(np.linalg.norm(direction))
+        unit = direction / size
+        reach = _FARTHEST * self.gap / max(float(np.linalg.norm(unit[:2])), 0.1)
+        last = best = self._tried(unit, reach)
+        least = np.full(2, np.inf)
+        for _ in range(_MOST_REACHES):
+            reach *= _SHORTER
+            found = self._tried(unit, reach)
+            change = np.abs(found - last).max(axis=1)
+            best = np.where((change < least)[:, None], found, best)
+            least, last = np.minimum(change, least), found
+            if np.all(least < _RESOLVED * np.abs(best).max(axis=1)) and np.all(change > 10 * least):
+                break
+        return best * np.array([[size**2], [size**3]])
+
+    def second(self, u: ComplexArray, v: ComplexArray) -> ComplexArray:
+        """Return the second derivative D²F(u, v), complex (2,)."""
+        return (
+            self._second(u.real, v.real)
+            - self._second(u.imag, v.imag)
+            + 1j * (self._second(u.real, v.imag) + self._second(u.imag, v.real))
+        )
+
+    def whirl(self, Q: ComplexArray) -> WhirlDerivatives:
+        """Return the derivatives along a whirl Re{Q e^{jθ}}, harmonics of those along its lines."""
+        lines = np.array([self.along(np.real(Q * np.exp(1j * phase))) for phase in _PHASES])
+        second, third = lines[:, 0], lines[:, 1]
+        turn = np.exp(-1j * _PHASES)[:, None]
+        return WhirlDerivatives(
+            QQ=4.0 * np.mean(turn**2 * second, axis=0),
+            QQ_=2.0 * np.mean(second, axis=0),
+            QQQ_=8.0 / 3.0 * np.mean(turn * third, axis=0),
+        )
+
+    def _second(self, u: Array, v: Array) -> Array:
+        sizes = float(np.linalg.norm(u)), float(np.linalg.norm(v))
+        if 0.0 in sizes:
+            return np.zeros(2)
+        u, v = u / sizes[0], v / sizes[1]
+        total, difference = self._curvature(u + v), self._curvature(u - v)
+        return sizes[0] * sizes[1] * (total - difference) / 4.0
+
+    def _curvature(self, direction: Array) -> Array:
+        return self.along(direction)[0] if np.any(direction) else np.zeros(2)
+
+    def _tried(self, unit: Array, reach: float) -> Array:
+        """Return both derivatives by a polynomial over a line of this reach."""
+        states = self.rest + reach * self.nodes[:, None] * unit
+        forces = np.array([self.force(*state) for state in states.tolist()])
+        return self.slopes @ forces / np.array([[reach**2], [reach**3]])
+
+
+def _at_middle(points: int, order: int) -> Array:
+    """Return the derivatives of an order of Chebyshev's polynomials at 0."""
+    return np.array([
+        chebyshev.chebval(0.0, chebyshev.chebder(row, order)) for row in np.eye(points)
+    ], dtype=float)  # fmt: skip
