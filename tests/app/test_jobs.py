@@ -1,13 +1,14 @@
 """Heavy computations: their order, their number at once, what is kept of them, what is said."""
 
 import threading
-import time
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 
 from rotorcalc import onset_speed
 from tests.machines import SHEET
+from tests.waiting import PATIENCE, take, until
 from ui.jobs import queue
 from ui.jobs.cache import Cached, size_of
 from ui.jobs.queue import Turns
@@ -28,41 +29,45 @@ class Here:
         self.closed = True
 
 
-class Witness:
-    """Counts how many computations run at once, and remembers their order."""
-
-    def __init__(self) -> None:
-        self.running = self.most = 0
-        self.order: list[int] = []
-        self._lock = threading.Lock()
-
-    def work(self, number: int) -> None:
-        with self._lock:
-            self.running += 1
-            self.most = max(self.most, self.running)
-            self.order.append(number)
-        time.sleep(0.02)
-        with self._lock:
-            self.running -= 1
-
-
 @pytest.mark.parametrize("limit", [1, 3])
-def test_no_more_than_the_limit_run_at_once_and_first_come_first_served(limit: int) -> None:
-    turns, witness = Turns(limit, hire=Here), Witness()
+def test_no_more_than_the_limit_run_at_once_in_order_of_arrival(limit: int) -> None:
+    turns, all_here, together = Turns(limit, hire=Here), threading.Event(), threading.Barrier(limit)
+    running, most, order = set[int](), list[int](), list[int]()
 
     def run(number: int) -> None:
         with turns.turn():
-            witness.work(number)
+            order.append(number)
+            running.add(number)
+            take(all_here)
+            together.wait(PATIENCE)  # as many as may run do run
+            most.append(len(running))
+            together.wait(PATIENCE)
+            running.remove(number)
 
-    threads = [threading.Thread(target=run, args=(i,)) for i in range(9)]
-    for thread in threads:
-        thread.start()
-        time.sleep(0.002)
-    for thread in threads:
-        thread.join()
-    assert witness.most == limit
-    if limit == 1:
-        assert witness.order == sorted(witness.order)
+    with ThreadPoolExecutor(9) as pool:
+        runs = []
+        for i in range(9):
+            runs.append(pool.submit(run, i))
+            until(lambda i=i: len(turns._line) > i)
+        all_here.set()
+        for one in runs:
+            one.result(PATIENCE)
+    assert most == [limit] * 9
+    for i in range(0, 9, limit):  # those who run at once may begin in any order
+        assert sorted(order[i : i + limit]) == list(range(i, i + limit))
+
+
+def test_many_threads_take_and_give_back_processes_and_never_share_one() -> None:
+    turns, together = Turns(4, hire=Here), threading.Barrier(4)
+
+    def run(_: int) -> Here:
+        with turns.turn() as worker:
+            together.wait(PATIENCE)  # four at once
+            return worker
+
+    with ThreadPoolExecutor(4) as pool:
+        for _ in range(50):
+            assert len(set(pool.map(run, range(4)))) == 4
 
 
 def test_a_computation_that_fails_or_is_left_lets_the_next_one_in() -> None:
@@ -115,31 +120,75 @@ def test_who_would_wait_too_long_is_told_and_not_kept_waiting(monkeypatch) -> No
     assert said == [queue.BUSY]
 
 
-def test_two_who_ask_for_the_same_at_once_compute_it_once() -> None:
+@pytest.mark.parametrize("limit", [1, 2, 4])
+def test_those_who_ask_for_the_same_at_once_have_it_computed_once(limit: int) -> None:
+    begun, go_on = threading.Semaphore(0), threading.Event()
     asked: list[int] = []
 
     def work(number: int) -> int:
         asked.append(number)
-        time.sleep(0.05)
+        begun.release()
+        take(go_on)
         return 2 * number
 
-    cached = Cached(work, entries=4, megabytes=1, turns=Turns(1, hire=Here))
-    found: list[int] = []
-    threads = [threading.Thread(target=lambda: found.append(cached(21))) for _ in range(4)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join()
-    assert found == [42] * 4
+    cached = Cached(work, entries=4, megabytes=1, turns=Turns(limit, hire=Here))
+    with ThreadPoolExecutor(4) as pool:
+        found = [pool.submit(cached, 21) for _ in range(4)]
+        assert begun.acquire(timeout=PATIENCE)
+        assert not begun.acquire(timeout=0.2)  # nobody else computes
+        go_on.set()
+        assert [one.result(PATIENCE) for one in found] == [42] * 4
     assert asked == [21]
 
 
+def test_those_who_wait_for_the_same_do_not_hold_up_others() -> None:
+    begun, go_on = threading.Event(), threading.Event()
+
+    def work(number: int) -> int:
+        if number == 21:
+            begun.set()
+            take(go_on)
+        return 2 * number
+
+    cached = Cached(work, entries=4, megabytes=1, turns=Turns(2, hire=Here))
+    with ThreadPoolExecutor(5) as pool:
+        same = [pool.submit(cached, 21) for _ in range(4)]
+        take(begun)
+        assert pool.submit(cached, 5).result(PATIENCE) == 10
+        assert not any(one.done() for one in same)
+        go_on.set()
+        assert [one.result(PATIENCE) for one in same] == [42] * 4
+
+
+def test_a_computation_that_fails_is_taken_over_by_the_next_who_asked_for_it() -> None:
+    begun, go_on = threading.Event(), threading.Event()
+    asked: list[int] = []
+
+    def work(number: int) -> int:
+        asked.append(number)
+        begun.set()
+        take(go_on)
+        if len(asked) == 1:
+            raise RuntimeError
+        return 2 * number
+
+    cached = Cached(work, entries=4, megabytes=1, turns=Turns(2, hire=Here))
+    with ThreadPoolExecutor(3) as pool:
+        first = pool.submit(cached, 21)
+        take(begun)
+        others = [pool.submit(cached, 21) for _ in range(2)]
+        go_on.set()
+        assert isinstance(first.exception(PATIENCE), RuntimeError)
+        assert [one.result(PATIENCE) for one in others] == [42, 42]
+    assert asked == [21, 21]
+
+
 def test_results_are_kept_up_to_a_number_and_a_size() -> None:
-    few = Cached(np.zeros, entries=3, megabytes=100)
+    few = Cached(np.zeros, entries=3, megabytes=100, turns=Turns(1, hire=Here))
     for n in range(1, 10):
         few(n)
     assert len(few) == 3
-    small = Cached(np.zeros, entries=100, megabytes=0.1)
+    small = Cached(np.zeros, entries=100, megabytes=0.1, turns=Turns(1, hire=Here))
     for n in range(1000, 1040):
         small(n)
     assert small.size <= 0.1e6

@@ -10,10 +10,12 @@ from typing import Generic, TypeVar, cast
 import numpy as np
 
 from ui.jobs.process import Progress
-from ui.jobs.queue import LONG, Turns
+from ui.jobs.queue import LONG, Turns, wait_while
 from ui.serving import one_at_a_time
 
 T = TypeVar("T")
+
+THE_SAME = "Another visitor has asked for the same computation: its result will stand here too."
 
 
 class Cached(Generic[T]):
@@ -25,37 +27,58 @@ class Cached(Generic[T]):
         self._work, self._turns = work, turns
         self._entries, self._bytes = entries, megabytes * 1e6
         self._found: OrderedDict[object, tuple[T, int]] = OrderedDict()
-        self._lock = threading.Lock()
+        self._under_way: set[object] = set()
+        self._changed = threading.Condition()
 
     def __call__(self, *args: Hashable, tell: Progress | None = None) -> T:
-        """Return a kept result, or compute it when its turn has come, and tell the progress."""
-        if (found := self._look(args)) is not None:
-            return found[0]
-        with one_at_a_time.PAGES.aside(), self._turns.turn() as worker:
-            # Somebody ahead may have asked for the same.
-            if (found := self._look(args)) is not None:
-                return found[0]
-            result = worker.run(self._work, args, tell)
-        self._keep(args, result)
-        return result
+        """Return a kept result, or compute it when its turn has come, and tell the progress.
+
+        Who asks for what is under way already waits for it outside the line; if that computation
+        fails or its visitor leaves, the next who waits takes it over.
+        """
+        while (found := self._look(args)) is None:
+            if self._begin(args):
+                return self._compute(args, tell)
+            with one_at_a_time.PAGES.aside():
+                wait_while(lambda: THE_SAME if args in self._under_way else "", self._changed)
+        return found[0]
+
+    def _begin(self, key: object) -> bool:
+        """Take a computation on, if nobody else has and it is not there meanwhile."""
+        with self._changed:
+            if key in self._under_way or key in self._found:
+                return False
+            self._under_way.add(key)
+            return True
+
+    def _compute(self, args: tuple[Hashable, ...], tell: Progress | None) -> T:
+        try:
+            with one_at_a_time.PAGES.aside(), self._turns.turn() as worker:
+                result = worker.run(self._work, args, tell)
+            self._keep(args, result)
+            return result
+        finally:
+            with self._changed:
+                self._under_way.remove(args)
+                self._changed.notify_all()
 
     @property
     def size(self) -> int:
         """Bytes of the results kept."""
-        with self._lock:
+        with self._changed:
             return sum(size for _, size in self._found.values())
 
     def __len__(self) -> int:
         return len(self._found)
 
     def _look(self, key: object) -> tuple[T, int] | None:
-        with self._lock:
+        with self._changed:
             if key in self._found:
                 self._found.move_to_end(key)
             return self._found.get(key)
 
     def _keep(self, key: object, result: T) -> None:
-        with self._lock:
+        with self._changed:
             self._found[key] = result, size_of(result)
             while len(self._found) > self._entries or (
                 len(self._found) > 1 and sum(size for _, size in self._found.values()) > self._bytes

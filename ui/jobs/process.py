@@ -3,6 +3,10 @@
 Python computes one thing at a time in a process, so a long computation among the pages would make
 every visitor's slider stick. `Worker` is the pages' side of such a process; this file run as a
 program is the other. They speak in pickles: an order, any number of words of progress, an answer.
+
+It is not `multiprocessing`: a child that is spawned, or comes from a fork server, first imports
+the parent's `__main__`, which is the page while Streamlit runs one; a child that is forked inherits
+locks that other threads of the server held at that moment, and waits for them without end.
 """
 
 import os

@@ -8,6 +8,7 @@ import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
+from queue import Empty, LifoQueue
 
 import streamlit as st
 from streamlit.runtime.scriptrunner import get_script_run_ctx
@@ -18,9 +19,7 @@ from ui.serving import settings
 # Who would be further back than this is asked to come again.
 LONGEST_LINE = 30
 
-
 _LOOK = 0.25  # seconds between two looks at the line
-
 
 BUSY = "Many visitors ask for long computations just now. Try again in a minute."
 
@@ -36,7 +35,8 @@ class Turns:
         self._hire = hire
         self._line: list[object] = []
         self._changed = threading.Condition()
-        self._idle: list[Worker] = []
+        # The last one used first: its caches are warm. Several threads take and give at once.
+        self._idle: LifoQueue[Worker] = LifoQueue()
 
     @contextmanager
     def turn(self) -> Iterator[Worker]:
@@ -46,7 +46,7 @@ class Turns:
         try:
             self._join(ticket)
             self._wait(ticket)
-            worker = self._idle.pop() if self._idle else self._hire()
+            worker = self._free() or self._hire()
             yield worker
         finally:
             self._put_back(worker)
@@ -59,12 +59,18 @@ class Turns:
 
     def end(self) -> None:
         """End the processes that are free."""
-        while self._idle:
-            self._idle.pop().close()
+        while worker := self._free():
+            worker.close()
 
     def ahead(self, ticket: object) -> int:
         """Return how many must end before a computation begins."""
         return max(self._line.index(ticket) + 1 - self._limit, 0)
+
+    def _free(self) -> Worker | None:
+        try:
+            return self._idle.get_nowait()
+        except Empty:
+            return None
 
     def _join(self, ticket: object) -> None:
         with self._changed:
@@ -79,7 +85,7 @@ class Turns:
 
     def _put_back(self, worker: Worker | None) -> None:
         if worker is not None and worker.idle:
-            self._idle.append(worker)
+            self._idle.put(worker)
         elif worker is not None:  # left in the middle of something
             worker.close()
 
@@ -90,28 +96,33 @@ class Turns:
                 self._changed.notify_all()
 
     def _wait(self, ticket: object) -> None:
-        with self._changed:
+        def why() -> str:
             ahead = self.ahead(ticket)
-        if not ahead:
-            return
-        place = None if _nobody_looks() else st.empty()
-        while ahead:
-            with self._changed:
-                self._changed.wait(_LOOK)
-                ahead = self.ahead(ticket)
-            if ahead and place is not None:  # where a visitor has gone on meanwhile, this ends it
-                place.info(_words(ahead))
-        if place is not None:
-            place.empty()
+            return _words(ahead) if ahead else ""
+
+        wait_while(why, self._changed)
+
+
+def wait_while(why: Callable[[], str], changed: threading.Condition) -> None:
+    """Wait as long as there is a reason, and show it where a visitor looks at a page."""
+    with changed:
+        words = why()
+    if not words:
+        return
+    place = None if _nobody_looks() else st.empty()
+    while words:
+        with changed:
+            changed.wait(_LOOK)
+            words = why()
+        if words and place is not None:  # where a visitor has gone on meanwhile, this ends it
+            place.info(words)
+    if place is not None:
+        place.empty()
 
 
 # What a visitor waits for as for a page has a process for itself; what takes seconds stands back.
 SHORT = Turns(1, hire=partial(Worker, nicer=0))
-
-
 LONG = Turns(settings.heavy_jobs())
-
-
 LINES = SHORT, LONG
 
 
