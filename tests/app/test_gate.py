@@ -1,118 +1,131 @@
 """One page at a time, others while one waits for something else."""
 
 import threading
-import time
+from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
 from tests.app.session import visit
+from tests.waiting import PATIENCE, take, until
 from ui.serving import one_at_a_time
 from ui.serving.one_at_a_time import Gate
 
 
 def test_one_thread_is_in_at_a_time() -> None:
-    passage, inside, most = Gate(), [], []
+    gate, inside, most = Gate(), set[int](), list[int]()
 
     def go(number: int) -> None:
-        with passage.through():
-            inside.append(number)
+        with gate.through():
+            inside.add(number)
+            until(lambda: len(gate._line) == 4 - len(most))  # all who are still to come wait
             most.append(len(inside))
-            time.sleep(0.01)
             inside.remove(number)
 
-    together(go, 5)
+    with ThreadPoolExecutor(5) as pool:
+        list(pool.map(go, range(5), timeout=PATIENCE))
     assert most == [1] * 5
 
 
-def test_who_steps_aside_lets_the_others_in_and_comes_back_alone() -> None:
-    passage, seen = Gate(), []
-    begun, met = threading.Event(), threading.Event()
+def test_a_thread_that_steps_aside_lets_others_in_and_comes_back_alone() -> None:
+    gate, seen, met = Gate(), list[str](), threading.Event()
 
-    def go(number: int) -> None:
-        if number == 0:
-            with passage.through():
-                begun.set()
-                with passage.aside():
-                    assert met.wait(10.0)
-                seen.append("first")
-        else:
-            begun.wait(10.0)
-            with passage.through():
-                met.set()
-                time.sleep(0.02)
-                seen.append("second")
+    def other() -> None:
+        with gate.through():
+            met.set()
+            until(lambda: gate._line)  # the first wants to come back
+            seen.append("second")
 
-    together(go, 2)
+    with ThreadPoolExecutor(1) as pool:
+        with gate.through():
+            with gate.aside():
+                second = pool.submit(other)
+                take(met)
+            seen.append("first")
+        second.result(PATIENCE)
     assert seen == ["second", "first"]
 
 
-def test_who_came_first_goes_first_after_stepping_aside_too() -> None:
-    passage, seen = Gate(), []
-    steps = [threading.Event() for _ in range(3)]  # the first is aside; may come back; may go on
+def test_order_of_arrival_holds_after_stepping_aside_too() -> None:
+    gate, seen, may_leave = Gate(), list[str](), threading.Event()
 
-    def go(number: int) -> None:
-        if number == 0:
-            with passage.through():
-                with passage.aside():
-                    steps[0].set()
-                    steps[1].wait(10.0)
-                seen.append("first")
-            return
-        steps[0].wait(10.0)
-        time.sleep(0.05 * number)
-        with passage.through():
-            if number == 1:
-                steps[2].wait(10.0)
-            seen.append(("second", "third")[number - 1])
+    def other(name: str) -> None:
+        with gate.through():
+            if name == "second":
+                take(may_leave)
+            seen.append(name)
 
-    threads = [threading.Thread(target=go, args=(i,)) for i in range(3)]
-    for thread in threads:
-        thread.start()
-    time.sleep(0.3)  # the second is in, the third waits
-    steps[1].set()
-    time.sleep(0.1)  # so does the first
-    steps[2].set()
-    for thread in threads:
-        thread.join(10.0)
+    def first() -> None:
+        with gate.through():
+            with gate.aside():
+                others.append(pool.submit(other, "second"))
+                until(lambda: gate._taken)
+                others.append(pool.submit(other, "third"))
+                until(lambda: len(gate._line) == 1)
+            seen.append("first")
+
+    others: list = []
+    with ThreadPoolExecutor(3) as pool:
+        one = pool.submit(first)
+        until(lambda: len(gate._line) == 2)  # the second is in; the third waits, then the first
+        may_leave.set()
+        for thread in (one, *others):
+            thread.result(PATIENCE)
     assert seen == ["second", "first", "third"]
 
 
 def test_what_fails_inside_or_aside_leaves_the_gate_open() -> None:
-    passage = Gate()
-    with pytest.raises(RuntimeError), passage.through():
+    gate = Gate()
+    with pytest.raises(RuntimeError), gate.through():
         raise RuntimeError
-    with pytest.raises(RuntimeError), passage.through(), passage.aside():
+    assert _is_open(gate)
+    with pytest.raises(RuntimeError), gate.through(), gate.aside():
         raise RuntimeError
-    with passage.through():
-        pass
+    assert _is_open(gate)
 
 
-def test_who_is_not_in_need_not_step_aside() -> None:
-    passage = Gate()
-    with passage.aside(), passage.through():
-        pass
+def test_a_thread_that_is_not_in_opens_nothing_by_stepping_aside() -> None:
+    gate, entered = Gate(), threading.Event()
+
+    def stranger() -> None:
+        with gate.aside(), gate.through():
+            entered.set()
+
+    with ThreadPoolExecutor(1) as pool:
+        with gate.through():
+            other = pool.submit(stranger)
+            until(lambda: gate._line)  # outside, where it belongs
+            assert not entered.is_set()
+        other.result(PATIENCE)
+    assert entered.is_set()
+    assert _is_open(gate)
+
+
+def _is_open(gate: Gate) -> bool:
+    """Tell whether another thread gets in at once."""
+    entered = threading.Event()
+
+    def go() -> None:
+        with gate.through():
+            entered.set()
+
+    thread = threading.Thread(target=go, daemon=True)  # where it gets in never, it ends with us
+    thread.start()
+    return entered.wait(1.0)
 
 
 @pytest.mark.parametrize("rpm", ["6000", "nonsense"])
 def test_a_page_waits_for_the_one_before_and_lets_the_next_in(rpm: str) -> None:
-    ended: list[int] = []
+    ended = threading.Event()
 
-    def go(number: int) -> None:
+    def go() -> None:
         visit("pages/5_Response.py", rpm=rpm)
-        ended.append(number)
+        ended.set()
 
-    with one_at_a_time.PAGES.through():
-        thread = threading.Thread(target=go, args=(1,))
-        thread.start()
-        thread.join(1.0)
-        assert not ended
-    thread.join(30.0)
-    assert ended == [1]
-
-
-def together(go, number: int) -> None:
-    threads = [threading.Thread(target=go, args=(i,)) for i in range(number)]
-    for thread in threads:
-        thread.start()
-    for thread in threads:
-        thread.join(10.0)
+    with ThreadPoolExecutor(1) as pool:
+        with one_at_a_time.PAGES.through():
+            page = pool.submit(go)
+            until(lambda: one_at_a_time.PAGES._line)
+            assert not ended.is_set()
+        page.result(PATIENCE)
+    assert ended.is_set()
+    assert _is_open(one_at_a_time.PAGES)
