@@ -130,5 +130,5 @@ show(
     "Let the journal go and watch: its motion on the film's full force, the linear theory beside "
     "it.",
     content,
-    follows=False,
+    has_preview=False,
 )

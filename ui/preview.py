@@ -1,4 +1,4 @@
-"""A page's charts and results of the machine that a held thumb would make."""
+"""A preview: what a page shows, for the value to which an input is being dragged."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -14,7 +14,7 @@ Draw = Callable[[Computed], Chart]
 
 
 @dataclass
-class Drawn:
+class Preview:
     """A page as it was last drawn: its machine, the pinned one, and what it shows of them."""
 
     values: Values
@@ -24,28 +24,28 @@ class Drawn:
     charts: dict[str, Draw] = field(default_factory=dict)
     rows: list[tuple[str, ...]] = field(default_factory=list)
 
-    def follow(self, name: str, value: str) -> dict[str, Any]:
-        """Return the charts by key, and the texts of each row of results, with an input moved.
+    def at(self, name: str, value: str) -> dict[str, Any]:
+        """Return the charts by key, and the texts of each row of results, at an input's value.
 
         Raises ValueError where there is no such input, or the value makes no machine.
         """
         computed = computed_from(self.values | {name: input_named(name).taken(value, self.units)})
         return {
-            "charts": {key: self._moving(draw, computed) for key, draw in self.charts.items()},
+            "charts": {key: self._still(draw, computed) for key, draw in self.charts.items()},
             "rows": {
                 row_key(keys): [RESULTS[key].shown(computed, self.units) for key in keys]
                 for keys in self.rows
             },
         }
 
-    def _moving(self, draw: Draw, computed: Computed) -> Chart:
-        """Return a chart without its frames: nobody scrubs while holding a thumb."""
-        chart = dict(drawn(draw, computed, self.baseline))
+    def _still(self, draw: Draw, computed: Computed) -> Chart:
+        """Return a chart without its frames: nobody plays an animation while dragging a slider."""
+        chart = dict(compared(draw, computed, self.baseline))
         chart.pop("frames", None)
         return themed(chart, dark=self.dark)
 
 
-def drawn(draw: Draw, computed: Computed, baseline: Computed | None) -> Chart:
+def compared(draw: Draw, computed: Computed, baseline: Computed | None) -> Chart:
     """Return a chart of a machine, the pinned one's thin and grey behind it."""
     chart = draw(computed)
     return chart if baseline is None else with_baseline(chart, draw(baseline))

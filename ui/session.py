@@ -12,7 +12,7 @@ import streamlit as st
 
 from rotorcalc.units import SYSTEMS, Units
 from ui.inputs import PRESET_VALUES, Values
-from ui.preview import Drawn
+from ui.preview import Preview
 from ui.sharing import address
 
 _KEY = "rotorcalc"
@@ -29,14 +29,14 @@ class Session:
     baseline: Values | None = None
     typed: bool = False
     image_format: str = "png"
-    # Whether a live slider's thumb is held: the address bar waits until it is let go.
-    held: bool = False
-    # The page as it was last drawn, for what follows a held thumb, and the secret to ask for it.
-    drawn: Drawn | None = None
+    # Whether a slider is being dragged: the address bar waits until it is released.
+    dragging: bool = False
+    # The preview of the page as it was last drawn, and the secret to ask for it.
+    preview: Preview | None = None
     token: str = field(default_factory=secrets.token_urlsafe)
     # Whether the page's content is to run with its frame as one, the next time.
     whole: bool = False
-    # How often a page's frame was drawn: whether sliders or feed know better what a value is.
+    # How often a page's frame was drawn: whether sliders or preview know better what a value is.
     frame: int = 0
     # The page whose sidebar was drawn last, and whether the visitor has just come to another.
     page: str = ""
@@ -85,7 +85,7 @@ def session() -> Session:
 def write_address_bar() -> None:
     """Put the whole machine into the address bar, where it is not there yet."""
     visitor = session()
-    if visitor.held:
+    if visitor.dragging:
         return
     params = address.write(visitor.preset, visitor.values, visitor.units_name)
     if st.query_params.to_dict() != params:

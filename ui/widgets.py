@@ -16,7 +16,7 @@ from plotly.basedatatypes import BaseFigure
 from rotorcalc.figures import Chart, themed
 from rotorcalc.units import Units
 from ui.inputs import INPUTS, Input, Values, input_named
-from ui.preview import Drawn
+from ui.preview import Preview
 from ui.serving import settings
 from ui.session import mirror, session
 
@@ -50,20 +50,20 @@ def show_chart(chart: Chart, *, key: str, alt: str) -> None:
         _live().show_chart(drawn, key=chart_key(key), config=config, alt=alt)
 
 
-def show_feed(page: Drawn | None) -> None:
-    """Let sliders move what is drawn here, and charts and results follow them while held."""
+def show_preview(preview: Preview | None) -> None:
+    """Let sliders change what is drawn here, and show its preview while one is dragged."""
     if settings.live() == "off" or session().typed:
         return
     visitor = session()
     units = visitor.units
-    _live().show_feed(
-        page if settings.live() == "drag" else None, visitor.token, visitor.frame,
+    _live().show_preview(
+        preview if settings.live() == "drag" else None, visitor.token, visitor.frame,
         {key: _sent(item, visitor.values, units) for key, item in INPUTS.items()}, _mover(units),
     )  # fmt: skip
 
 
 def chart_key(key: str) -> str:
-    """Return the key under which a chart is known to the feed."""
+    """Return the key under which the preview knows a chart."""
     return f"chart_{key}"
 
 
@@ -130,7 +130,7 @@ def _live_sliders(group: str, items: Sequence[Input]) -> None:
         key=f"inputs_{group}_{units.name}",
         frame=visitor.frame,
         on_move=_mover(units),
-        while_held=settings.live() == "drag",
+        while_dragging=settings.live() == "drag",
     )
 
 
@@ -141,14 +141,14 @@ def _sent(item: Input, values: Values, units: Units) -> float | str:
 
 
 def _mover(units: Units) -> Callable[[str, object, bool], None]:
-    """Return what takes in the values that live slider and feed send in these units."""
-    return lambda name, value, held: _moved(name, units, value, held=held)
+    """Return what takes in the values that live sliders send in these units."""
+    return lambda name, value, dragging: _moved(name, units, value, dragging=dragging)
 
 
-def _moved(name: str, units: Units, value: object, *, held: bool) -> None:
+def _moved(name: str, units: Units, value: object, *, dragging: bool) -> None:
     """Keep what a live slider sent, or report why not."""
     visitor = session()
-    visitor.held = held
+    visitor.dragging = dragging
     try:
         item = input_named(name)
         visitor.set_value(item.key, item.taken(value, units))

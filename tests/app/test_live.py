@@ -55,7 +55,7 @@ def test_nothing_but_a_value_in_range_is_kept(sent: object, monkeypatch) -> None
     visitor = session_of(at)
     before = dict(visitor.values)
     monkeypatch.setattr("ui.widgets.session", lambda: visitor)
-    _moved("C", visitor.units, sent, held=False)
+    _moved("C", visitor.units, sent, dragging=False)
     assert visitor.values == before
     assert len(visitor.problems) == 1
     assert visitor.problems[0].startswith("Radial clearance")
@@ -65,10 +65,10 @@ def test_a_value_is_kept_in_the_links_unit_and_the_last_word_is_a_rigid_shaft(mo
     at = visit(HOME, units="US")
     visitor = session_of(at)
     monkeypatch.setattr("ui.widgets.session", lambda: visitor)
-    _moved("C", visitor.units, 3.0, held=True)
+    _moved("C", visitor.units, 3.0, dragging=True)
     assert visitor.values["C"] == pytest.approx(76.2)
-    assert visitor.held
-    _moved("k", visitor.units, "rigid", held=False)
+    assert visitor.dragging
+    _moved("k", visitor.units, "rigid", dragging=False)
     assert visitor.values["k"] == float("inf")
     assert visitor.problems == []
 

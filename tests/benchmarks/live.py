@@ -172,10 +172,10 @@ def sizes(browser: Browser, plain: str, app: str) -> None:
     for name in ("Machine", "Equilibrium", "Stability"):
         path = PATHS[name]
         before, after = (_size(browser, f"{address}/{path}") for address in (plain, app))
-        held = _size_held(browser, f"{app}/{path}")
+        dragged = _size_of_preview(browser, f"{app}/{path}")
         _say(
             f"bytes an update, {name}: {before / 1e3:.0f} kB before, {after / 1e3:.0f} kB live, "
-            f"{held / 1e3:.0f} kB while held"
+            f"{dragged / 1e3:.0f} kB while dragging"
         )
 
 
@@ -191,14 +191,14 @@ def _size(browser: Browser, url: str) -> int:
     return received
 
 
-def _size_held(browser: Browser, url: str) -> float:
-    """Return the bytes of an answer to a held thumb, as they travel."""
+def _size_of_preview(browser: Browser, url: str) -> float:
+    """Return the bytes of a preview, as they travel."""
     page = browser.new_page()
     sizes: list[int] = []
     page.on(
         "requestfinished",
         lambda request: (
-            "/follow?" in request.url and sizes.append(request.sizes()["responseBodySize"])
+            "/preview?" in request.url and sizes.append(request.sizes()["responseBodySize"])
         ),
     )
     _open(page, url, 1)

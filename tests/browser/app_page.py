@@ -35,7 +35,7 @@ _AT_REST = """() => {
       + '.live-slider[data-busy], .live-chart[data-moved]')
     && !window.rotorcalcDrawing
     && [...document.querySelectorAll('.stBidiComponent')].every(
-      component => component.querySelector('.live-slider, .live-chart, .live-feed'))
+      component => component.querySelector('.live-slider, .live-chart, .live-preview'))
     && [...document.querySelectorAll('[data-testid="stPlotlyChart"], .live-chart')].every(
       chart => chart.offsetParent === null
         || chart.querySelector('.overplot path, .shapelayer path, .annotation'));

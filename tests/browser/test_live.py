@@ -1,4 +1,4 @@
-"""Charts that follow the thumb: sliders send while they move, charts keep their place and zoom."""
+"""Charts have a preview: sliders send while they move, charts keep their place and zoom."""
 
 import re
 
@@ -8,7 +8,7 @@ from playwright.sync_api import Locator, expect
 from tests.browser.app_page import AppPage
 
 
-def _held(app: AppPage, label: str, share: float) -> tuple[float, float]:
+def _drag(app: AppPage, label: str, share: float) -> tuple[float, float]:
     """Press a slider's thumb, move it by a share of its length and hold it; return where it was."""
     slider = app.slider(label)
     slider.scroll_into_view_if_needed()
@@ -41,10 +41,10 @@ def _ranges(chart: Locator) -> list[float]:
     return chart.evaluate("gd => [...gd.layout.xaxis.range, ...gd.layout.yaxis.range]")
 
 
-def test_chart_and_numbers_follow_the_held_thumb_and_the_address_its_release(app: AppPage) -> None:
+def test_dragging_changes_charts_and_numbers_and_release_the_address(app: AppPage) -> None:
     app.open("Equilibrium")
     numbers, drawn = app.metrics(), app.drawn()
-    _held(app, "Radial clearance", 0.2)
+    _drag(app, "Radial clearance", 0.2)
     assert app.changes(app.metrics, numbers)
     assert app.changes(app.drawn, drawn)
     assert app.query() == {}
@@ -53,11 +53,11 @@ def test_chart_and_numbers_follow_the_held_thumb_and_the_address_its_release(app
     assert float(app.query()["C"]) > 100
 
 
-def test_a_thumb_dragged_back_leaves_the_page_as_it_was(app: AppPage) -> None:
-    """Streamlit sends nothing anew then: the charts and numbers that followed must find back."""
+def test_a_slider_dragged_back_leaves_the_page_as_it_was(app: AppPage) -> None:
+    """Streamlit sends nothing anew then: the charts and numbers of the preview must be undone."""
     app.open("Stability")
     numbers, pictures = app.metrics(), _picture(app)
-    start = _held(app, "Radial clearance", 0.2)
+    start = _drag(app, "Radial clearance", 0.2)
     assert app.changes(app.metrics, numbers)
     assert app.changes(lambda: _picture(app), pictures)
     app.page.mouse.move(*start, steps=4)
@@ -157,11 +157,11 @@ def test_the_sidebar_judges_a_moved_value_and_keeps_it_when_the_page_runs(app: A
     assert app.query() == {"C": "10"}
 
 
-def test_a_slider_without_a_feed_sends_by_itself(app: AppPage) -> None:
+def test_a_slider_without_a_preview_sends_by_itself(app: AppPage) -> None:
     """So does one that is moved before the page has been drawn, or while it computes."""
     app.open("Equilibrium")
     numbers = app.metrics()
-    app.page.evaluate("() => { window.rotorcalcFeed = undefined; }")
+    app.page.evaluate("() => { window.rotorcalcPreview = undefined; }")
     app.press("Radial clearance", "ArrowRight")
     assert app.query() == {"C": "61"}
     assert app.metrics() != numbers
@@ -177,21 +177,21 @@ def test_a_bundle_that_does_not_load_is_said_on_the_page(stranger: AppPage) -> N
 
 
 @pytest.mark.parametrize("page", ["Machine", "Equilibrium", "Stability", "Root locus", "Response"])
-def test_what_is_moved_while_held_is_what_plotly_draws(app: AppPage, page: str) -> None:
+def test_what_a_preview_moves_is_what_plotly_draws(app: AppPage, page: str) -> None:
     """Lines, points, notes, shapes and numbers stand where they stood, when the page has run."""
     app.open(page)
-    _held(app, "Radial clearance", 0.02)
-    app.page.wait_for_function("() => document.body.classList.contains('rotorcalc-held')")
+    _drag(app, "Radial clearance", 0.02)
+    app.page.wait_for_function("() => document.body.classList.contains('rotorcalc-dragging')")
     app.page.wait_for_function("() => !document.querySelector('.live-slider[data-busy]')")
     app.page.wait_for_timeout(500)  # the last value, which is there, is drawn
     moved, numbers = _picture(app), app.metrics()
     with app.run():
         app.page.mouse.up()
-    app.page.wait_for_function("() => !document.body.classList.contains('rotorcalc-held')")
+    app.page.wait_for_function("() => !document.body.classList.contains('rotorcalc-dragging')")
     drawn = _picture(app)
     assert [len(part) for part in moved] == [len(part) for part in drawn]
-    for held, let_go in zip(moved, drawn, strict=True):
-        assert held == pytest.approx(let_go, abs=1.5)  # Plotly puts words on whole pixels
+    for previewed, final in zip(moved, drawn, strict=True):
+        assert previewed == pytest.approx(final, abs=1.5)  # Plotly puts words on whole pixels
     assert numbers == app.metrics()
 
 
@@ -213,9 +213,9 @@ def _picture(app: AppPage) -> list[list[float]]:
 def test_a_page_that_is_gone_is_answered_by_streamlit(app: AppPage) -> None:
     """A token that the server does not know: the slider sends through the page's own run."""
     app.open("Equilibrium")
-    app.page.evaluate("() => { window.rotorcalcFeed.token = 'gone'; }")
+    app.page.evaluate("() => { window.rotorcalcPreview.token = 'gone'; }")
     numbers = app.metrics()
-    _held(app, "Radial clearance", 0.2)
+    _drag(app, "Radial clearance", 0.2)
     assert app.changes(app.metrics, numbers)
     with app.run():
         app.page.mouse.up()

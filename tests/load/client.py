@@ -25,7 +25,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 
 TIMEOUT = 30.0  # seconds for a run; one takes a few hundredths
-SLIDERS, FEED = "rotorcalc.sliders", "rotorcalc.feed"
+SLIDERS, PREVIEW = "rotorcalc.sliders", "rotorcalc.preview"
 _SUCCESS = ForwardMsg.FINISHED_SUCCESSFULLY, ForwardMsg.FINISHED_FRAGMENT_RUN_SUCCESSFULLY
 # As streamlit/components/v2/bidi_component/main.py names the widget of a component's triggers.
 _TRIGGERS = "$$STREAMLIT_INTERNAL_KEY_{}__events"
@@ -45,7 +45,7 @@ class Tally:
     received: int = 0  # bytes
     under_way: int = 0
     most_under_way: int = 0
-    followed: int = 0  # answers to a held thumb
+    previewed: int = 0  # previews received while dragging
 
 
 class Visitor:
@@ -116,13 +116,13 @@ class Visitor:
         self._page_hash, self.query = link.page_script_hash, link.query_string
         await self._run()
 
-    async def slide(self, label: str, value: float | str, *, held: bool = False) -> None:
+    async def slide(self, label: str, value: float | str, *, dragging: bool = False) -> None:
         """Send a value by a slider, live or Streamlit's own, and wait until its run has ended."""
         if (found := self.live_slider(label)) is not None:
             number = time.perf_counter() * 1e3
-            sent = {"name": found["name"], "value": value, "held": held, "number": number}
-            await self._trigger(*self._components(FEED)[0], sent)
-            if number != self.feed()["echo"]:
+            sent = {"name": found["name"], "value": value, "dragging": dragging, "number": number}
+            await self._trigger(*self._components(PREVIEW)[0], sent)
+            if number != self.preview_data()["echo"]:
                 raise self._failed(f"{label}: the answer is to something else")
             return
         own = next(e.slider for e in self.elements("slider") if e.slider.label.startswith(label))
@@ -130,8 +130,8 @@ class Visitor:
         state.double_array_value.data[:] = [float(value)]
         await self._run()
 
-    async def follow(self, label: str, value: float | str) -> dict[str, Any]:
-        """Ask what a held slider's value would give, and return the answer."""
+    async def preview(self, label: str, value: float | str) -> dict[str, Any]:
+        """Ask what a slider's value would give while it is dragged, and return the answer."""
         found = self.live_slider(label)
         assert found is not None
         start = time.perf_counter()
@@ -139,13 +139,13 @@ class Visitor:
         self.tally.latencies.append(time.perf_counter() - start)
         self.tally.received += len(body)
         if status != 200:
-            raise self._failed(f"{label} = {value}, held: answered with {status}")
-        self.tally.followed += 1
+            raise self._failed(f"{label} = {value}, dragged: answered with {status}")
+        self.tally.previewed += 1
         return json.loads(body)
 
     def ask(self, name: str, value: float | str, token: str = "") -> tuple[int, bytes]:
-        """Ask the page's feed, with its token or another; return status and body."""
-        feed = self.feed()
+        """Ask for a page's preview, with its token or another; return status and body."""
+        known = self.preview_data()
         if self._answers is None:
             parts = urlsplit(self.address)
             host, port = self._at.get("host", parts.hostname), self._at.get("port", parts.port)
@@ -153,9 +153,9 @@ class Visitor:
         headers = {
             "Host": urlsplit(self.address).netloc,
             "Cookie": "; ".join(f"{key}={value}" for key, value in self.cookies.items()),
-            "X-Rotorcalc-Page": token or feed["token"],
+            "X-Rotorcalc-Page": token or known["token"],
         }
-        path = f"{feed['address']}?{urlencode({'name': name, 'value': value})}"
+        path = f"{known['address']}?{urlencode({'name': name, 'value': value})}"
         self._answers.request("GET", path, headers=headers)
         answer = self._answers.getresponse()
         body = answer.read()
@@ -193,13 +193,13 @@ class Visitor:
 
     def live_sliders(self) -> list[dict[str, Any]]:
         """Return what every live slider shows."""
-        values = json.loads(self._components(FEED)[0][0].json)[1]
+        values = json.loads(self._components(PREVIEW)[0][0].json)[1]
         groups = (json.loads(group.json)[0] for group, _ in self._components(SLIDERS))
         return [item | {"value": values[item["name"]]} for group in groups for item in group]
 
-    def feed(self) -> dict[str, Any]:
-        """Return what the page's feed knows: where and how to ask, what was answered last."""
-        return json.loads(self._components(FEED)[0][0].json)[0]
+    def preview_data(self) -> dict[str, Any]:
+        """Return what the page told its preview: where and how to ask, the last answer."""
+        return json.loads(self._components(PREVIEW)[0][0].json)[0]
 
     def tab_rows(self) -> list[tuple[str, list[str]]]:
         """Return the page's rows of tabs: the id of each and its labels."""

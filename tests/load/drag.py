@@ -31,12 +31,12 @@ async def drag(visitor: Visitor, seconds: float) -> tuple[float, float]:
         if value == shown:
             await asyncio.sleep(0.016)  # the thumb has not moved since, a frame of a screen ago
         else:
-            await visitor.follow(SLIDER, value)
+            await visitor.preview(SLIDER, value)
             shown = value
     if shown != _thumb(seconds):
-        await visitor.follow(SLIDER, _thumb(seconds))
+        await visitor.preview(SLIDER, _thumb(seconds))
     charts = time.perf_counter() - released
-    await visitor.slide(SLIDER, _thumb(seconds), held=False)
+    await visitor.slide(SLIDER, _thumb(seconds), dragging=False)
     return charts, time.perf_counter() - released
 
 
@@ -72,7 +72,7 @@ def main() -> None:
         )
     except (ServerError, OSError) as error:
         sys.exit(f"{error}")
-    rate = statistics.median(tally.followed / asked.seconds for tally in tallies)
+    rate = statistics.median(tally.previewed / asked.seconds for tally in tallies)
     charts, pages = (max(taken) * 1e3 for taken in zip(*settled, strict=True))
     most = max(tally.most_under_way for tally in tallies)
     print(  # noqa: T201 - what this script is for

@@ -10,12 +10,12 @@ from streamlit.delta_generator import DeltaGenerator
 from rotorcalc.units import Units
 from ui.computed import Computed, computed_from
 from ui.frame import baseline, sidebar
-from ui.preview import Draw, Drawn, drawn
+from ui.preview import Draw, Preview, compared
 from ui.results import show_results
 from ui.serving import one_at_a_time, version
 from ui.session import session, write_address_bar
 from ui.sharing import popover
-from ui.widgets import chart_key, is_dark, show_chart, show_feed
+from ui.widgets import chart_key, is_dark, show_chart, show_preview
 from ui.words import validity
 
 _ICON = str(Path(__file__).with_name("icon.svg"))
@@ -70,14 +70,14 @@ class Page:
     computed: Computed
     baseline: Computed | None
     units: Units
-    follows: Drawn
+    preview: Preview
     # Whether the content runs with the frame as one.
     whole: bool = False
 
     def chart(self, draw: Draw, key: str, *, alt: str, caption: str) -> None:
         """Show a chart of the live machine, the pinned one thin and grey behind it."""
-        show_chart(drawn(draw, self.computed, self.baseline), key=key, alt=alt)
-        self.follows.charts[chart_key(key)] = draw
+        show_chart(compared(draw, self.computed, self.baseline), key=key, alt=alt)
+        self.preview.charts[chart_key(key)] = draw
         st.caption(caption)
 
     def tabs(self, key: str, contents: Mapping[str, Callable[["Page"], object]]) -> None:
@@ -101,29 +101,29 @@ class Page:
     def results(self, *keys: str) -> None:
         """Show results in a row, each with its equation and its change from the pinned machine."""
         show_results(self.computed, self.baseline, self.units, *keys)
-        self.follows.rows.append(keys)
+        self.preview.rows.append(keys)
 
 
 def show(
-    title: str, sentence: str, content: Callable[[Page], None], *, follows: bool = True
+    title: str, sentence: str, content: Callable[[Page], None], *, has_preview: bool = True
 ) -> None:
     """Draw a page: its frame, then its content, which alone is drawn anew where a slider moved.
 
-    Charts and results follow a held thumb by themselves, unless `follows` is false: then its
-    content runs for each value, for charts that take long and show their progress.
+    While a slider is dragged, charts and results have a preview, unless `has_preview` is false:
+    then the content runs for each value, for charts that take long and show their progress.
     """
     with one_at_a_time.PAGES.through():
         foot = _frame(title, sentence)
         visitor = session()
         whole, visitor.whole = visitor.whole, False
         if whole:
-            _content(content, foot, follows=follows, whole=True)
+            _content(content, foot, has_preview=has_preview, whole=True)
         else:
-            st.fragment(_content)(content, foot, follows=follows, whole=False)
+            st.fragment(_content)(content, foot, has_preview=has_preview, whole=False)
 
 
 def _frame(title: str, sentence: str) -> DeltaGenerator:
-    """Draw what stands while sliders move; return the sidebar's place for what follows them."""
+    """Draw what stands while sliders move; return the sidebar's place for what does not."""
     st.set_page_config(
         page_title=f"{title} · rotorcalc",
         page_icon=_ICON,
@@ -149,17 +149,17 @@ def _frame(title: str, sentence: str) -> DeltaGenerator:
 
 
 def _content(
-    content: Callable[[Page], None], foot: DeltaGenerator, *, follows: bool, whole: bool
+    content: Callable[[Page], None], foot: DeltaGenerator, *, has_preview: bool, whole: bool
 ) -> None:
     with one_at_a_time.PAGES.through():
-        content(replace(_page(foot, follows=follows), whole=whole))
+        content(replace(_page(foot, has_preview=has_preview), whole=whole))
 
 
-def _page(foot: DeltaGenerator, *, follows: bool) -> Page:
+def _page(foot: DeltaGenerator, *, has_preview: bool) -> Page:
     """Return the page's machine and draw what depends on it everywhere; stop where there is none.
 
     A fragment may write into the sidebar's foot where it has done so when the whole page ran; the
-    feed, through which a better value comes, is written in any case.
+    preview, through which a better value comes, is written in any case.
     """
     visitor = session()
     write_address_bar()
@@ -170,15 +170,15 @@ def _page(foot: DeltaGenerator, *, follows: bool) -> Page:
         pinned = None if visitor.baseline is None else computed_from(visitor.baseline)
     except ValueError as error:
         with foot:
-            show_feed(None)
+            show_preview(None)
         st.error(f"{error}", title=NO_MACHINE)
         st.stop()
-    visitor.drawn = Drawn(dict(visitor.values), pinned, visitor.units, dark=is_dark())
+    visitor.preview = Preview(dict(visitor.values), pinned, visitor.units, dark=is_dark())
     with foot:
         validity.draw(computed)
-        show_feed(visitor.drawn if follows else None)
+        show_preview(visitor.preview if has_preview else None)
     baseline.draw_differences(visitor.units)
-    return Page(computed=computed, baseline=pinned, units=visitor.units, follows=visitor.drawn)
+    return Page(computed=computed, baseline=pinned, units=visitor.units, preview=visitor.preview)
 
 
 def _navigation() -> None:

@@ -78,7 +78,7 @@ class Turns:
             if not full:
                 self._line.append(ticket)
         if full:
-            if _nobody_looks():  # a held thumb: it asks again
+            if _nobody_looks():  # a preview: it is asked for again
                 raise ValueError(BUSY)
             st.warning(BUSY)
             st.stop()

@@ -8,7 +8,7 @@ const FAILED = "This chart could not be drawn: Plotly's script did not load. Rel
 const WHILE = 300;
 // How many charts are being drawn: sliders wait for them.
 window.rotorcalcDrawing ??= 0;
-// Charts by key, for the feed.
+// Charts by key, for the preview.
 window.rotorcalcCharts ??= new Map();
 
 let loading; // one script a page
@@ -36,7 +36,7 @@ function made(parent) {
   element.setAttribute("role", "figure");
   parent.replaceChildren(element);
   const chart = { element, wanted: null, shown: null, drawing: null, ranges: [] };
-  chart.follow = (figure) => draw(chart, { ...chart.given, chart: figure });
+  chart.preview = (figure) => draw(chart, { ...chart.given, chart: figure });
   chart.settle = () => chart.shown !== chart.given && draw(chart, chart.given);
   chart.resizing = new ResizeObserver(() => {
     if (element.data && element.offsetParent) window.Plotly.Plots.resize(element);

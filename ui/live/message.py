@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import streamlit as st
 
-# Gets a slider's name, what it sent, which may be anything, and whether the thumb is still held.
+# Gets a slider's name, what it sent, which may be anything, and whether it is still dragged.
 Move = Callable[[str, object, bool], None]
 
 _ECHO = "live_echo"
@@ -15,7 +15,7 @@ def taken(key: str, on_move: Move) -> None:
     sent = st.session_state[key]["moved"]
     if isinstance(sent, dict):
         st.session_state[_ECHO] = sent.get("number")
-        on_move(str(sent.get("name")), sent.get("value"), bool(sent.get("held")))
+        on_move(str(sent.get("name")), sent.get("value"), bool(sent.get("dragging")))
 
 
 def echo() -> object:

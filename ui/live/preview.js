@@ -1,14 +1,14 @@
-// The feed: values that are let go, and what follows a held thumb, past Streamlit's running and drawing.
+// The preview: what a page would show for the value to which a slider is being dragged.
 //
-// A slider that is let go sends by the feed, for what runs then is the part of the page that holds the feed,
-// and not the sidebar; the answer has every slider's value.
+// While a slider is dragged the server is asked for charts and numbers, past Streamlit's own running of the page.
+// Charts are redrawn, numbers overwritten where they stand, and what has no preview is dimmed. When the slider has
+// been released and the page has run, what the page says holds again.
 //
-// A held slider asks the server what a value would give: charts, redrawn, and numbers, overwritten
-// where they stand; all that does not follow is dimmed. When the thumb has been let go and the
-// page has run, what it says holds again.
+// A released slider sends its value through this component, because Streamlit then runs only the part of the page
+// in which the component stands, and not the sidebar; the answer has the value of every slider.
 
 const STYLE = `
-.rotorcalc-held :is([data-testid=stAlert], [data-testid=stMetricDelta], .katex-display, [data-testid=stTable]) {
+.rotorcalc-dragging :is([data-testid=stAlert], [data-testid=stMetricDelta], .katex-display, [data-testid=stTable]) {
   opacity: 0.35;}
 `;
 
@@ -19,7 +19,7 @@ function textOf(element) {
   return walker.nextNode();
 }
 
-class Feed {
+class Preview {
   constructor() {
     this.written = new Map(); // text nodes: what the page said, and what is written over it
   }
@@ -30,8 +30,8 @@ class Feed {
   }
 
   // Ends when the answer is drawn; false where there is none to be had.
-  async follow(name, value) {
-    if (!this.follows) return false;
+  async show(name, value) {
+    if (!this.available) return false;
     const asked = new URLSearchParams({ name, value });
     let answer;
     try {
@@ -40,16 +40,16 @@ class Feed {
       return false;
     }
     if (answer.status !== 200) {
-      this.follows = false; // not known there: sliders send through Streamlit
+      this.available = false; // not known there: sliders send through Streamlit
       return false;
     }
     const { charts, rows } = await answer.json();
-    document.body.classList.add("rotorcalc-held");
+    document.body.classList.add("rotorcalc-dragging");
     for (const [key, texts] of Object.entries(rows)) {
       const values = document.querySelectorAll(`.st-key-${key} [data-testid="stMetricValue"]`);
       texts.forEach((text, i) => this.write(values[i] && textOf(values[i]), text));
     }
-    const drawings = Object.entries(charts).map(([key, figure]) => window.rotorcalcCharts?.get(key)?.follow(figure));
+    const drawings = Object.entries(charts).map(([key, figure]) => window.rotorcalcCharts?.get(key)?.preview(figure));
     await Promise.all(drawings);
     return true;
   }
@@ -68,27 +68,27 @@ class Feed {
     for (const [node, { said, text }] of this.written) if (node.nodeValue === text) node.nodeValue = said;
     this.written.clear();
     window.rotorcalcCharts?.forEach((chart) => chart.settle());
-    document.body.classList.remove("rotorcalc-held");
+    document.body.classList.remove("rotorcalc-dragging");
   }
 }
 
-const feeds = new WeakMap();
+const previews = new WeakMap();
 
 export default function ({ data, parentElement, setTriggerValue }) {
-  if (!document.getElementById("live-feed-style")) {
-    const style = Object.assign(document.createElement("style"), { id: "live-feed-style" });
+  if (!document.getElementById("live-preview-style")) {
+    const style = Object.assign(document.createElement("style"), { id: "live-preview-style" });
     style.textContent = STYLE;
     document.head.append(style);
   }
-  if (!feeds.has(parentElement)) {
-    feeds.set(parentElement, new Feed());
-    const place = Object.assign(document.createElement("div"), { className: "live-feed", hidden: true });
+  if (!previews.has(parentElement)) {
+    previews.set(parentElement, new Preview());
+    const place = Object.assign(document.createElement("div"), { className: "live-preview", hidden: true });
     parentElement.replaceChildren(place);
   }
-  const feed = feeds.get(parentElement);
-  window.rotorcalcFeed = feed;
-  feed.update(...data, setTriggerValue);
+  const preview = previews.get(parentElement);
+  window.rotorcalcPreview = preview;
+  preview.update(...data, setTriggerValue);
   return () => {
-    if (window.rotorcalcFeed === feed) window.rotorcalcFeed = undefined;
+    if (window.rotorcalcPreview === preview) window.rotorcalcPreview = undefined;
   };
 }

@@ -1,9 +1,9 @@
-"""What joins sliders and page: values that are let go, and what follows a held thumb.
+"""The preview in a browser: charts and numbers for the value to which a slider is being dragged.
 
-A value that is let go comes through Streamlit, and what runs is that part of the page in which the
-feed was shown: the sidebar is left as it stands. While a thumb is held the browser asks the server
-at `path()` for what a value would give, with the token of the page's session, past all of
-Streamlit's own running and drawing, and draws the answer. Nothing of that is kept.
+While a slider is dragged the browser asks the server at `path()` for what a value would give, with
+the token of the page's session, past all of Streamlit's own running and drawing, and draws the
+answer. Nothing of that is kept. The value on release comes through Streamlit, by this component:
+then only that part of the page runs in which it was shown, and the sidebar is left as it stands.
 """
 
 import asyncio
@@ -24,40 +24,40 @@ from ui.live.message import Move, echo, taken
 from ui.serving import one_at_a_time
 
 _TOKEN = "x-rotorcalc-page"  # noqa: S105 - a header's name
-_KEY = "live_feed"
-_component = component("rotorcalc.feed", js=assets.module("preview"), isolate_styles=False)
+_KEY = "live_preview"
+_component = component("rotorcalc.preview", js=assets.module("preview"), isolate_styles=False)
 
 
-class Page(Protocol):
+class Preview(Protocol):
     """A visitor's page as it was last drawn."""
 
-    def follow(self, name: str, value: str) -> dict[str, Any]:
-        """Return {"charts": {key: chart}, "rows": {key: numbers as text}} with one value moved.
+    def at(self, name: str, value: str) -> dict[str, Any]:
+        """Return {"charts": {key: chart}, "rows": {key: numbers as text}} at one input's value.
 
         Raises ValueError where the value is none, lies outside its range or makes no machine.
         """
         ...
 
 
-# Every page drawn last in its session, as long as the session keeps it.
-_pages: WeakValueDictionary[str, Page] = WeakValueDictionary()
+# The preview of the page drawn last in each session, as long as the session keeps it.
+_previews: WeakValueDictionary[str, Preview] = WeakValueDictionary()
 # A page asks one thing at a time.
 _asking: set[str] = set()
 
 
 def show(
-    page: Page | None, token: str, frame: int, values: Mapping[str, object], on_move: Move
+    preview: Preview | None, token: str, frame: int, values: Mapping[str, object], on_move: Move
 ) -> None:
-    """Let sliders send through here, and a page's charts and numbers follow them, where there are.
+    """Let sliders send through here, and show a page's preview while they are dragged, if any.
 
     `values` are the sliders' by name, as they show them; `token` is the session's secret, and
     `frame` the number of the frame that holds the sliders.
     """
-    if page is not None:
-        _pages[token] = page
+    if preview is not None:
+        _previews[token] = preview
     common = {
         "address": path(), "token": token, "frame": frame, "echo": echo(),
-        "follows": page is not None,
+        "available": preview is not None,
     }  # fmt: skip
     # A list: Streamlit would look through a dictionary for data frames, at some cost.
     _component(key=_KEY, data=[common, values], on_moved_change=lambda: taken(_KEY, on_move))
@@ -65,32 +65,32 @@ def show(
 
 def path() -> str:
     """Return where the server answers."""
-    return make_url_path(st.get_option("server.baseUrlPath") or "", "follow")
+    return make_url_path(st.get_option("server.baseUrlPath") or "", "preview")
 
 
 async def answer(request: Request) -> Response:
-    """Answer a held thumb, in a thread of its own: the server goes on with others meanwhile."""
+    """Answer with a preview, in a thread of its own: the server goes on with others meanwhile."""
     token = request.headers.get(_TOKEN, "")
-    page = _pages.get(token)
-    if page is None:
+    preview = _previews.get(token)
+    if preview is None:
         return Response(status_code=204)
     if token in _asking:
         return Response(status_code=429)
     name, value = (request.query_params.get(key, "") for key in ("name", "value"))
     _asking.add(token)
     try:
-        content = await asyncio.to_thread(_packed, page, name, value)
+        content = await asyncio.to_thread(_packed, preview, name, value)
     finally:
         _asking.discard(token)
     headers = {"Cache-Control": "no-store", "Content-Encoding": "gzip"}
     return Response(content, media_type="application/json", headers=headers)
 
 
-def _packed(page: Page, name: str, value: str) -> bytes:
+def _packed(preview: Preview, name: str, value: str) -> bytes:
     try:
         with one_at_a_time.PAGES.through():
-            shown = page.follow(name, value)
-    except ValueError:  # said in words when the thumb is let go
+            shown = preview.at(name, value)
+    except ValueError:  # said in words when the slider is released
         shown = {"charts": {}, "rows": {}}
     # Packed at its fastest, where Streamlit would at its smallest and ten times slower.
     return gzip.compress(encoded(shown), compresslevel=1, mtime=0)

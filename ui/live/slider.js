@@ -1,11 +1,12 @@
 // Sliders that send while they move, each with a field to type its value in.
 //
-// While the thumb is held its values go to the page's feed, where that follows. Else, and when it is let go, it
-// sends {name, value, held, number}, and the server answers with `number` as `echo`. It sends by the feed, and
-// by itself where there is none yet, or where something runs: that ends then, and the whole page runs.
+// While a slider is dragged its values go to the page's preview, where there is one. Otherwise, and on release, the
+// slider sends {name, value, dragging, number}, and the server answers with `number` as `echo`. It sends through the
+// preview's component, or by itself where there is none yet or where the page is running: that run ends then, and the
+// whole page runs.
 //
 // The next value goes out only when the last one's answer is drawn: a slow server makes fewer updates, never a
-// queue. The last value always goes out, with held = false.
+// queue. The last value always goes out, with dragging = false.
 
 const STYLE = `
 .live-slider {display: grid; grid-template-columns: 1fr 4.6rem; gap: 0.2rem 0.6rem; align-items: center;
@@ -66,12 +67,12 @@ class Slider {
     this.range.addEventListener("pointerdown", () => { this.keyed = false; });
     this.range.addEventListener("input", () => this.keyed || this.moved(true));
     this.range.addEventListener("change", () => this.moved(false));
-    // A thumb that is let go where it was taken up changes nothing, to the browser.
+    // The browser reports no change of a slider that is released where it was grasped.
     for (const end of ["pointerup", "pointercancel"])
       this.range.addEventListener(end, () => setTimeout(() => this.grasped && this.moved(false)));
     this.field.addEventListener("change", () => this.typed());
     this.waiting = null; // what goes out next
-    this.followed = null; // the held value that was drawn last
+    this.previewed = null; // the value that was previewed last
     this.out = false; // whether something is on its way, or being drawn
   }
 
@@ -90,10 +91,10 @@ class Slider {
     this.rest();
   }
 
-  // The value as the server knows it: the feed was drawn after the sliders of its frame.
+  // The value as the server knows it: the preview was sent after the sliders of its frame.
   get value() {
-    const feed = window.rotorcalcFeed;
-    return feed?.frame === this.data.frame ? feed.values[this.data.name] : this.data.value;
+    const preview = window.rotorcalcPreview;
+    return preview?.frame === this.data.frame ? preview.values[this.data.name] : this.data.value;
   }
 
   rest() {
@@ -108,19 +109,19 @@ class Slider {
     if (document.activeElement !== this.field) this.field.value = text;
   }
 
-  moved(held) {
-    this.grasped = held;
+  moved(dragging) {
+    this.grasped = dragging;
     const value = this.scale.value(Number(this.range.value));
     const text = this.scale.text(value);
     this.range.ariaValueText = text;
     this.field.value = text;
-    if (!held || this.data.whileHeld) this.want({ value, held });
+    if (!dragging || this.data.whileDragging) this.want({ value, dragging });
   }
 
   typed() {
     const text = this.field.value.trim();
     const value = text !== "" && text === this.data.beyond ? text : Number(text.replace(",", "."));
-    this.want({ value: text === "" || Number.isNaN(value) ? text : value, held: false });
+    this.want({ value: text === "" || Number.isNaN(value) ? text : value, dragging: false });
     this.field.blur();
   }
 
@@ -136,32 +137,32 @@ class Slider {
       const message = this.waiting;
       this.waiting = null;
       this.out = true;
-      const followed = await this.follow(message);
-      if (!followed || !message.held) await this.ask(message);
+      const previewed = await this.preview(message);
+      if (!previewed || !message.dragging) await this.ask(message);
       this.out = false;
-      if (!message.held && this.waiting === null) window.rotorcalcFeed?.settle();
+      if (!message.dragging && this.waiting === null) window.rotorcalcPreview?.settle();
     }
     delete this.root.dataset.busy;
     this.rest();
   }
 
-  // While the thumb is held, and for the value at which it is let go where that is one more.
-  async follow({ value, held }) {
-    const feed = window.rotorcalcFeed;
-    const due = held || (this.followed !== null && this.followed !== value);
-    const followed = due && feed !== undefined && (await feed.follow(this.data.name, value));
-    this.followed = held && followed ? value : null;
-    return followed;
+  // While dragging, and for the value on release where it differs from the one previewed last.
+  async preview({ value, dragging }) {
+    const preview = window.rotorcalcPreview;
+    const due = dragging || (this.previewed !== null && this.previewed !== value);
+    const previewed = due && preview !== undefined && (await preview.show(this.data.name, value));
+    this.previewed = dragging && previewed ? value : null;
+    return previewed;
   }
 
   // Ends when Streamlit's answer is drawn, or after ten seconds: it can be lost with its connection.
   ask(message) {
     const number = performance.now();
-    const send = running() ? this.send : (window.rotorcalcFeed?.send ?? this.send);
+    const send = running() ? this.send : (window.rotorcalcPreview?.send ?? this.send);
     send("moved", { ...message, name: this.data.name, number });
     return new Promise((resolve) => {
       const look = () => {
-        const echoed = this.data.echo === number || window.rotorcalcFeed?.echo === number;
+        const echoed = this.data.echo === number || window.rotorcalcPreview?.echo === number;
         const answered = echoed && !running() && !window.rotorcalcDrawing;
         if (answered || performance.now() - number > 10000) resolve();
         else requestAnimationFrame(look);

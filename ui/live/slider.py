@@ -36,19 +36,19 @@ def show(
     key: str,
     frame: int,
     on_move: Move,
-    while_held: bool = True,
+    while_dragging: bool = True,
 ) -> None:
     """Show some sliders below each other, one element of the page.
 
-    They send through the page's feed, and the whole page runs only where there is none, or it is in
-    the middle of something. `frame` is the number of the frame in which they are drawn.
+    They send through the page's preview, and the whole page runs only where there is none, or it is
+    in the middle of something. `frame` is the number of the frame in which they are drawn.
     """
     _component(
         key=key,
         # A list: Streamlit would look through a dictionary for data frames, at some cost.
         data=[
             [vars(slider) for slider in sliders],
-            {"whileHeld": while_held, "echo": echo(), "frame": frame},
+            {"whileDragging": while_dragging, "echo": echo(), "frame": frame},
         ],
         on_moved_change=lambda: taken(key, on_move),
     )  # fmt: skip

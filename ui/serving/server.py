@@ -50,13 +50,13 @@ class NamedReplica:
 
 
 def routes() -> list[Route]:
-    """Return what is served beside the pages: the core's health, and what follows a held thumb."""
+    """Return what is served beside the pages: the core's health, and previews."""
     base = st.get_option("server.baseUrlPath") or ""
     health_route = Route(make_url_path(base, "healthz"), answer_health)
     if settings.live() != "drag":
         return [health_route]
-    feed = importlib.import_module("ui.live.preview")
-    return [health_route, Route(feed.path(), feed.answer)]
+    preview = importlib.import_module("ui.live.preview")
+    return [health_route, Route(preview.path(), preview.answer)]
 
 
 def middleware() -> list[Middleware]:

@@ -25,10 +25,10 @@ _LOG = ("text", "json")
 
 
 def live() -> str:
-    """Return how charts and sliders follow, ROTORCALC_LIVE.
+    """Return when sliders send and how charts are drawn, ROTORCALC_LIVE.
 
     "drag": sliders send while they move, and charts are redrawn in place. "release": sliders send
-    when they are let go. "off": Streamlit's own sliders and charts.
+    on release. "off": Streamlit's own sliders and charts.
     """
     return _word("ROTORCALC_LIVE", _LIVE)
 

@@ -1,4 +1,4 @@
-"""What a held slider asks the server, straight and through the proxy."""
+"""Previews while a slider is dragged, straight and through the proxy."""
 
 import asyncio
 import json
@@ -23,11 +23,11 @@ def server() -> Iterator[Replica]:
 
 
 @awaited
-async def test_a_held_value_gives_charts_and_numbers_and_is_kept_by_nobody(server: Replica) -> None:
+async def test_a_preview_has_charts_and_numbers_and_is_kept_by_nobody(server: Replica) -> None:
     async with Visitor(server.address) as visitor:
         await visitor.open("Stability")
         said = visitor.texts()
-        answer = await visitor.follow("Radial clearance", 83)
+        answer = await visitor.preview("Radial clearance", 83)
         assert {"chart_threshold", "chart_whirl_frequency"} <= answer["charts"].keys()
         (numbers,) = answer["rows"].values()
         assert not any(number in " ".join(said) for number in numbers[:3])
@@ -41,10 +41,10 @@ async def test_a_held_value_gives_charts_and_numbers_and_is_kept_by_nobody(serve
 
 @pytest.mark.parametrize("name", ["", "Equilibrium", "Coefficients", "Root_locus", "Response"])
 @awaited
-async def test_every_page_follows(server: Replica, name: str) -> None:
+async def test_every_page_has_a_preview(server: Replica, name: str) -> None:
     async with Visitor(server.address) as visitor:
         await visitor.open(name)
-        answer = await visitor.follow("Film temperature", 71.5)
+        answer = await visitor.preview("Film temperature", 71.5)
         assert answer["charts"]
         assert answer["rows"]
 
@@ -73,13 +73,13 @@ async def test_what_is_no_value_moves_nothing(server: Replica) -> None:
 async def test_a_page_asks_one_thing_at_a_time(server: Replica) -> None:
     async with Visitor(server.address) as visitor:
         await visitor.open()
-        feed = visitor.feed()
+        known = visitor.preview_data()
         port = urlsplit(server.address).port
 
         def ask(value: int) -> int:
             with closing(HTTPConnection("127.0.0.1", port, timeout=30)) as connection:
-                path = f"{feed['address']}?name=C&value={value}"
-                connection.request("GET", path, headers={"X-Rotorcalc-Page": feed["token"]})
+                path = f"{known['address']}?name=C&value={value}"
+                connection.request("GET", path, headers={"X-Rotorcalc-Page": known["token"]})
                 return connection.getresponse().status
 
         asked = (asyncio.to_thread(ask, value) for value in range(70, 90))
@@ -92,5 +92,5 @@ async def test_through_the_proxy_it_comes_from_the_visitors_own_replica(site: Si
     async with site.visitor() as visitor:
         await visitor.open("Equilibrium")
         for clearance in range(80, 90):
-            answer = await visitor.follow("Radial clearance", clearance)
+            answer = await visitor.preview("Radial clearance", clearance)
             assert answer["charts"]
