@@ -8,19 +8,18 @@ that they serve as keys of a cache, and each checks its values once, when it is 
 import json
 import math
 from dataclasses import dataclass
-from typing import (
-    Annotated,
-    Self,
-)
+from typing import Annotated, Any, Self, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.constants import g, zero_Celsius
 
 from rotorcalc.arrays import Array, shown
+from rotorcalc.geometry import Geometry, Plain
 from rotorcalc.records import Bound, Choice, Record, from_tree, parsed, to_tree
 
-FORMAT_VERSION = 1
+FORMAT_VERSION = 2
+_PLAIN = Plain()
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,7 +76,7 @@ class Oil(Record):
 
 @dataclass(frozen=True, kw_only=True)
 class JournalBearing(Record):
-    """A cylindrical journal bearing.
+    """A journal bearing.
 
     Parameters
     ----------
@@ -86,25 +85,43 @@ class JournalBearing(Record):
     length : float
         Axial length, L [m], positive.
     radial_clearance : float
-        Radial clearance, C [m], positive.
-    film : str
-        The film model that answers for this bearing; "short" is the short bearing in closed form.
+        Radial clearance, C [m], positive: in every kind of bore that which its pads are machined
+        with.
+    geometry : Geometry
+        The shape of the bore; a circle of 360° unless another is given.
+    film : str or None
+        The film model that answers for this bearing: "short" is the short bearing in closed form.
+        None for the geometry's own choice.
 
     Raises
     ------
     ValueError
-        Naming the field, its value and its bound.
+        Naming the field, its value and its bound; also where the geometry has no such film model.
     """
 
     diameter: Annotated[float, Bound("m", above=0.0)]
     length: Annotated[float, Bound("m", above=0.0)]
     radial_clearance: Annotated[float, Bound("m", above=0.0)]
-    film: Annotated[str, Choice(("short",))] = "short"
+    geometry: Geometry = _PLAIN
+    film: Annotated[str | None, Choice(("short", "finite"))] = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.model not in self.geometry.models:
+            raise ValueError(
+                f"film = {self.film!r}: a bearing of kind {self.geometry.kind!r} has the film "
+                f"model {' or '.join(map(repr, self.geometry.models))}"
+            )
 
     @property
     def radius(self) -> float:
         """Journal radius, R = D/2 [m]."""
         return self.diameter / 2
+
+    @property
+    def model(self) -> str:
+        """Name of the film model that answers for this bearing."""
+        return self.geometry.models[0] if self.film is None else self.film
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -243,8 +260,18 @@ class Machine(Record):
         """
         document = parsed(text)
         version = document.pop("version", None)
-        if isinstance(version, bool) or version != FORMAT_VERSION:
+        if isinstance(version, bool) or version not in (1, FORMAT_VERSION):
             raise ValueError(
-                f"version = {shown(version)}: this program reads version {FORMAT_VERSION}"
+                f"version = {shown(version)}: this program reads versions 1 and {FORMAT_VERSION}"
             )
+        if version == 1:
+            _drop_the_one_film(document)
         return from_tree(cls, document, where="")
+
+
+def _drop_the_one_film(document: dict[str, Any]) -> None:
+    """Take the film's name out of a document of version 1, which knew one film only."""
+    if isinstance(document.get("bearing"), dict):
+        bearing = cast("dict[str, Any]", document["bearing"])
+        if bearing.get("film") == "short":
+            del bearing["film"]

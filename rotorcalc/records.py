@@ -5,11 +5,14 @@ import json
 import math
 import numbers
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import MISSING, dataclass, fields
+from types import NoneType
 from typing import (
     Annotated,
     Any,
+    ClassVar,
     NoReturn,
+    Self,
     TypeVar,
     cast,
     get_args,
@@ -61,16 +64,29 @@ class Choice:
         return value
 
 
+@dataclass(frozen=True)
+class _Rule:
+    """What a field of a record accepts: a check or a class, whether None, and its default."""
+
+    check: "Bound | Choice | type[Record]"
+    optional: bool
+    default: object
+
+
 @functools.cache
-def _checks(record: type) -> dict[str, Any]:
-    """Return what each field of a record class must pass: a Bound, a Choice or a class."""
+def _rules(record: type) -> dict[str, _Rule]:
+    """Return the rule of each field of a record class."""
     hints = get_type_hints(record, include_extras=True)
-    return {
-        field.name: get_args(hints[field.name])[1]
-        if get_origin(hints[field.name]) is Annotated
-        else hints[field.name]
-        for field in fields(record)
-    }
+    rules: dict[str, _Rule] = {}
+    for field in fields(record):
+        hint, check = hints[field.name], None
+        if get_origin(hint) is Annotated:
+            hint, check = get_args(hint)[:2]
+        optional = NoneType in get_args(hint)
+        if check is None:
+            check = next(one for one in (get_args(hint) or (hint,)) if one is not NoneType)
+        rules[field.name] = _Rule(check, optional, field.default)
+    return rules
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,48 +94,92 @@ class Record:
     """A frozen record that checks its fields once, when it is made."""
 
     def __post_init__(self) -> None:
-        for name, check in _checks(type(self)).items():
+        for name, rule in _rules(type(self)).items():
             value = getattr(self, name)
-            if isinstance(check, type):
-                if not isinstance(value, check):
-                    raise ValueError(f"{name} = {shown(value)}: must be {check.__name__}")
-            elif name != "load" or value is not None:
-                object.__setattr__(self, name, check.check(name, value))
+            if rule.optional and value is None:
+                continue
+            if isinstance(rule.check, type):
+                if not isinstance(value, rule.check):
+                    raise ValueError(f"{name} = {shown(value)}: must be {rule.check.__name__}")
+            else:
+                object.__setattr__(self, name, rule.check.check(name, value))
 
 
 R = TypeVar("R", bound=Record)
 
 
+@dataclass(frozen=True, kw_only=True)
+class Kind(Record):
+    """A record that comes in several kinds, told apart in files by the word in `kind`."""
+
+    kind: ClassVar[str] = ""
+
+    @classmethod
+    def kinds(cls) -> "dict[str, type[Self]]":
+        """Return the record classes below this one by their words, in the order they were made."""
+        found: dict[str, type[Self]] = {cls.kind: cls} if cls.kind else {}
+        for below in cls.__subclasses__():
+            found |= below.kinds()
+        return found
+
+
 def to_tree(record: Record) -> dict[str, object]:
-    """Return a record as a tree of JSON values; JSON has no infinity, so it is the word inf."""
-    tree: dict[str, object] = {}
-    for field in fields(record):
-        value = getattr(record, field.name)
+    """Return a record as a tree of JSON values, fields at their default left out.
+
+    JSON has no infinity, so it is the word inf; a record of several kinds says which in "type".
+    """
+    tree: dict[str, object] = {"type": record.kind} if isinstance(record, Kind) else {}
+    for name, rule in _rules(type(record)).items():
+        value = getattr(record, name)
+        if value == rule.default and str(value) == str(rule.default):  # −0.0 is not 0.0
+            continue
         if isinstance(value, Record):
-            tree[field.name] = to_tree(value)
+            tree[name] = to_tree(value)
         else:
-            tree[field.name] = "inf" if value == math.inf else value
+            tree[name] = "inf" if value == math.inf else value
     return tree
 
 
 def from_tree(cls: type[R], tree: object, *, where: str) -> R:
     """Return the record that a tree of JSON values describes; `where` is the path to it."""
     if not isinstance(tree, Mapping):
-        raise ValueError(f"{where or 'machine'} = {shown(tree)}: must be a JSON object")
+        raise ValueError(f"{where.rstrip('.') or 'machine'} = {shown(tree)}: must be a JSON object")
     values = dict(cast("Mapping[str, Any]", tree))
-    checks = _checks(cls)
-    for unknown in values.keys() - checks.keys():
-        raise ValueError(f"{where}{_key(unknown)}: unknown key; known are {', '.join(checks)}")
-    for missing in checks.keys() - values.keys():
-        raise ValueError(f"{where}{missing}: missing")
-    for name, check in checks.items():
-        if isinstance(check, type) and issubclass(check, Record):
-            values[name] = from_tree(check, values[name], where=f"{where}{name}.")
-        elif isinstance(check, Bound) and check.infinite and values[name] == "inf":
-            values[name] = math.inf
-        elif isinstance(values[name], float) and math.isinf(values[name]):
-            raise ValueError(f"{where}{name}: too large for a number; infinite is written 'inf'")
+    if issubclass(cls, Kind):
+        cls = _kind_of(cls, values, where)
+    rules = _rules(cls)
+    for unknown in values.keys() - rules.keys():
+        raise ValueError(f"{where}{_key(unknown)}: unknown key; known are {', '.join(rules)}")
+    for name, rule in rules.items():
+        if name in values:
+            values[name] = _value_of(rule, values[name], where=f"{where}{name}")
+        elif rule.default is MISSING:
+            raise ValueError(f"{where}{name}: missing")
     return cls(**values)
+
+
+def _kind_of(cls: type[R], values: dict[str, Any], where: str) -> type[R]:
+    """Return the record class that "type" names, and take that key out of the values."""
+    kinds = cast("type[Kind]", cls).kinds()
+    word = values.pop("type", None)
+    if not isinstance(word, str) or word not in kinds:
+        raise ValueError(f"{where}type = {shown(word)}: must be one of {', '.join(kinds)}")
+    return cast("type[R]", kinds[word])
+
+
+def _value_of(rule: _Rule, value: object, *, where: str) -> object:
+    """Return a field's value from its JSON value."""
+    if isinstance(rule.check, type):
+        return (
+            None
+            if value is None and rule.optional
+            else from_tree(rule.check, value, where=f"{where}.")
+        )
+    if isinstance(rule.check, Bound) and rule.check.infinite and value == "inf":
+        return math.inf
+    if isinstance(value, float) and math.isinf(value):
+        raise ValueError(f"{where}: too large for a number; infinite is written 'inf'")
+    return value
 
 
 def parsed(text: str) -> dict[str, Any]:

@@ -4,9 +4,10 @@ import dataclasses
 import json
 import math
 import struct
-from dataclasses import replace
+from dataclasses import make_dataclass, replace
 from decimal import Decimal
 from fractions import Fraction
+from typing import Annotated
 
 import numpy as np
 import pytest
@@ -15,6 +16,8 @@ from hypothesis import strategies as st
 from scipy.constants import g
 
 from rotorcalc import JournalBearing, Machine, Oil, Rotor
+from rotorcalc.geometry import Plain
+from rotorcalc.records import Bound, Record, from_tree, to_tree
 from tests.machines import EPS, SHEET, with_rotor
 
 GOOD = {
@@ -172,10 +175,10 @@ def test_a_part_of_the_wrong_kind_is_refused(name, value):
     assert message.endswith(f"must be {kind}")
 
 
-@pytest.mark.parametrize("film", ["Short", "", None, 1, ["short"], {}])
+@pytest.mark.parametrize("film", ["Short", "", 1, ["short"], {}])
 def test_an_unknown_film_model_is_refused(film):
     message = error(JournalBearing, film=film)
-    assert message == f"film = {film!r}: must be one of ('short',)"
+    assert message == f"film = {film!r}: must be one of ('short', 'finite')"
 
 
 @pytest.mark.parametrize("journal_mass", [100.0, 100.1, 1e300])
@@ -337,9 +340,65 @@ def test_json_is_strict_and_plain(machine):
         raise AssertionError(word)
 
     document = json.loads(machine.to_json(), parse_constant=refuse)
-    assert list(document) == ["version", "oil", "bearing", "rotor", "temperature", "load"]
-    assert document["version"] == 1
-    assert (document["rotor"]["shaft_stiffness"] == "inf") == machine.rotor.is_rigid
+    load = [] if machine.load is None else ["load"]
+    assert list(document) == ["version", "oil", "bearing", "rotor", "temperature", *load]
+    assert document["version"] == 2
+
+
+def test_json_leaves_defaults_out():
+    machine = replace(SHEET, rotor=Rotor(mass=100.0), load=None)
+    written = json.loads(machine.to_json())
+    assert written["rotor"] == {"mass": 100.0}
+    assert written["bearing"].keys() == {"diameter", "length", "radial_clearance"}
+    assert "load" not in written
+
+
+def test_an_infinite_value_that_is_no_default_is_the_word_inf():
+    class_ = make_dataclass(
+        "Stiff",
+        [("k", Annotated[float, Bound("N/m", infinite=True)])],
+        bases=(Record,),
+        frozen=True,
+        kw_only=True,
+    )
+    assert to_tree(class_(k=math.inf)) == {"k": "inf"}
+    assert from_tree(class_, {"k": "inf"}, where="") == class_(k=math.inf)
+
+
+def test_version_1_is_read():
+    """As it was written before a bearing had a geometry: every field, and the film by its name."""
+    tree = {
+        "version": 1,
+        "oil": {"reference_viscosity": 0.0172368925, "reference_temperature": 50.0,
+                "temperature_coefficient": 0.03, "density": 860.0},
+        "bearing": {"diameter": 0.15, "length": 0.05, "radial_clearance": 6e-05, "film": "short"},
+        "rotor": {"mass": 272.1422, "shaft_stiffness": "inf", "imbalance": 0.0,
+                  "disk_damping": 0.0, "journal_mass": 0.0},
+        "temperature": 60.0,
+        "load": None,
+    }  # fmt: skip
+    machine = Machine.from_json(json.dumps(tree))
+    assert machine.rotor == Rotor(mass=272.1422)
+    assert machine.bearing.geometry == Plain()
+    assert machine.bearing.film is None
+    assert json.loads(machine.to_json())["version"] == 2
+
+
+def test_a_geometry_is_named_by_its_kind():
+    tree = document()
+    tree["bearing"]["geometry"] = {"type": "plain"}
+    assert Machine.from_json(json.dumps(tree)) == SHEET
+    tree["bearing"]["geometry"] = {"type": "square"}
+    assert refusal(json.dumps(tree)).startswith("bearing.geometry.type = 'square': must be one of")
+    tree["bearing"]["geometry"] = {}
+    assert refusal(json.dumps(tree)).startswith("bearing.geometry.type = None: must be one of")
+    tree["bearing"]["geometry"] = "plain"
+    assert refusal(json.dumps(tree)).startswith("bearing.geometry = 'plain': must be a JSON object")
+
+
+def test_a_film_model_that_the_geometry_lacks_is_named():
+    with pytest.raises(ValueError, match="film = 'finite': a bearing of kind 'plain' has"):
+        replace(SHEET.bearing, film="finite")
 
 
 def document(**changes):
@@ -360,7 +419,7 @@ def test_json_may_be_bytes_and_in_any_order():
     assert Machine.from_json(shuffled.encode()) == SHEET
 
 
-@pytest.mark.parametrize("key", ["oil", "bearing", "rotor", "temperature", "load"])
+@pytest.mark.parametrize("key", ["oil", "bearing", "rotor", "temperature"])
 def test_a_missing_key_is_named(key):
     tree = document()
     del tree[key]
@@ -369,7 +428,8 @@ def test_a_missing_key_is_named(key):
 
 @pytest.mark.parametrize("part", ["oil", "bearing", "rotor"])
 def test_a_missing_or_unknown_key_of_a_part_is_named_with_its_part(part):
-    for key in document()[part]:
+    defaulted = {"density", "shaft_stiffness", "imbalance"}
+    for key in document()[part].keys() - defaulted:
         branch = document()[part]
         del branch[key]
         assert refusal(json.dumps(document(**{part: branch}))) == f"{part}.{key}: missing"
@@ -407,12 +467,12 @@ def test_an_object_of_very_many_keys_is_refused_without_comparing_each_with_each
 
 
 @pytest.mark.parametrize(
-    "version", ["0", "2", "1.5", '"1"', "null", "true", "[1]", "{}", "-1", "1e999", "1.0000001"]
+    "version", ["0", "3", "1.5", '"1"', "null", "true", "[1]", "{}", "-1", "1e999", "1.0000001"]
 )
 def test_another_version_is_named(version):
-    text = SHEET.to_json().replace('"version": 1', f'"version": {version}')
+    text = SHEET.to_json().replace('"version": 2', f'"version": {version}')
     assert refusal(text).startswith("version = ")
-    assert "this program reads version 1" in refusal(text)
+    assert "this program reads versions 1 and 2" in refusal(text)
 
 
 def test_a_missing_version_is_named():
@@ -437,7 +497,7 @@ def test_a_value_out_of_its_bound_is_named(value):
 @pytest.mark.parametrize("part", ["oil", "bearing", "rotor"])
 @pytest.mark.parametrize("value", [None, 1, "x", [], True])
 def test_a_part_that_is_no_object_is_named(part, value):
-    assert refusal(json.dumps(document(**{part: value}))).startswith(f"{part}. = ")
+    assert refusal(json.dumps(document(**{part: value}))).startswith(f"{part} = ")
 
 
 @pytest.mark.parametrize("word", ["NaN", "Infinity", "-Infinity"])
@@ -455,8 +515,9 @@ def test_words_that_are_no_json_are_refused(word, field):
 )
 @pytest.mark.parametrize("field", ["mass", "shaft_stiffness", "journal_mass"])
 def test_a_number_too_large_is_named_and_never_taken_for_a_rigid_shaft(number, field):
-    value = json.dumps(document()["rotor"][field])
-    text = SHEET.to_json().replace(f'"{field}": {value}', f'"{field}": {number}')
+    tree = document()
+    tree["rotor"][field] = "here"
+    text = json.dumps(tree).replace('"here"', number)
     assert refusal(text).startswith(f"rotor.{field}: too large for a number")
 
 
