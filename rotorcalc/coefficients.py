@@ -12,7 +12,15 @@ from numpy.typing import ArrayLike
 
 from rotorcalc.arrays import Array, BoolArray, real_array
 from rotorcalc.display import Result
-from rotorcalc.films import FilmState, film_added_mass, film_coefficients, film_pressure, film_state
+from rotorcalc.films import (
+    FilmDynamics,
+    FilmState,
+    FilmUnits,
+    OperatingPoints,
+    film_of,
+    film_state,
+    reduced,
+)
 from rotorcalc.machine import Machine
 
 # Factors α_m of the film's inertia: a parabolic velocity profile, and a flat one.
@@ -177,24 +185,81 @@ def equilibrium(machine: Machine, speed: ArrayLike) -> Equilibrium:
         Where a speed is not positive and finite.
     """
     speed = checked_speed(speed)
-    bearing, mu = machine.bearing, machine.viscosity
-    R, L, C = bearing.radius, bearing.length, bearing.radial_clearance
-    film = film_state(bearing, modified_sommerfeld(machine, speed))
-    stiffness, damping = _with_dimensions(machine, speed, film.stiffness, film.damping)
-    drag_torque = film.drag * mu * speed * R**3 * L / C
+    bearing = machine.bearing
+    units = FilmUnits(bearing, machine.viscosity, speed)
+    film = film_of(bearing).state(operating_points(machine, speed))
+    drag_torque = film.drag * units.torque
     with np.errstate(divide="ignore"):
-        friction = drag_torque / (R * np.float64(machine.static_load))
+        friction = drag_torque / (bearing.radius * np.float64(machine.static_load))
     return Equilibrium(
         speed=speed,
         film=film,
-        stiffness=stiffness,
-        damping=damping,
-        minimum_film_thickness=film.minimum_thickness * C,
-        side_flow=film.side_flow * speed * R * L * C,
+        stiffness=_matrices(film.stiffness, units.stiffness),
+        damping=_matrices(film.damping, units.damping),
+        minimum_film_thickness=film.minimum_thickness * bearing.radial_clearance,
+        side_flow=film.side_flow * units.flow,
         drag_torque=drag_torque,
         power_loss=drag_torque * speed,
         friction_coefficient=friction,
-        peak_pressure=film.peak_pressure * mu * speed * (L / C) ** 2,
+        peak_pressure=film.peak_pressure * units.pressure,
+    )
+
+
+def operating_points(machine: Machine, speed: ArrayLike) -> OperatingPoints:
+    """Return where a machine's film is asked.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : array_like, (...)
+        Running speed, Ω [rad/s], positive.
+
+    Returns
+    -------
+    OperatingPoints
+        Its fields broadcast to the shape (...).
+
+    Raises
+    ------
+    ValueError
+        Where a speed is not positive and finite.
+    """
+    return OperatingPoints.of(
+        machine.bearing,
+        viscosity=machine.viscosity,
+        speed=checked_speed(speed),
+        load=machine.static_load,
+    )
+
+
+def dynamics(machine: Machine, speed: ArrayLike) -> FilmDynamics:
+    """Return the film's linear forces in static equilibrium, inner coordinates included.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : array_like, (...)
+        Running speed, Ω [rad/s], positive.
+
+    Returns
+    -------
+    FilmDynamics
+        Stiffness [N/m] and damping [N·s/m], (..., 2+n, 2+n), and inertia [kg], (n,).
+
+    Raises
+    ------
+    ValueError
+        Where a speed is not positive and finite.
+    """
+    speed = checked_speed(speed)
+    units = FilmUnits(machine.bearing, machine.viscosity, speed)
+    found = film_of(machine.bearing).dynamics(operating_points(machine, speed))
+    return FilmDynamics(
+        stiffness=_matrices(found.stiffness, units.stiffness),
+        damping=_matrices(found.damping, units.damping),
+        inertia=found.inertia,
     )
 
 
@@ -211,16 +276,15 @@ def stiffness_and_damping(machine: Machine, speed: ArrayLike) -> tuple[Array, Ar
     Returns
     -------
     K, C : array, (..., 2, 2)
-        Stiffness [N/m] and damping [N·s/m] in X, Y: those of `equilibrium`, in half its time.
+        Stiffness [N/m] and damping [N·s/m] in X, Y, in synchronous motion: those of
+        `equilibrium`, in half its time.
 
     Raises
     ------
     ValueError
         Where a speed is not positive and finite.
     """
-    speed = checked_speed(speed)
-    film = film_coefficients(machine.bearing, modified_sommerfeld(machine, speed))
-    return _with_dimensions(machine, speed, *film)
+    return reduced(dynamics(machine, speed), checked_speed(speed))
 
 
 def film_field(
@@ -249,21 +313,20 @@ def film_field(
     ValueError
         Where the speed is not positive and finite or ζ lies outside the bearing.
     """
-    state = equilibrium(machine, speed)
-    bearing, film = machine.bearing, state.film
+    bearing, points = machine.bearing, operating_points(machine, speed)
+    model = film_of(bearing)
+    film = model.state(points)
     theta, zeta = np.atleast_1d(np.asarray(theta, float)), np.atleast_1d(np.asarray(zeta, float))
     opposite = film.attitude_angle + np.pi
     angle = opposite + theta
-    middle = film_pressure(bearing, film.sommerfeld, angle=angle)
-    field = film_pressure(bearing, film.sommerfeld, angle=angle[:, None], zeta=zeta)
-    C = bearing.radial_clearance
-    unit = machine.viscosity * state.speed * (bearing.length / C) ** 2
+    middle = model.field(points, angle=angle, zeta=0.0)
+    field = model.field(points, angle=angle[:, None], zeta=zeta)
     return PressureField(
-        speed=state.speed,
+        speed=points.speed,
         theta=theta,
         axial_position=zeta * bearing.length,
-        thickness=middle.thickness * C,
-        pressure=field.pressure * unit,
+        thickness=middle.thickness * bearing.radial_clearance,
+        pressure=field.pressure * FilmUnits(bearing, machine.viscosity, points.speed).pressure,
         cavitated=middle.cavitated,
         load_theta=np.mod(-opposite, 2.0 * np.pi),
         peak_theta=np.mod(film.peak_angle - opposite, 2.0 * np.pi),
@@ -292,10 +355,9 @@ def film_forces(machine: Machine, speed: ArrayLike, *, sommerfeld: ArrayLike) ->
     ValueError
         Where a speed is not positive and finite or σ is not positive.
     """
-    bearing = machine.bearing
-    R, L, C = bearing.radius, bearing.length, bearing.radial_clearance
-    film = film_state(bearing, sommerfeld)
-    F = film.force * (machine.viscosity * checked_speed(speed) * R * L**3 / C**2)[..., None]
+    film = film_state(machine.bearing, sommerfeld)
+    unit = FilmUnits(machine.bearing, machine.viscosity, checked_speed(speed)).force
+    F = film.force * np.asarray(unit)[..., None]
     return FilmForces(
         eccentricity_ratio=film.eccentricity_ratio,
         radial=F[..., 0],
@@ -333,7 +395,7 @@ def added_mass(machine: Machine, speed: ArrayLike, *, factor: float = LAMINAR) -
     bearing = machine.bearing
     R, L, C = bearing.radius, bearing.length, bearing.radial_clearance
     unit = factor * machine.oil.density * R * L**3 / (12.0 * C)
-    M = unit * film_added_mass(bearing, state.film.sommerfeld)
+    M = unit * film_of(bearing).added_mass(operating_points(machine, speed))
     return AddedMass(
         speed=state.speed,
         mass=M,
@@ -365,14 +427,12 @@ def unloading(machine: Machine, speed: float, *, sommerfeld: ArrayLike) -> Unloa
     ValueError
         Where the speed is not positive and finite or σ is not positive.
     """
-    bearing = machine.bearing
-    film = film_state(bearing, sommerfeld)
-    R, L, C = bearing.radius, bearing.length, bearing.radial_clearance
-    unit = machine.viscosity * float(checked_speed(speed)) * R * (L / C) ** 3
+    film = film_state(machine.bearing, sommerfeld)
+    units = FilmUnits(machine.bearing, machine.viscosity, float(checked_speed(speed)))
     return Unloading(
         eccentricity_ratio=film.eccentricity_ratio,
-        stiffness=film.stiffness * unit,
-        whirl_damping=film.damping * unit / 2.0,
+        stiffness=film.stiffness * units.stiffness,
+        whirl_damping=film.damping * units.stiffness / 2.0,
     )
 
 
@@ -396,18 +456,7 @@ def modified_sommerfeld(machine: Machine, speed: ArrayLike) -> Array:
     ValueError
         Where a speed is not positive and finite.
     """
-    speed = checked_speed(speed)
-    bearing = machine.bearing
-    R, L, C = bearing.radius, bearing.length, bearing.radial_clearance
-    with np.errstate(divide="ignore"):
-        return (
-            machine.viscosity
-            * speed
-            * L
-            * R
-            / (4.0 * np.float64(machine.static_load))
-            * (L / C) ** 2
-        )
+    return operating_points(machine, speed).sommerfeld
 
 
 def checked_speed(speed: ArrayLike) -> Array:
@@ -419,12 +468,9 @@ def checked_speed(speed: ArrayLike) -> Array:
     return speeds
 
 
-def _with_dimensions(machine: Machine, speed: Array, k: Array, c: Array) -> tuple[Array, Array]:
-    """Return K [N/m] and C [N·s/m] of coefficients in film units, μΩRL³/C³ and μRL³/C³."""
-    bearing = machine.bearing
-    R, L, C = bearing.radius, bearing.length, bearing.radial_clearance
-    unit = machine.viscosity * R * L**3 / C**3
-    return k * unit * speed[..., None, None], c * unit
+def _matrices(coefficients: Array, unit: Array | float) -> Array:
+    """Return matrices (..., m, m) times their unit, (...)."""
+    return coefficients * np.asarray(unit)[..., None, None]
 
 
 def _trace(coefficients: Array) -> Array:

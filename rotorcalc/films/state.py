@@ -1,16 +1,68 @@
-"""What a film model answers: the film at one modified Sommerfeld number, dimensionless.
+"""What a film is asked, and what it answers, dimensionless.
 
-This record is the seam between the bearings and all that uses them. Nothing that reads it may
-assume a circular bearing: the journal's position is (x, y), not an eccentricity alone.
+Nothing that reads these records may assume a circular bearing: the journal's position is (x, y),
+not an eccentricity alone.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from rotorcalc.arrays import Array, BoolArray
+from rotorcalc.arrays import Array, BoolArray, real_array
 from rotorcalc.display import Result
+from rotorcalc.films.units import FilmUnits
 from rotorcalc.frames import vector
+from rotorcalc.machine import JournalBearing
+
+
+@dataclass(frozen=True, eq=False)
+class OperatingPoints:
+    """Where a film is asked: arrays that broadcast to one shape (...).
+
+    Attributes
+    ----------
+    sommerfeld : array
+        Modified Sommerfeld number, σ [-] (Eq. 5.8), positive; infinite without load.
+    viscosity : array
+        Viscosity of the oil in the film, μ [Pa·s].
+    speed : array
+        Running speed, Ω [rad/s].
+    load : array
+        Static load per bearing, F_o [N].
+    """
+
+    sommerfeld: Array
+    viscosity: Array
+    speed: Array
+    load: Array
+
+    @classmethod
+    def of(
+        cls, bearing: JournalBearing, *, viscosity: ArrayLike, speed: ArrayLike, load: ArrayLike
+    ) -> "OperatingPoints":
+        """Return the points of a bearing at speeds and loads."""
+        mu, omega, F = (np.asarray(one, dtype=float) for one in (viscosity, speed, load))
+        with np.errstate(divide="ignore"):
+            sigma = FilmUnits(bearing, mu, omega).force / (4.0 * F)
+        return cls(sommerfeld=np.asarray(sigma), viscosity=mu, speed=omega, load=F)
+
+    @classmethod
+    def at_sommerfeld(
+        cls, bearing: JournalBearing, sommerfeld: ArrayLike, *, viscosity: float = 1.0
+    ) -> "OperatingPoints":
+        """Return the points at which a bearing that turns at 1 rad/s has these σ, or ValueError."""
+        sigma = real_array("sommerfeld", sommerfeld)
+        if sigma.size and not sigma.min() > 0.0:
+            worst = sigma[~(sigma > 0.0)].flat[0]
+            raise ValueError(f"sommerfeld = {worst}: must be positive")
+        unit = FilmUnits(bearing, viscosity, 1.0).force
+        return cls(
+            sommerfeld=sigma,
+            viscosity=np.array(viscosity),
+            speed=np.array(1.0),
+            load=np.asarray(unit / (4.0 * sigma)),
+        )
 
 
 @dataclass(frozen=True, eq=False)

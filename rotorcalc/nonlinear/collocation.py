@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from rotorcalc.arrays import Array, ComplexArray
-from rotorcalc.films import film_motion
+from rotorcalc.films import FilmUnits, journal_motion
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.rotor_impedance import impedance
 
@@ -60,8 +60,8 @@ class Balance:
     def __init__(self, machine: Machine) -> None:
         bearing = machine.bearing
         self.machine, self.C = machine, bearing.radial_clearance
-        self.film_per_speed = machine.viscosity * bearing.radius * bearing.length**3 / self.C**2
-        self.force, _ = film_motion(bearing)
+        self.film_per_speed = float(FilmUnits(bearing, machine.viscosity, 1.0).force)
+        self.force = journal_motion(bearing).force
 
     def residual(self, cycle: Cycle) -> tuple[Array, Array]:
         """Return the residual, (2m,), and its derivatives by all unknowns, (2m, 2m + 2)."""

@@ -21,7 +21,7 @@ from scipy.integrate import ODEintWarning, odeint
 
 from rotorcalc.arrays import Array
 from rotorcalc.display import Result
-from rotorcalc.films import film_motion
+from rotorcalc.films import FilmUnits, journal_motion
 from rotorcalc.machine import Machine
 
 # The rates of a state at an angle of rotation.
@@ -62,14 +62,15 @@ class Equations:
         self.mass = rotor.disk_mass if self.flexible else rotor.half_mass
         # Forces in units of M C Ω_0² with M the mass they move; the film's at Ω_0.
         unit = C * first**2
-        self.film_unit = machine.viscosity * first * bearing.radius * bearing.length**3 / C**2
+        self.film_unit = float(FilmUnits(bearing, machine.viscosity, first).force)
         self.film = self.film_unit / (self.mass * unit)
         self.shaft = rotor.shaft_stiffness * C / (self.mass * unit) if self.flexible else 0.0
         self.damper = rotor.disk_damping / (self.mass * first)
         self.load = machine.static_load / (self.mass * unit)
         self.imbalance = rotor.disk_mass * rotor.imbalance / (self.mass * C)
         self.journal_ratio = self.mass / rotor.journal_mass if rotor.journal_mass > 0.0 else 0.0
-        self.force, self.velocity = film_motion(bearing)
+        film = journal_motion(bearing)
+        self.force, self.velocity = film.force, film.velocity
 
     def speed(self, angle: ArrayLike) -> Array:
         """Return the running speed at an angle of rotation [rad/s]."""

@@ -34,7 +34,7 @@ import numpy as np
 
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import equilibrium
-from rotorcalc.films import film_gap, film_motion
+from rotorcalc.films import film_of, journal_motion
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.film_expansion import FilmExpansion
 from rotorcalc.nonlinear.rotor_impedance import impedance
@@ -193,8 +193,8 @@ def _growth_slope(machine: Machine, speed: float, frequency: float) -> float:
 def _lyapunov_terms(machine: Machine, speed: float, frequency: float, points: int) -> Array:
     """Return the three terms of ℓ [1/s]: by the mean shift, the second harmonic and the cubic."""
     bearing, film = machine.bearing, equilibrium(machine, speed).film
-    force, _ = film_motion(bearing)
-    gap = float(film_gap(bearing, film.position))
+    force = journal_motion(bearing).force
+    gap = float(film_of(bearing).gap(film.position))
     expansion = FilmExpansion(force, film.position, gap, points)
     q, p = _whirl(machine, speed, frequency)
     swing = 1j * frequency / speed

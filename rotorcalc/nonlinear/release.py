@@ -17,7 +17,7 @@ from rotorcalc import modes
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import Equilibrium, equilibrium
 from rotorcalc.display import Result
-from rotorcalc.films import film_gap
+from rotorcalc.films import film_of
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.equations import Start, resting
 from rotorcalc.nonlinear.signals import Spectrum, poincare_points, spectrum
@@ -168,7 +168,7 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
         linear=rest + _drawn(linear, rest, C),
         ellipse=rest + ellipse,
         whirl=whirl,
-        film=C * film_gap(machine.bearing, motion.journal / C),
+        film=C * film_of(machine.bearing).gap(motion.journal / C),
         spectrum=spectrum(motion, last=max(int(_SETTLED * revolutions), 4)),
         points=poincare_points(motion),
         stopped=stopped,

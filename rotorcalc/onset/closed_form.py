@@ -43,7 +43,7 @@ def has_closed_form(machine: Machine) -> bool:
     """Return whether Eqs. 5.45 to 5.50 give the machine's onset, and no eigenvalues are needed."""
     rotor = machine.rotor
     massless = rotor.journal_mass == 0.0 or rotor.is_rigid
-    return massless and rotor.disk_damping == 0.0 and machine.bearing.film in ONE_CURVE
+    return massless and rotor.disk_damping == 0.0 and machine.bearing.model in ONE_CURVE
 
 
 def closed_form_onset(machine: Machine, *, flexible: bool = True) -> Onset:
@@ -73,7 +73,7 @@ def closed_form_onset(machine: Machine, *, flexible: bool = True) -> Onset:
     M, K_rot, F, s, C = _numbers(machine)
     if F == 0.0:
         return Onset(speed=0.0, whirl_frequency=0.0, eccentricity_ratio=0.0)
-    film, sag, wanted = machine.bearing.film, F / (K_rot * C), s**2 / (M * C * F)
+    film, sag, wanted = machine.bearing.model, F / (K_rot * C), s**2 / (M * C * F)
     low, high = _bracket(film, sag=np.array([sag]), wanted=np.array([wanted]))
     sigma = narrow_root(lambda sigma: _residual(film, sigma, sag, wanted), low[0], high[0])
     state = film_state(machine.bearing, sigma)
@@ -91,7 +91,7 @@ def closed_onsets(machines: Sequence[Machine]) -> Array:
     speeds = np.zeros(len(machines))  # without load the onset is at speed 0
     loaded = numbers[:, 2] > 0.0
     M, K_rot, F, s, C = numbers[loaded].T
-    sigma = _root(machines[0].bearing.film, sag=F / (K_rot * C), wanted=s**2 / (M * C * F))
+    sigma = _root(machines[0].bearing.model, sag=F / (K_rot * C), wanted=s**2 / (M * C * F))
     speeds[loaded] = sigma * F / s
     return speeds
 

@@ -48,8 +48,8 @@ def onset_speeds(machines: Sequence[Machine]) -> Array:
     others: list[int] = []
     for i, machine in enumerate(machines):
         if has_closed_form(machine):
-            films.setdefault(machine.bearing.film, []).append(i)
-        elif machine.bearing.film in ONE_CURVE:
+            films.setdefault(machine.bearing.model, []).append(i)
+        elif machine.bearing.model in ONE_CURVE:
             others.append(i)
     for indices in films.values():
         speeds[indices] = closed_onsets([machines[i] for i in indices])
@@ -87,7 +87,7 @@ def sure_onsets(machines: Sequence[Machine]) -> Array:
     terms = [modes.rotor_terms(machine.rotor) for machine in machines]
     for i, machine in enumerate(machines):
         if machine.static_load > 0.0:
-            kinds.setdefault((machine.bearing.film, terms[i].shape[-1]), []).append(i)
+            kinds.setdefault((machine.bearing.model, terms[i].shape[-1]), []).append(i)
     for same in kinds.values():
         speeds[same] = _sure_onsets([machines[i] for i in same], np.stack([terms[i] for i in same]))
     return speeds

@@ -12,7 +12,7 @@ from rotorcalc import PRESETS, Machine, analyse, film_curves
 from rotorcalc.analysis import ForceCoefficients, force_coefficients
 from rotorcalc.coefficients import BULK_FLOW, LAMINAR, added_mass, equilibrium, unloading
 from rotorcalc.figures import SI, US, Units, coefficients, figure, with_baseline
-from rotorcalc.films import film_added_mass, short
+from rotorcalc.films import OperatingPoints, film_of, short
 
 MACHINES: dict[str, Machine] = {key: preset.machine for key, preset in PRESETS.items()}
 SHEET = MACHINES["sheet-1e8"]
@@ -136,4 +136,8 @@ def test_added_mass_is_a_mass_and_goes_with_the_factor() -> None:
 
 def test_a_film_answers_with_its_added_mass_through_the_seam() -> None:
     eps = short.eccentricity_ratio(SIGMA)
-    assert_allclose(film_added_mass(SHEET.bearing, SIGMA), short.added_mass(eps), rtol=1e-12)
+    assert_allclose(
+        film_of(SHEET.bearing).added_mass(OperatingPoints.at_sommerfeld(SHEET.bearing, SIGMA)),
+        short.added_mass(eps),
+        rtol=1e-12,
+    )

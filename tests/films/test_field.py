@@ -34,7 +34,11 @@ def test_pressure_seam_integrates_to_the_load(sigma: float) -> None:
 
     def pushed(direction: float) -> float:
         def ring(angle: float) -> float:
-            middle = films.film_pressure(BEARING, sigma, angle=angle).pressure
+            middle = (
+                films.film_of(BEARING)
+                .field(films.OperatingPoints.at_sommerfeld(BEARING, sigma), angle=angle, zeta=0.0)
+                .pressure
+            )
             return float(middle) * math.cos(angle - direction)
 
         edges = (start - math.pi, float(state.peak_angle) - 2.0 * math.pi, start)
@@ -140,6 +144,8 @@ def test_without_load_there_is_no_pressure_and_no_friction_coefficient(
 
 def test_field_refuses_places_outside_the_bearing() -> None:
     with pytest.raises(ValueError, match="zeta"):
-        films.film_pressure(BEARING, 1.0, angle=0.0, zeta=0.6)
+        films.film_of(BEARING).field(
+            films.OperatingPoints.at_sommerfeld(BEARING, 1.0), angle=0.0, zeta=0.6
+        )
     with pytest.raises(ValueError, match="speed"):
         film_field(MACHINES[0][0], 0.0, theta=0.0)

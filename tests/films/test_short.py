@@ -9,7 +9,7 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from rotorcalc import JournalBearing
-from rotorcalc.films import film_coefficients, film_pressure, film_state, short
+from rotorcalc.films import OperatingPoints, film_coefficients, film_of, film_state, short
 from rotorcalc.films.short import static
 from rotorcalc.frames import rotate
 from rotorcalc.onset.whirl import whirl_onset
@@ -536,7 +536,13 @@ def test_pressure_around_the_bearing_balances_the_load(power):
     opposite = film_state(BEARING, sigma).attitude_angle + np.pi
     turn = opposite + HALF_TURN
     zeta, weights = np.polynomial.legendre.leggauss(3)
-    p = film_pressure(BEARING, sigma, angle=turn[:, None], zeta=zeta / 2).pressure @ weights / 2
+    p = (
+        film_of(BEARING)
+        .field(OperatingPoints.at_sommerfeld(BEARING, sigma), angle=turn[:, None], zeta=zeta / 2)
+        .pressure
+        @ weights
+        / 2
+    )
     load = 0.25 / sigma
     size = half_turn(p)
     assert -half_turn(p * np.cos(turn)) == pytest.approx(-load, abs=1e-12 * size)
@@ -554,7 +560,13 @@ def test_an_unloaded_film_is_centred():
     assert np.array_equal(film.damping, short.film_damping(0.0))
 
 
-@pytest.mark.parametrize("sigma", [0.0, 1e-40, [1.0, 1e-40]])
+@pytest.mark.parametrize("sigma", [0.0, -1.0, math.nan, [1.0, 0.0]])
+def test_a_film_is_asked_at_positive_sommerfeld_numbers(sigma):
+    with pytest.raises(ValueError, match=r"sommerfeld = .*: must be positive"):
+        film_state(BEARING, sigma)
+
+
+@pytest.mark.parametrize("sigma", [1e-40, [1.0, 1e-40]])
 def test_a_film_thinner_than_the_arithmetic_is_refused(sigma):
     with pytest.raises(ValueError, match=r"sommerfeld = .*too small"):
         film_state(BEARING, sigma)

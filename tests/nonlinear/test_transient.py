@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import root
 
 from rotorcalc import analyse, orbit_ellipse
-from rotorcalc.films import short
+from rotorcalc.films import FilmMotion, short
 from rotorcalc.films.short import motion
 from rotorcalc.nonlinear.equations import Equations
 from rotorcalc.nonlinear.transient import (
@@ -361,7 +361,8 @@ def test_a_motion_that_cannot_go_on_is_told_with_time_place_and_what_was_compute
         return motion.velocity(x, y, f_x, f_y, *near)
 
     monkeypatch.setattr(
-        "rotorcalc.nonlinear.equations.film_motion", lambda _: (motion.force, fails_from_then_on)
+        "rotorcalc.nonlinear.equations.journal_motion",
+        lambda _: FilmMotion(motion.force, fails_from_then_on),
     )
     with pytest.raises(TransientError, match=r"found after .* s, with the journal at") as failure:
         simulate(SHEET, 5000 * RPM, revolutions=40)

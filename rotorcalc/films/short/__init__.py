@@ -15,6 +15,7 @@ Source: San Andrés, Notes 5, Eqs. 5.5 to 5.37. Misprints of the source that are
 the sign in Eq. 5.7, and f_r² printed for f_t² in k_YY and c_YY of Eq. 5.35.
 """
 
+from rotorcalc.films.short.film import ShortFilm
 from rotorcalc.films.short.force import film_force
 from rotorcalc.films.short.force_coefficients import (
     added_mass,
@@ -25,7 +26,6 @@ from rotorcalc.films.short.force_coefficients import (
     radial_stiffness,
     stiffness,
 )
-from rotorcalc.films.short.model import coefficients, field, gap, inertia, state
 from rotorcalc.films.short.pressure_field import (
     drag,
     film_thickness,
@@ -42,19 +42,16 @@ from rotorcalc.films.short.static import (
 )
 
 __all__ = [
+    "ShortFilm",
     "added_mass",
     "attitude_angle",
-    "coefficients",
     "damping",
     "drag",
     "eccentricity_ratio",
-    "field",
     "film_damping",
     "film_force",
     "film_stiffness",
     "film_thickness",
-    "gap",
-    "inertia",
     "modified_sommerfeld",
     "peak_position",
     "peak_pressure",
@@ -62,7 +59,6 @@ __all__ = [
     "radial_damping",
     "radial_stiffness",
     "side_flow",
-    "state",
     "static_force",
     "stiffness",
 ]

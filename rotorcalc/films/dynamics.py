@@ -1,0 +1,67 @@
+"""The film's linear forces where it has coordinates of its own, and without them at one frequency.
+
+A film with parts that move, pads that tilt or a ring that floats, answers a small motion q of the
+journal and of its inner coordinates with −(K q + C q̇ + m q̈), in the order X, Y, inner ones. At a
+whirl of one frequency ω the inner coordinates follow the journal, and what is left is a 2×2
+impedance Z(ω) of the journal alone.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rotorcalc.arrays import Array, ComplexArray
+
+
+@dataclass(frozen=True, eq=False)
+class FilmDynamics:
+    """Stiffness, damping and inertia of a film and its n inner coordinates.
+
+    Attributes
+    ----------
+    stiffness : array, (..., 2+n, 2+n)
+        In the order X, Y, inner coordinates; in μΩRL³/C³ from a film, in N/m from a machine.
+    damping : array, (..., 2+n, 2+n)
+        In μRL³/C³ from a film, in N·s/m from a machine.
+    inertia : array, (n,)
+        Mass of each inner coordinate, taken as a displacement [kg]; 0 where it has none.
+    """
+
+    stiffness: Array
+    damping: Array
+    inertia: Array
+
+    @property
+    def inner(self) -> int:
+        """Number of inner coordinates, n."""
+        return len(self.inertia)
+
+
+NO_INERTIA: Array = np.zeros(0)
+
+
+def reduced(dynamics: FilmDynamics, frequency: ArrayLike) -> tuple[Array, Array]:
+    """Return the stiffness and damping that a journal feels which whirls at one frequency.
+
+    Z = Z_qq − Z_qi Z_ii⁻¹ Z_iq with Z = K + jωC − ω²m; then K = Re Z and C = Im Z/ω.
+
+    Parameters
+    ----------
+    dynamics : FilmDynamics
+        With dimensions, of leading shape (...).
+    frequency : array_like, (...)
+        Frequency of the whirl, ω [rad/s], positive; the running speed for synchronous motion.
+
+    Returns
+    -------
+    K, C : array, (..., 2, 2)
+        Stiffness [N/m] and damping [N·s/m] in X, Y.
+    """
+    if dynamics.inner == 0:
+        return dynamics.stiffness, dynamics.damping
+    omega = np.asarray(frequency, dtype=float)[..., None, None]
+    mass = np.diag(np.concatenate([np.zeros(2), dynamics.inertia]))
+    Z: ComplexArray = dynamics.stiffness + 1j * omega * dynamics.damping - omega**2 * mass
+    left = Z[..., :2, :2] - Z[..., :2, 2:] @ np.linalg.solve(Z[..., 2:, 2:], Z[..., 2:, :2])
+    return left.real, left.imag / omega

@@ -1,0 +1,181 @@
+"""What a film model is: the seam between bearings and all that uses them.
+
+A film is an object made once for each bearing. It is asked at operating points, arrays of oil,
+speed and load, and answers in the film's units (`films.units`). Nothing above it may assume a
+circular bore, an eccentricity below 1, an attitude below 90°, a closed form, whirl without load, or
+coefficients that do not depend on the whirl's frequency.
+"""
+
+from collections.abc import Callable, Hashable, Mapping
+from dataclasses import dataclass
+from typing import Protocol, TypeAlias
+
+from numpy.typing import ArrayLike
+
+from rotorcalc.arrays import Array
+from rotorcalc.films.dynamics import FilmDynamics
+from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
+from rotorcalc.machine import JournalBearing
+
+
+class Velocity(Protocol):
+    """The velocity of a journal from its place and the film's force on it."""
+
+    def __call__(  # noqa: D102 - see FilmMotion
+        self, x: float, y: float, f_x: float, f_y: float, near: list[float] | None = ...
+    ) -> tuple[float, float]: ...
+
+
+Force: TypeAlias = Callable[[float, float, float, float], tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class FilmMotion:
+    """The force of a film without inner coordinates on a journal that moves, in plain floats.
+
+    Attributes
+    ----------
+    force : callable
+        (f_x, f_y) in μΩRL³/C² from x, y in C and x', y' in CΩ.
+    velocity : callable
+        (x', y') from (x, y, f_x, f_y), and if need be a list that carries from one search to the
+        next what makes it short, empty at first.
+    """
+
+    force: Force
+    velocity: Velocity
+
+
+# (x, y, x', y') or (x, y, f_x, f_y), inner states, viscosity [Pa·s] and speed [rad/s] of the moment
+# → (f_x, f_y) or (x', y'), and the rates of the inner states by the angle of rotation.
+InnerRates: TypeAlias = Callable[
+    [tuple[float, float, float, float], list[float], float, float],
+    tuple[float, float, list[float]],
+]
+
+
+@dataclass(frozen=True)
+class InnerMotion:
+    """The force of a film with inner coordinates on a journal that moves, in plain floats.
+
+    Attributes
+    ----------
+    states : int
+        Number of inner states: the places of all inner coordinates, then the velocities of those
+        with a mass.
+    rest : callable
+        The inner states in static equilibrium at operating points, (..., states), in C and CΩ.
+    force : callable
+        Force on the journal and rates of the inner states from the journal's place and velocity.
+    velocity : callable
+        Velocity of the journal and the same rates from its place and the force on it.
+    """
+
+    states: int
+    rest: Callable[[OperatingPoints], Array]
+    force: InnerRates
+    velocity: InnerRates
+
+
+@dataclass(frozen=True)
+class Limit:
+    """One bound of a film model's own validity, in the words of the validity panel.
+
+    Attributes
+    ----------
+    name : str
+        What is checked, in words with its symbol.
+    value : float
+        The number that is judged [-].
+    caution, outside : float
+        Above these the model is strained, and fails.
+    reason : str
+        What goes wrong, in a sentence.
+    """
+
+    name: str
+    value: float
+    caution: float
+    outside: float
+    reason: str
+
+
+@dataclass(frozen=True)
+class Source:
+    """Where a film's result comes from: for captions and for the popover beside a number.
+
+    Attributes
+    ----------
+    equation : str
+        "Eq. 5.8", or in words what was solved.
+    tex : str
+        The equation in TeX; empty where none can be written down.
+    """
+
+    equation: str
+    tex: str = ""
+
+
+class Film(Protocol):
+    """One bearing's film.
+
+    Attributes
+    ----------
+    bearing : JournalBearing
+        The bearing.
+    inner : int
+        Number of inner coordinates, n.
+    can_whirl : bool
+        False where the film has no cross-coupling at any load, so that no rotor whirls in it.
+    curve : hashable or None
+        Equal for bearings whose k and c are one function of σ; None where these depend on more.
+    sommerfeld_range : (float, float)
+        σ below which no rotor whirls, and σ from which on the film no longer changes in its units.
+    limits : tuple of Limit
+        What the model assumes of the bearing.
+    sources : mapping of str to Source
+        By the name of the result.
+    """
+
+    @property
+    def bearing(self) -> JournalBearing: ...  # noqa: D102
+    @property
+    def inner(self) -> int: ...  # noqa: D102
+    @property
+    def can_whirl(self) -> bool: ...  # noqa: D102
+    @property
+    def curve(self) -> Hashable: ...  # noqa: D102
+    @property
+    def sommerfeld_range(self) -> tuple[float, float]: ...  # noqa: D102
+    @property
+    def limits(self) -> tuple[Limit, ...]: ...  # noqa: D102
+    @property
+    def sources(self) -> Mapping[str, Source]: ...  # noqa: D102
+
+    def state(self, points: OperatingPoints) -> FilmState:
+        """Return the film in static equilibrium; what the model does not know is not a number."""
+        ...
+
+    def dynamics(self, points: OperatingPoints) -> FilmDynamics:
+        """Return stiffness, damping and inertia, inner coordinates included."""
+        ...
+
+    def field(self, points: OperatingPoints, *, angle: ArrayLike, zeta: ArrayLike) -> FilmField:
+        """Return thickness and pressure at angles Θ from X [rad] and ζ = z/L, broadcast."""
+        ...
+
+    def added_mass(self, points: OperatingPoints) -> Array:
+        """Return I_ij, (..., 2, 2), or raise ValueError in words where the model has none."""
+        ...
+
+    def motion(self) -> FilmMotion | InnerMotion:
+        """Return the force on a moving journal, or raise ValueError in words."""
+        ...
+
+    def gap(self, position: ArrayLike) -> Array:
+        """Return the thinnest film around a journal anywhere, (...), of positions (..., 2) in C."""
+        ...
+
+    def outline(self, angle: ArrayLike) -> Array:
+        """Return where the journal's centre touches the wall in a direction, (..., 2), in C."""
+        ...

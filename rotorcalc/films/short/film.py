@@ -1,0 +1,168 @@
+"""The short bearing as a film model: what the rest of the program asks of it."""
+
+from collections.abc import Hashable, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rotorcalc.arrays import Array
+from rotorcalc.films.dynamics import NO_INERTIA, FilmDynamics
+from rotorcalc.films.model import FilmMotion, Limit, Source
+from rotorcalc.films.short import motion
+from rotorcalc.films.short.force_coefficients import (
+    added_mass,
+    film_damping,
+    film_stiffness,
+    film_units,
+    xy_damping,
+    xy_stiffness,
+)
+from rotorcalc.films.short.pressure_field import (
+    drag,
+    film_thickness,
+    peak_position,
+    peak_pressure,
+    pressure,
+    side_flow,
+)
+from rotorcalc.films.short.static import attitude_angle, eccentricity_ratio, s_squared
+from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
+from rotorcalc.frames import vector
+from rotorcalc.machine import JournalBearing
+
+# The film of a rotor that rests deeper than ε = 0.7560 feeds no whirl; beyond σ = 10 the journal is
+# all but centred, and the film in its own units that of the centre to a part in 5000.
+_WHIRLS_ABOVE, _CENTRED_ABOVE = 0.066385, 10.0
+
+_SOURCES: dict[str, Source] = {
+    "eccentricity": Source(
+        "Eq. 5.8",
+        r"\frac{1}{\sigma}=\frac{\varepsilon\sqrt{16\varepsilon^2+\pi^2(1-\varepsilon^2)}}"
+        r"{(1-\varepsilon^2)^2}",
+    ),
+    "attitude": Source("Eq. 5.7", r"\tan\varphi=\frac{\pi\sqrt{1-\varepsilon^2}}{4\,\varepsilon}"),
+    "pressure": Source(
+        "Eq. 5.25",
+        r"p=\frac{3\mu\Omega L^2}{C^2}\,\frac{\varepsilon\sin\theta}{(1+\varepsilon\cos\theta)^3}"
+        r"\left(\frac14-\frac{z^2}{L^2}\right)",
+    ),
+    "coefficients": Source("Eqs. 5.30 and 5.31"),
+}
+
+
+@dataclass(frozen=True)
+class ShortFilm:
+    """The film of one short bearing with a circular bore, in closed form.
+
+    Attributes
+    ----------
+    bearing : JournalBearing
+        The bearing; only L/D enters, and only the drag.
+    """
+
+    bearing: JournalBearing
+
+    inner: int = field(default=0, init=False)
+    can_whirl: bool = field(default=True, init=False)
+    curve: Hashable = field(default="short", init=False)
+    sommerfeld_range: tuple[float, float] = field(
+        default=(_WHIRLS_ABOVE, _CENTRED_ABOVE), init=False
+    )
+
+    @property
+    def sources(self) -> Mapping[str, Source]:
+        """Equations of the notes."""
+        return _SOURCES
+
+    @property
+    def limits(self) -> tuple[Limit, ...]:
+        """What the model leaves out of a long bearing."""
+        return (
+            Limit(
+                "Length over diameter, L/D", self.bearing.length / self.bearing.diameter, 0.5, 1.0,
+                "the short bearing leaves out the pressure flow around the journal; it overrates "
+                "the force of longer ones",
+            ),
+        )  # fmt: skip
+
+    def state(self, points: OperatingPoints) -> FilmState:
+        """Return the film in static equilibrium.
+
+        Raises
+        ------
+        ValueError
+            Where σ is so small that the film is thinner than the arithmetic can tell.
+        """
+        eps = _eccentricity(points)
+        phi = attitude_angle(eps)
+        return FilmState(
+            sommerfeld=points.sommerfeld,
+            position=vector(eps * np.cos(phi), eps * np.sin(phi)),
+            attitude_angle=phi,
+            minimum_thickness=1.0 - eps,
+            stiffness=film_stiffness(eps),
+            damping=film_damping(eps),
+            side_flow=side_flow(eps),
+            drag=drag(eps, length_to_radius=self.bearing.length / self.bearing.radius),
+            peak_pressure=peak_pressure(eps),
+            peak_angle=phi + np.pi + peak_position(eps),
+        )
+
+    def dynamics(self, points: OperatingPoints) -> FilmDynamics:
+        """Return stiffness and damping alone, in half the time of `state`."""
+        eps = _eccentricity(points)
+        s2 = s_squared(eps)
+        units = film_units(eps, s2)
+        return FilmDynamics(
+            stiffness=xy_stiffness(eps, s2, *units),
+            damping=xy_damping(eps, s2, *units),
+            inertia=NO_INERTIA,
+        )
+
+    def field(self, points: OperatingPoints, *, angle: ArrayLike, zeta: ArrayLike) -> FilmField:
+        """Return thickness and pressure in static equilibrium.
+
+        Raises
+        ------
+        ValueError
+            Where ζ lies outside the bearing.
+        """
+        eps, angle, zeta = np.broadcast_arrays(eccentricity_ratio(points.sommerfeld), angle, zeta)
+        # The thickest film lies opposite to the line of centres.
+        theta = angle - attitude_angle(eps) - np.pi
+        return FilmField(
+            angle=angle,
+            zeta=zeta,
+            thickness=film_thickness(eps, theta),
+            pressure=pressure(eps, theta, zeta),
+            cavitated=np.sin(theta) < -1e-12,  # θ = 0 and π, as they round, are in the full film
+        )
+
+    def added_mass(self, points: OperatingPoints) -> Array:
+        """Return the integrals of the film's inertia, I_ij, in ρRL³/(12C)."""
+        return added_mass(eccentricity_ratio(points.sommerfeld))
+
+    def motion(self) -> FilmMotion:
+        """Return the force on a moving journal, and its inverse, in plain floats."""
+        return FilmMotion(force=motion.force, velocity=motion.velocity)
+
+    def gap(self, position: ArrayLike) -> Array:
+        """Return the thinnest film around a journal anywhere, 1 − ε (Eq. 5.19)."""
+        place = np.asarray(position, dtype=float)
+        return 1.0 - np.hypot(place[..., 0], place[..., 1])
+
+    def outline(self, angle: ArrayLike) -> Array:
+        """Return the clearance circle, of radius 1."""
+        return vector(np.cos(angle), np.sin(angle))
+
+
+def _eccentricity(points: OperatingPoints) -> Array:
+    """Return ε where it is less than 1."""
+    eps = eccentricity_ratio(points.sommerfeld)
+    if eps.size and eps.max() == 1.0:
+        raise ValueError(
+            f"sommerfeld = {np.min(points.sommerfeld):.3g}: too small, the film's thickness rounds "
+            "to zero"
+        )
+    return eps
