@@ -22,11 +22,10 @@ from rotorcalc.display import Result
 from rotorcalc.machine import Machine, Rotor
 from rotorcalc.numerics import routh
 from rotorcalc.onset.closed_form import has_closed_form
+from rotorcalc.unbalance_peaks import ResponsePeaks, disk_peak_speeds
 from rotorcalc.unbalance_response import (
     OrbitEllipse,
-    ResponsePeaks,
     Rotors,
-    disk_peak_speeds,
     orbit_ellipse,
     orbit_points,
     orbit_sizes,
@@ -316,7 +315,7 @@ def response_family(
     speeds, group = checked_speed(speed), Rotors.of(rotors)
     film = stiffness_and_damping(machine, speeds)
     sizes = orbit_sizes(*synchronous_response(group, *film, speeds))
-    near = _near(speeds, disk_peak_speeds(machine, group, speeds, sizes[0]))
+    near = _near(speeds, disk_peak_speeds(machine, rotors, speeds, film, sizes[0]))
     film_there = stiffness_and_damping(machine, near)
     sizes_there = orbit_sizes(*synchronous_response(group, *film_there, near))
     denser, order = np.unique(np.concatenate([speeds, near]), return_index=True)

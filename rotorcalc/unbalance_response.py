@@ -14,15 +14,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotorcalc.arrays import Array, BoolArray, ComplexArray, IntArray
-from rotorcalc.coefficients import checked_speed, stiffness_and_damping
+from rotorcalc.arrays import Array, ComplexArray, IntArray
+from rotorcalc.coefficients import checked_speed
 from rotorcalc.display import Result
-from rotorcalc.machine import Machine, Rotor
+from rotorcalc.machine import Rotor
 
 # The imbalance (cos Ωt, sin Ωt) as phasors.
 _FORWARD = np.array([1.0, -1.0j])
-# The search for a peak: zooms, each into this many points.
-_ZOOMS, _ZOOM_POINTS = 2, 65
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,22 +46,6 @@ class OrbitEllipse(Result):
     inclination: Array
     forward: ComplexArray
     backward: ComplexArray
-
-
-@dataclass(frozen=True, eq=False)
-class ResponsePeaks(Result):
-    """Local maxima of an orbit's size over speed, each field of shape (peaks,).
-
-    Attributes
-    ----------
-    speed : array
-        Running speed, Ω [rad/s].
-    amplitude : array
-        Semi-major axis of the orbit [m].
-    """
-
-    speed: Array
-    amplitude: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -207,133 +189,7 @@ def phase_lag(response: ArrayLike) -> Array:
     return np.unwrap(-np.angle(np.asarray(response) / _FORWARD), axis=0)
 
 
-def response_peaks(machine: Machine, speed: ArrayLike, *, at: str = "disk") -> ResponsePeaks:
-    """Return the speeds at which the orbit is largest: local maxima of its semi-major axis.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    speed : array_like, (n,)
-        Rising speeds, Ω [rad/s], dense enough to show each peak. A peak lies within them.
-    at : str
-        Whose orbit, "disk" or "journal".
-
-    Returns
-    -------
-    ResponsePeaks
-        Speeds and amplitudes, the speeds to 1e-6 of the spacing.
-
-    Raises
-    ------
-    ValueError
-        Where `at` is neither, or a speed is not positive and finite.
-    """
-    if at not in ("disk", "journal"):
-        raise ValueError(f"at = {at!r}: must be 'disk' or 'journal'")
-    disk, journal = both_peaks(machine, speed)
-    return disk if at == "disk" else journal
-
-
-def both_peaks(
-    machine: Machine,
-    speed: ArrayLike,
-    *,
-    responses: tuple[ComplexArray, ComplexArray] | None = None,
-) -> tuple[ResponsePeaks, ResponsePeaks]:
-    """Return the peaks of the disk's response and of the journals', found in one search.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    speed : array_like, (n,)
-        Rising speeds, Ω [rad/s], dense enough to show each peak. A peak lies within them.
-    responses : pair of complex arrays, (n, 2), or None
-        The responses of disk and journal at these speeds [m], where they are known already.
-
-    Returns
-    -------
-    disk, journal : ResponsePeaks
-        As `response_peaks` gives them.
-
-    Raises
-    ------
-    ValueError
-        Where a speed is not positive and finite.
-    """
-    speeds, rotor = checked_speed(speed), machine.rotor
-    size = _orbit_sizes(machine, rotor, speeds) if responses is None else orbit_sizes(*responses)
-    body, place = np.nonzero(_is_peak(size))
-    if not len(body):
-        none = ResponsePeaks(speed=np.empty(0), amplitude=np.empty(0))
-        return none, none
-    tops = _tops(machine, rotor, body, speeds[place], speeds[place + 2])
-    sizes = _orbit_sizes(machine, rotor, tops)
-    disk, journal = (
-        ResponsePeaks(speed=tops[body == i], amplitude=sizes[i, body == i]) for i in (0, 1)
-    )
-    return disk, journal
-
-
-def disk_peak_speeds(machine: Machine, rotors: Rotors, speed: Array, size: Array) -> Array:
-    """Return the speeds of all peaks of several rotors' disks in one machine's bearings.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine; its own rotor counts by its load only.
-    rotors : Rotors, (m, 1)
-        The rotors.
-    speed : array, (n,)
-        Rising speeds, Ω [rad/s], dense enough to show each peak.
-    size : array, (m, n)
-        Semi-major axes of the disks' orbits at these speeds.
-
-    Returns
-    -------
-    array, (peaks,)
-        As `response_peaks` gives them, the first rotor's first [rad/s].
-    """
-    which, place = np.nonzero(_is_peak(size))
-    if not len(which):
-        return np.empty(0)
-    disk = np.zeros_like(which)
-    return _tops(machine, rotors.at(which), disk, speed[place], speed[place + 2])
-
-
 def orbit_sizes(disk: ComplexArray, journal: ComplexArray) -> Array:
     """Return the semi-major axes of the disk's orbit and the journal's, (2, ...), of (..., 2)."""
     x, jy = (np.stack([disk[..., i], journal[..., i]]) * unit for i, unit in ((0, 0.5), (1, 0.5j)))
     return np.abs(x + jy) + np.abs(x - jy)
-
-
-def _orbit_sizes(machine: Machine, rotor: Rotor | Rotors, speed: Array) -> Array:
-    K, C = stiffness_and_damping(machine, speed)
-    return orbit_sizes(*synchronous_response(rotor, K, C, speed))
-
-
-def _is_peak(size: Array) -> BoolArray:
-    return (size[:, 1:-1] > size[:, :-2]) & (size[:, 1:-1] >= size[:, 2:])
-
-
-def _tops(
-    machine: Machine, rotor: Rotor | Rotors, body: IntArray, low: Array, high: Array
-) -> Array:
-    """Return the speeds of the peaks between two speeds each, all at once.
-
-    `body` is 0 for a peak of the disk, 1 for one of the journal. A zoom goes into the two intervals
-    beside the largest value; a parabola does the rest, for more zooms would lose the flat top in
-    rounding errors.
-    """
-    columns = np.arange(len(low))
-    before = largest = after = np.zeros(len(low))
-    for _ in range(_ZOOMS):
-        grid = np.linspace(low, high, _ZOOM_POINTS)
-        size = _orbit_sizes(machine, rotor, grid)[body, :, columns].T
-        top = size[1:-1].argmax(axis=0) + 1
-        low, high = grid[top - 1, columns], grid[top + 1, columns]
-        before, largest, after = (size[top + step, columns] for step in (-1, 0, 1))
-    bend = before - 2.0 * largest + after
-    shift = (before - after) / np.where(bend < 0.0, bend, -np.inf) / 2.0
-    return (low + high) / 2.0 + shift * (high - low) / 2.0

@@ -105,6 +105,46 @@ def machines(draw, *, stiffness=RIGID | BENDING, damped=False, journals=False, l
     )
 
 
+def drawn(seed):
+    """Return a machine and a top speed from far beyond the sliders' ranges, the same ever again.
+
+    Rotors of 50 g to 100 t, journals of 3 mm to 1.2 m, clearances of 3 µm to 2 mm, any shaft.
+    """
+    random = np.random.default_rng(seed)
+
+    def between(low, high):
+        return 10.0 ** random.uniform(math.log10(low), math.log10(high))
+
+    def or_zero(value):
+        return value if random.random() < 0.5 else 0.0
+
+    diameter, mass = between(3e-3, 1.2), between(0.05, 1e5)
+    clearance = min(max(0.5 * diameter * between(5e-4, 2e-2), 3e-6), 2e-3)
+    shaft = math.inf if random.random() < 0.15 else between(1e3, 1e11)
+    critical = 2.0 * math.sqrt(min(shaft, 1e10) * mass / 2.0)
+    machine = Machine(
+        oil=Oil(
+            reference_viscosity=between(2e-3, 0.2),
+            reference_temperature=50,
+            temperature_coefficient=0.03,
+        ),
+        bearing=JournalBearing(
+            diameter=diameter,
+            length=diameter * random.uniform(0.2, 1.0),
+            radial_clearance=clearance,
+        ),
+        rotor=Rotor(
+            mass=mass,
+            shaft_stiffness=shaft,
+            imbalance=0.1 * clearance,
+            disk_damping=or_zero(critical * between(1e-4, 10.0)),
+            journal_mass=or_zero(0.5 * mass * between(1e-4, 0.9)),
+        ),
+        temperature=50.0,
+    )
+    return machine, between(300.0, 60000.0) * RPM
+
+
 def farthest(one, other):
     """Return the largest distance between two sets of as many eigenvalues, paired as they lie."""
     distance = np.abs(np.asarray(one)[:, None] - np.asarray(other)[None, :])

@@ -11,15 +11,11 @@ from hypothesis import strategies as st
 from rotorcalc import PRESETS, analyse, orbit_ellipse
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.unbalance_response import (
-    Rotors,
-    disk_peak_speeds,
     orbit_points,
-    orbit_sizes,
     phase_lag,
-    response_peaks,
     synchronous_response,
 )
-from tests.machines import BENDING, EPS, ROTORS, RPM, SHEET, machines, with_rotor
+from tests.machines import BENDING, EPS, RPM, SHEET, machines, with_rotor
 
 phasors = st.complex_numbers(max_magnitude=1e3, allow_nan=False, allow_subnormal=False).map(
     lambda z: z if abs(z) > 1e-100 else 0j
@@ -251,68 +247,6 @@ def test_phase_lag_is_how_much_later_the_orbit_comes():
     lag = np.array([[0.3, 0.3], [0.4, 0.4]])
     late = np.exp(-1j * lag) * np.array([1, -1j])
     assert phase_lag(late) == pytest.approx(lag, rel=8 * EPS)
-
-
-# Peaks
-
-
-def size_of(machine, speed, at):
-    sweep = analyse(machine, speed)
-    orbit = sweep.disk_response if at == "disk" else sweep.journal_response
-    return orbit_ellipse(orbit[..., 0], orbit[..., 1]).semi_major
-
-
-@pytest.mark.parametrize("at", ["disk", "journal"])
-@pytest.mark.parametrize("stiffness", [1e7, 1e8])
-def test_peaks_are_maxima_of_the_orbit(at, stiffness):
-    machine = with_rotor(shaft_stiffness=stiffness)
-    sweep = np.linspace(500 * RPM, 20000 * RPM, 400)
-    peaks = response_peaks(machine, sweep, at=at)
-    assert len(peaks.speed) >= 1
-    assert peaks.amplitude == pytest.approx(size_of(machine, peaks.speed, at), rel=1e-12)
-    for speed, amplitude in zip(peaks.speed, peaks.amplitude, strict=True):
-        near = size_of(machine, speed + np.linspace(-1, 1, 2001) * (sweep[1] - sweep[0]), at)
-        assert near.max() <= amplitude * (1 + 1e-10)
-    # As the documentation says, to 1e-6 of the spacing: found again with another spacing.
-    other = response_peaks(machine, np.linspace(500 * RPM, 20000 * RPM, 431), at=at)
-    assert other.speed == pytest.approx(peaks.speed, abs=2e-6 * (sweep[1] - sweep[0]))
-
-
-def test_no_peak_is_left_out():
-    machine = with_rotor(shaft_stiffness=1e7)
-    sweep = np.linspace(500 * RPM, 20000 * RPM, 400)
-    size = size_of(machine, sweep, "disk")
-    tops = np.flatnonzero((size[1:-1] > size[:-2]) & (size[1:-1] > size[2:])) + 1
-    peaks = response_peaks(machine, sweep)
-    assert peaks.speed == pytest.approx(sweep[tops], abs=sweep[1] - sweep[0])
-
-
-def test_several_rotors_at_once_have_each_its_own_response_and_peaks():
-    rotors = list(ROTORS.values())
-    sweep = np.linspace(500 * RPM, 20000 * RPM, 400)
-    state = equilibrium(SHEET, sweep)
-    pair = synchronous_response(Rotors.of(rotors), state.stiffness, state.damping, sweep)
-    sizes, peaks = orbit_sizes(*pair), []
-    for i, rotor in enumerate(rotors):
-        alone = replace(SHEET, rotor=rotor)
-        for of_all, of_one in zip(pair, response(alone, sweep), strict=True):
-            assert np.array_equal(of_all[i], of_one)
-        for at, size in zip(("disk", "journal"), sizes, strict=True):
-            assert size[i] == pytest.approx(size_of(alone, sweep, at), rel=4 * EPS)
-        peaks += [*response_peaks(alone, sweep).speed]
-    assert len(peaks) > 2
-    found = disk_peak_speeds(SHEET, Rotors.of(rotors), sweep, sizes[0])
-    assert found == pytest.approx(np.array(peaks), rel=1e-9)
-
-
-def test_a_sweep_without_a_peak_has_none():
-    peaks = response_peaks(SHEET, np.linspace(10.0, 100.0, 50))
-    assert peaks.speed.shape == peaks.amplitude.shape == (0,)
-
-
-def test_a_peak_of_something_else_is_refused():
-    with pytest.raises(ValueError, match="at = 'shaft'"):
-        response_peaks(SHEET, np.linspace(10.0, 100.0, 50), at="shaft")
 
 
 @given(machines(stiffness=BENDING), st.floats(0.2, 3))

@@ -43,7 +43,7 @@ from rotorcalc.unbalance_curves import (
     response_curves,
     response_family,
 )
-from rotorcalc.unbalance_response import ResponsePeaks, both_peaks
+from rotorcalc.unbalance_peaks import ResponsePeaks, both_peaks
 from ui.inputs import Values, machine_of, speeds_of
 
 # Points of a sweep: enough for a smooth line across a projector.
@@ -281,9 +281,7 @@ def _onset(machine: Machine, flexible: bool) -> Onset:
 
 @lru_cache(maxsize=64)
 def _peaks(machine: Machine, top_speed: float) -> tuple[ResponsePeaks, ResponsePeaks]:
-    sweep = _sweep(machine, top_speed)
-    known = sweep.disk_response, sweep.journal_response
-    return both_peaks(machine, sweep.speed, responses=known)
+    return both_peaks(_sweep(machine, top_speed))
 
 
 @lru_cache(maxsize=32)

@@ -22,7 +22,7 @@ from rotorcalc.unbalance_curves import (
     ResponseCurves,
     ResponseFamily,
 )
-from rotorcalc.unbalance_response import ResponsePeaks
+from rotorcalc.unbalance_peaks import ResponsePeaks
 from rotorcalc.units import Unit, Units
 
 _HEIGHT = 470

@@ -23,7 +23,8 @@ from rotorcalc.unbalance_curves import (
     response_family,
     unstable_ranges,
 )
-from rotorcalc.unbalance_response import orbit_ellipse, orbit_points, response_peaks
+from rotorcalc.unbalance_peaks import response_peaks
+from rotorcalc.unbalance_response import orbit_ellipse, orbit_points
 from tests.machines import machines
 
 SHEET = PRESETS["sheet-1e8"].machine

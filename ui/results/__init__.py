@@ -12,7 +12,8 @@ import streamlit as st
 
 from rotorcalc import analyse, modes
 from rotorcalc.onset import closed_form
-from rotorcalc.unbalance_response import ResponsePeaks, orbit_ellipse
+from rotorcalc.unbalance_peaks import ResponsePeaks
+from rotorcalc.unbalance_response import orbit_ellipse
 from rotorcalc.units import Unit, Units
 from ui.computed import Computed
 

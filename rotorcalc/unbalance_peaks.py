@@ -1,0 +1,250 @@
+"""Peaks of the response to imbalance over speed, however narrow.
+
+A mode of the free motion that turns at the running speed answers the imbalance in resonance, over a
+band as wide as it decays: |Re λ| where |Im λ| = Ω. With light damping that is a millionth of what
+lies between two speeds of a sweep. So each such crossing is sought along the eigenvalues, the sweep
+is made denser around it, and the maxima of the denser sweep are sought to the last digit. A peak
+that no crossing belongs to is wide, and a maximum of the sweep as it is.
+
+Source: San Andrés, Notes 5, Eq. 5.38, as in `unbalance_response`.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rotorcalc import modes
+from rotorcalc.analysis import Sweep, analyse
+from rotorcalc.arrays import Array, BoolArray, ComplexArray, IntArray
+from rotorcalc.coefficients import stiffness_and_damping
+from rotorcalc.display import Result
+from rotorcalc.machine import Machine, Rotor
+from rotorcalc.unbalance_response import Rotors, orbit_sizes, synchronous_response
+
+# The film's synchronous stiffness and damping over speed, each (n, 2, 2).
+_Film: TypeAlias = tuple[Array, Array]
+
+# Speeds of a sweep at which eigenvalues are asked, evenly by their ratio: between two of them a
+# mode's frequency crosses the running speed once or not at all.
+_ASKED = 16
+# A resonance wider than so many spacings of the sweep needs none of this.
+_WIDE = 4.0
+# A crossing is known where the frequency is off by this share of |Re λ|, or to rounding.
+_CLOSE, _ROUNDING = 0.1, 1e-14
+# Speeds around a crossing, in |Re λ|: two modes close together move their peaks by a few.
+_AROUND = 16.0 * np.sinh(np.linspace(-4.0, 4.0, 33)) / np.sinh(4.0)
+# The search for a peak: zooms, each into this many points.
+_ZOOMS, _ZOOM_POINTS = 2, 65
+
+
+@dataclass(frozen=True, eq=False)
+class ResponsePeaks(Result):
+    """Local maxima of an orbit's size over speed, each field of shape (peaks,).
+
+    Attributes
+    ----------
+    speed : array
+        Running speed, Ω [rad/s].
+    amplitude : array
+        Semi-major axis of the orbit [m].
+    """
+
+    speed: Array
+    amplitude: Array
+
+
+def response_peaks(machine: Machine, speed: ArrayLike, *, at: str = "disk") -> ResponsePeaks:
+    """Return the speeds at which the orbit is largest: local maxima of its semi-major axis.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : array_like, (n,)
+        Rising speeds, Ω [rad/s]; a peak lies within them. A resonance is found however narrow, a
+        wide maximum where the speeds show it.
+    at : str
+        Whose orbit, "disk" or "journal".
+
+    Returns
+    -------
+    ResponsePeaks
+        Speeds and amplitudes, the speeds to 1e-6 of the spacing.
+
+    Raises
+    ------
+    ValueError
+        Where `at` is neither, a speed is not positive and finite, or they do not rise.
+    """
+    if at not in ("disk", "journal"):
+        raise ValueError(f"at = {at!r}: must be 'disk' or 'journal'")
+    disk, journal = both_peaks(analyse(machine, speed))
+    return disk if at == "disk" else journal
+
+
+def both_peaks(sweep: Sweep) -> tuple[ResponsePeaks, ResponsePeaks]:
+    """Return the peaks of the disk's response and of the journals', found in one search.
+
+    Parameters
+    ----------
+    sweep : Sweep
+        A machine over rising speeds, (n,).
+
+    Returns
+    -------
+    disk, journal : ResponsePeaks
+        As `response_peaks` gives them.
+
+    Raises
+    ------
+    ValueError
+        Where the speeds do not rise.
+    """
+    machine, rotor, speed = sweep.machine, sweep.machine.rotor, sweep.speed
+    _check_rising(speed)
+    near = _near_resonances(machine, rotor, speed, (sweep.stiffness, sweep.damping))
+    known = orbit_sizes(sweep.disk_response, sweep.journal_response)
+    dense, size = _denser(speed, known, near, lambda more: _orbit_sizes(machine, rotor, more))
+    body, place = np.nonzero(_is_peak(size))
+    if not len(body):
+        none = ResponsePeaks(speed=np.empty(0), amplitude=np.empty(0))
+        return none, none
+    tops = _tops(machine, rotor, body, dense[place], dense[place + 2])
+    sizes = _orbit_sizes(machine, rotor, tops)
+    disk, journal = (
+        ResponsePeaks(speed=tops[body == i], amplitude=sizes[i, body == i]) for i in (0, 1)
+    )
+    return disk, journal
+
+
+def disk_peak_speeds(
+    machine: Machine, rotors: Sequence[Rotor], speed: Array, film: _Film, size: Array
+) -> Array:
+    """Return the speeds of all peaks of several rotors' disks in one machine's bearings.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; its own rotor counts by its load only.
+    rotors : sequence of Rotor
+        The m rotors.
+    speed : array, (n,)
+        Rising speeds, Ω [rad/s].
+    film : pair of arrays, (n, 2, 2)
+        The film's K [N/m] and C [N·s/m] at these speeds.
+    size : array, (m, n)
+        Semi-major axes of the disks' orbits at these speeds.
+
+    Returns
+    -------
+    array, (peaks,)
+        As `response_peaks` gives them, the first rotor's first [rad/s].
+    """
+    group = Rotors.of(rotors)
+    near = np.concatenate([_near_resonances(machine, rotor, speed, film) for rotor in rotors])
+    dense, sizes = _denser(speed, size, near, lambda more: _orbit_sizes(machine, group, more)[0])
+    which, place = np.nonzero(_is_peak(sizes))
+    if not len(which):
+        return np.empty(0)
+    disk = np.zeros_like(which)
+    return _tops(machine, group.at(which), disk, dense[place], dense[place + 2])
+
+
+def _near_resonances(machine: Machine, rotor: Rotor, speed: Array, film: _Film) -> Array:
+    """Return speeds within a sweep around each narrow resonance of a rotor."""
+    crossing, width = _resonances(machine, rotor, speed, film)
+    near = (crossing[:, None] + width[:, None] * _AROUND).ravel()
+    return near[(near > speed[0]) & (near < speed[-1])]
+
+
+def _resonances(machine: Machine, rotor: Rotor, speed: Array, film: _Film) -> tuple[Array, Array]:
+    """Return the speeds Ω = |Im λ| of narrow resonances within a sweep, and their |Re λ|.
+
+    The jth smallest frequency is a continuous function of speed, whichever mode it belongs to, so
+    no mode has to be followed: regula falsi on it, and halving, in turns.
+    """
+    ratio = np.linspace(0.0, 1.0, _ASKED)
+    evenly: Array = speed[0] * (speed[-1] / speed[0]) ** ratio
+    asked = np.unique(np.searchsorted(speed[:-1], evenly))
+    places, values = speed[asked], _by_frequency(rotor, film[0][asked], film[1][asked])
+    above = values.imag - places[:, None]
+    i, j = np.nonzero((above[:-1] > 0.0) != (above[1:] > 0.0))
+    width = np.minimum(np.abs(values.real[i, j]), np.abs(values.real[i + 1, j]))
+    narrow = width < _WIDE * np.diff(speed).max()
+    i, j, width = i[narrow], j[narrow], width[narrow]
+    low, high, at_low, at_high = places[i], places[i + 1], above[i, j], above[i + 1, j]
+    middle, row, turn = low, np.arange(len(i)), 0
+    while len(i):
+        share = 0.5 if turn % 2 else at_low / (at_low - at_high)
+        middle = low + share * (high - low)
+        here = _by_frequency(rotor, *stiffness_and_damping(machine, middle))[row, j]
+        error, width = here.imag - middle, np.minimum(width, np.abs(here.real))
+        if np.all((np.abs(error) <= _CLOSE * width) | (high - low <= _ROUNDING * high)):
+            return middle, np.abs(here.real)
+        left = (error > 0.0) == (at_low > 0.0)
+        low, at_low = np.where(left, middle, low), np.where(left, error, at_low)
+        high, at_high = np.where(left, high, middle), np.where(left, at_high, error)
+        turn += 1
+    return middle, width
+
+
+def _by_frequency(rotor: Rotor, K: Array, C: Array) -> ComplexArray:
+    """Return the eigenvalues by rising frequency, (..., n/2), one of each conjugate pair.
+
+    With the synchronous coefficients: where a frequency is the running speed they are its own.
+    """
+    values = modes.eigenvalues(rotor, K, C)
+    order = np.argsort(values.imag, axis=-1)[..., values.shape[-1] // 2 :]
+    return np.take_along_axis(values, order, axis=-1)
+
+
+def _denser(
+    speed: Array, size: Array, near: Array, sizes: Callable[[Array], Array]
+) -> tuple[Array, Array]:
+    """Return a sweep's speeds, (n,), and sizes, (m, n), with those at more speeds put in."""
+    if not len(near):
+        return speed, size
+    dense, order = np.unique(np.concatenate([speed, near]), return_index=True)
+    return dense, np.concatenate([size, sizes(near)], axis=-1)[:, order]
+
+
+def _check_rising(speed: Array) -> None:
+    if speed.ndim != 1 or len(speed) < 2 or not np.all(np.diff(speed) > 0.0):
+        raise ValueError(
+            "speed: must be two or more speeds that rise from one to the next, has the shape "
+            f"{speed.shape}"
+        )
+
+
+def _orbit_sizes(machine: Machine, rotor: Rotor | Rotors, speed: Array) -> Array:
+    K, C = stiffness_and_damping(machine, speed)
+    return orbit_sizes(*synchronous_response(rotor, K, C, speed))
+
+
+def _is_peak(size: Array) -> BoolArray:
+    return (size[:, 1:-1] > size[:, :-2]) & (size[:, 1:-1] >= size[:, 2:])
+
+
+def _tops(
+    machine: Machine, rotor: Rotor | Rotors, body: IntArray, low: Array, high: Array
+) -> Array:
+    """Return the speeds of the peaks between two speeds each, all at once.
+
+    `body` is 0 for a peak of the disk, 1 for one of the journal. A zoom goes into the two intervals
+    beside the largest value; a parabola does the rest, for more zooms would lose the flat top in
+    rounding errors.
+    """
+    columns = np.arange(len(low))
+    before = largest = after = np.zeros(len(low))
+    for _ in range(_ZOOMS):
+        grid = np.linspace(low, high, _ZOOM_POINTS)
+        size = _orbit_sizes(machine, rotor, grid)[body, :, columns].T
+        top = size[1:-1].argmax(axis=0) + 1
+        low, high = grid[top - 1, columns], grid[top + 1, columns]
+        before, largest, after = (size[top + step, columns] for step in (-1, 0, 1))
+    bend = before - 2.0 * largest + after
+    shift = (before - after) / np.where(bend < 0.0, bend, -np.inf) / 2.0
+    return (low + high) / 2.0 + shift * (high - low) / 2.0
