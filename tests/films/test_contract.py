@@ -1,0 +1,189 @@
+"""What every film model keeps, whatever its bore: the seam's contract, over all models."""
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rotorcalc import Machine, analyse
+from rotorcalc.coefficients import dynamics, equilibrium, stiffness_and_damping
+from rotorcalc.films import FilmMotion, FilmUnits, film_of, reduced
+from tests.films.models import BEARINGS, Preloaded, Ringed, Sprung, points
+from tests.machines import SHEET, log_uniform
+
+ALL = pytest.mark.parametrize("bearing", BEARINGS.values(), ids=list(BEARINGS))
+SIGMA = np.array([0.2, 0.5, 1.0, 4.0, 30.0])
+STEP = 1e-6
+
+
+def machine_on(bearing, **changes):
+    return replace(SHEET, bearing=bearing, **changes)
+
+
+def journal_force(film, at, place, velocity, inner=()):
+    """Return the film's force on the journal in film units, inner states given."""
+    motion = film.motion()
+    if isinstance(motion, FilmMotion):
+        return np.array(motion.force(*place, *velocity))
+    f_x, f_y, _ = motion.force(
+        (*place, *velocity), list(inner), float(at.viscosity), float(at.speed)
+    )
+    return np.array([f_x, f_y])
+
+
+def resting(film, at):
+    motion = film.motion()
+    return () if isinstance(motion, FilmMotion) else motion.rest(at).tolist()
+
+
+@ALL
+@pytest.mark.parametrize("sigma", SIGMA)
+def test_at_rest_the_film_carries_the_load_and_nothing_else(bearing, sigma):
+    film, at = film_of(bearing), points(bearing, sigma)
+    place = film.state(at).position
+    inner = resting(film, at)
+    force = journal_force(film, at, place.tolist(), (0.0, 0.0), inner)
+    assert force == pytest.approx([-0.25 / sigma, 0.0], abs=1e-9 * 0.25 / sigma)
+
+
+@ALL
+@pytest.mark.parametrize("sigma", SIGMA)
+def test_inner_states_rest_in_equilibrium(bearing, sigma):
+    film, at = film_of(bearing), points(bearing, sigma)
+    motion = film.motion()
+    if isinstance(motion, FilmMotion):
+        assert film.inner == 0
+        return
+    rest = motion.rest(at).tolist()
+    assert len(rest) == motion.states
+    place = film.state(at).position.tolist()
+    *_, rates = motion.force((*place, 0.0, 0.0), rest, float(at.viscosity), float(at.speed))
+    assert rates == pytest.approx([0.0] * motion.states, abs=1e-8)
+
+
+@pytest.mark.parametrize("name", [name for name in BEARINGS if name != "ringed"])
+def test_stiffness_and_damping_are_the_derivatives_of_the_force(name):
+    """A massless ring cannot be held while the journal moves; its series is tested below."""
+    bearing = BEARINGS[name]
+    film, at = film_of(bearing), points(bearing, 0.7)
+    found = film.dynamics(at)
+    rest, inner = film.state(at).position, resting(film, at)
+    for j in (0, 1):
+        step = STEP * np.eye(2)[j]
+        ahead, behind = (
+            journal_force(film, at, (rest + s * step).tolist(), (0.0, 0.0), inner) for s in (1, -1)
+        )
+        assert -(ahead - behind) / (2 * STEP) == pytest.approx(
+            found.stiffness[:2, j], rel=1e-6, abs=1e-6
+        )
+        ahead, behind = (
+            journal_force(film, at, rest.tolist(), (s * step).tolist(), inner) for s in (1, -1)
+        )
+        assert -(ahead - behind) / (2 * STEP) == pytest.approx(
+            found.damping[:2, j], rel=1e-6, abs=1e-6
+        )
+
+
+@pytest.mark.parametrize("mass", [0.0, 1.5])
+def test_a_ring_is_two_films_in_series(mass):
+    bearing = replace(BEARINGS["ringed"], geometry=Ringed(ring_mass=mass))
+    found = dynamics(machine_on(bearing), 600.0)
+    omega = np.array([150.0, 300.0, 600.0])
+    K, C = reduced(replace_leading(found, 3), omega)
+    for i, w in enumerate(omega):
+        Z = found.stiffness + 1j * w * found.damping
+        inside = -Z[:2, 2:]
+        outside = Z[2:, 2:] - inside - w**2 * mass * np.eye(2)
+        series = np.linalg.inv(np.linalg.inv(inside) + np.linalg.inv(outside))
+        assert K[i] + 1j * w * C[i] == pytest.approx(series, rel=1e-10)
+
+
+def replace_leading(found, count):
+    """Return dynamics repeated over a leading axis."""
+    return replace(
+        found,
+        stiffness=np.broadcast_to(found.stiffness, (count, *found.stiffness.shape)),
+        damping=np.broadcast_to(found.damping, (count, *found.damping.shape)),
+    )
+
+
+@ALL
+def test_the_state_is_synchronous(bearing):
+    machine, speed = machine_on(bearing), np.array([300.0, 600.0, 1200.0])
+    state = equilibrium(machine, speed)
+    K, C = stiffness_and_damping(machine, speed)
+    assert state.stiffness == pytest.approx(K, rel=1e-10)
+    assert state.damping == pytest.approx(C, rel=1e-10)
+
+
+@ALL
+@given(st.floats(-10.0, 10.0))
+def test_the_gap_closes_on_the_outline(bearing, angle):
+    film = film_of(bearing)
+    edge = film.outline(np.array(angle))
+    assert float(film.gap(edge)) == pytest.approx(0.0, abs=1e-12)
+    assert math.atan2(edge[1], edge[0]) == pytest.approx(
+        math.remainder(angle, 2 * math.pi), abs=1e-9
+    )
+    assert float(film.gap(0.5 * edge)) > 0.0
+
+
+@ALL
+def test_a_journal_at_rest_keeps_off_the_wall(bearing):
+    film = film_of(bearing)
+    state = film.state(points(bearing, SIGMA))
+    assert np.all(film.gap(state.position) > 0.0)
+
+
+@ALL
+def test_arrays_of_points_answer_as_each_alone(bearing):
+    film = film_of(bearing)
+    sigma = SIGMA[:4].reshape(2, 2)
+    whole = film.dynamics(points(bearing, sigma))
+    assert whole.stiffness.shape == (2, 2, 2 + film.inner, 2 + film.inner)
+    alone = film.dynamics(points(bearing, sigma[1, 0]))
+    assert whole.stiffness[1, 0] == pytest.approx(alone.stiffness, rel=1e-10)
+    assert whole.damping[1, 0] == pytest.approx(alone.damping, rel=1e-10)
+    assert film.state(points(bearing, sigma)).position.shape == (2, 2, 2)
+
+
+@ALL
+def test_without_load_the_film_has_a_place_and_finite_coefficients(bearing):
+    sweep = analyse(machine_on(bearing, load=0.0), np.array([300.0, 600.0]))
+    assert np.all(np.isfinite(sweep.journal_position))
+    assert np.all(np.isfinite(sweep.stiffness))
+
+
+@ALL
+def test_a_machine_keeps_its_bearing_in_json(bearing):
+    machine = machine_on(bearing)
+    back = Machine.from_json(machine.to_json())
+    assert back == machine
+    assert hash(back) == hash(machine)
+
+
+@pytest.mark.parametrize("geometry", [Sprung(stiffness=3.0), Preloaded(), Ringed(ring_mass=2.0)])
+def test_a_geometry_is_written_by_its_kind_and_what_differs_from_its_default(geometry):
+    machine = machine_on(replace(SHEET.bearing, geometry=geometry))
+    tree = json.loads(machine.to_json())["bearing"]["geometry"]
+    assert tree.pop("type") == geometry.kind
+    assert tree == {
+        name: value
+        for name, value in vars(geometry).items()
+        if value != getattr(type(geometry), name)
+    }
+
+
+@given(log_uniform(1e-6, 1e3), log_uniform(1e-6, 1e6))
+def test_the_units_fit_together(viscosity, speed):
+    units = FilmUnits(SHEET.bearing, viscosity, speed)
+    C, R, L = SHEET.bearing.radial_clearance, SHEET.bearing.radius, SHEET.bearing.length
+    assert units.stiffness * C == pytest.approx(units.force)
+    assert units.damping * speed == pytest.approx(units.stiffness)
+    assert units.pressure * R * L == pytest.approx(units.force)
+    assert units.torque * L**2 == pytest.approx(units.force * R**2 * C)
+    assert units.flow == pytest.approx(speed * R * L * C)
