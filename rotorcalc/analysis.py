@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotorcalc import modes
+from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.display import Result
@@ -106,6 +107,7 @@ class Sweep(Result):
         return modes.eigenvalues(rotor, self.stiffness, self.damping)
 
 
+@checked
 def analyse(machine: Machine, speed: ArrayLike) -> Sweep:
     """Return the whole calculation sheet of a machine over running speed.
 
@@ -175,6 +177,7 @@ class FilmCurves(Result):
     onset: WhirlOnset
 
 
+@checked
 def film_curves(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmCurves:
     """Return what the notes draw against the modified Sommerfeld number, for one bearing.
 
@@ -223,6 +226,7 @@ class ForceCoefficients(Result):
     equivalent_stiffness: Array
 
 
+@checked
 def force_coefficients(source: Sweep | FilmCurves, *, axes: Axes) -> ForceCoefficients:
     """Return force coefficients in the load's frame, X and Y, or in that of the line of centres.
 

@@ -1,7 +1,7 @@
 """The array types of the package's signatures, how input becomes one, how an error shows it."""
 
 import reprlib
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,18 +12,33 @@ BoolArray: TypeAlias = NDArray[np.bool_]
 IntArray: TypeAlias = NDArray[np.intp]
 
 
-def real_array(name: str, values: ArrayLike) -> Array:
+def real_array(name: str, values: ArrayLike, *, ends: tuple[int, ...] = ()) -> Array:
     """Return `values` as an array of floats, or raise ValueError naming what they are.
 
-    NumPy alone would read "6000", True and None as numbers.
+    NumPy alone would read "6000", True and None as numbers. `ends` is the shape of each value, (2,)
+    of vectors and (2, 2) of matrices.
     """
+    if type(values) is np.ndarray and values.dtype == np.float64 and not ends:
+        return values  # as most are, sooner
+    return _numbers(name, values, "fiu", ends).astype(float, copy=False)
+
+
+def complex_array(name: str, values: ArrayLike, *, ends: tuple[int, ...] = ()) -> ComplexArray:
+    """Return `values` as an array of complex numbers, or raise ValueError as `real_array` does."""
+    return _numbers(name, values, "fiuc", ends).astype(complex, copy=False)
+
+
+def _numbers(name: str, values: ArrayLike, kinds: str, ends: tuple[int, ...]) -> NDArray[Any]:
     try:
         array = np.asarray(values)
     except ValueError as error:  # rows of different lengths
         raise ValueError(f"{name} = {shown(values)}: must be an array of numbers") from error
-    if array.dtype.kind not in "fiu" and array.size > 0:
+    if array.dtype.kind not in kinds and array.size > 0:
         raise ValueError(f"{name} = {shown(values)}: must be a number or an array of numbers")
-    return array.astype(float, copy=False)
+    if ends and array.shape[-len(ends) :] != ends:
+        shape = ", ".join(map(str, ends))
+        raise ValueError(f"{name}: must have the shape (..., {shape}), has {array.shape}")
+    return array
 
 
 def real_number(name: str, value: ArrayLike) -> float:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, real_array
 from rotorcalc.display import Result
 from rotorcalc.films import (
@@ -164,6 +165,7 @@ class Unloading(Result):
     whirl_damping: Array
 
 
+@checked
 def equilibrium(machine: Machine, speed: ArrayLike) -> Equilibrium:
     """Return the static equilibrium of a machine's bearing and its force coefficients.
 
@@ -205,6 +207,7 @@ def equilibrium(machine: Machine, speed: ArrayLike) -> Equilibrium:
     )
 
 
+@checked
 def operating_points(machine: Machine, speed: ArrayLike) -> OperatingPoints:
     """Return where a machine's film is asked.
 
@@ -233,6 +236,7 @@ def operating_points(machine: Machine, speed: ArrayLike) -> OperatingPoints:
     )
 
 
+@checked
 def dynamics(machine: Machine, speed: ArrayLike) -> FilmDynamics:
     """Return the film's linear forces in static equilibrium, inner coordinates included.
 
@@ -263,6 +267,7 @@ def dynamics(machine: Machine, speed: ArrayLike) -> FilmDynamics:
     )
 
 
+@checked
 def stiffness_and_damping(machine: Machine, speed: ArrayLike) -> tuple[Array, Array]:
     """Return the force coefficients of a machine's film in static equilibrium.
 
@@ -287,6 +292,7 @@ def stiffness_and_damping(machine: Machine, speed: ArrayLike) -> tuple[Array, Ar
     return reduced(dynamics(machine, speed), checked_speed(speed))
 
 
+@checked
 def film_field(
     machine: Machine, speed: float, *, theta: ArrayLike, zeta: ArrayLike = (0.0,)
 ) -> PressureField:
@@ -333,6 +339,7 @@ def film_field(
     )
 
 
+@checked
 def film_forces(machine: Machine, speed: ArrayLike, *, sommerfeld: ArrayLike) -> FilmForces:
     """Return the static forces of a machine's film wherever its journal may sit (Eq. 5.5).
 
@@ -366,6 +373,7 @@ def film_forces(machine: Machine, speed: ArrayLike, *, sommerfeld: ArrayLike) ->
     )
 
 
+@checked
 def added_mass(machine: Machine, speed: ArrayLike, *, factor: float = LAMINAR) -> AddedMass:
     """Return the film's added mass in static equilibrium, M_ij = α_m ρRL³/(12C)·I_ij.
 
@@ -404,6 +412,7 @@ def added_mass(machine: Machine, speed: ArrayLike, *, factor: float = LAMINAR) -
     )
 
 
+@checked
 def unloading(machine: Machine, speed: float, *, sommerfeld: ArrayLike) -> Unloading:
     """Return how the film's coefficients change as the load is taken off (Eqs. 5.36 and 5.37).
 
@@ -436,6 +445,7 @@ def unloading(machine: Machine, speed: float, *, sommerfeld: ArrayLike) -> Unloa
     )
 
 
+@checked
 def modified_sommerfeld(machine: Machine, speed: ArrayLike) -> Array:
     """Return the modified Sommerfeld number, σ = μΩLR/(4F_o)·(L/C)² (Eq. 5.8).
 

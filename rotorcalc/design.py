@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.optimize import brentq, minimize_scalar
 
+from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine
@@ -142,6 +143,7 @@ class OnsetSolution(Result):
         return float(self.onset.min()), float(self.onset.max())
 
 
+@checked
 def onset_map(  # noqa: PLR0913 - two axes, each a name and its values
     machine: Machine,
     *,
@@ -191,6 +193,7 @@ def onset_map(  # noqa: PLR0913 - two axes, each a name and its values
     return OnsetMap(x=x, y=y, xs=xs, ys=ys, speed=speed)
 
 
+@checked
 def sensitivities(
     machine: Machine, *, share: float = 0.10, inputs: Iterable[str] = INPUTS
 ) -> Sensitivities:
@@ -235,6 +238,7 @@ def sensitivities(
     )
 
 
+@checked
 def solve_onset(
     machine: Machine, *, vary: str, target: float, low: float, high: float
 ) -> OnsetSolution:

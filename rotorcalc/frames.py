@@ -7,7 +7,7 @@ centres, at the attitude angle φ from X, and t at +90° from r. Source: notes, 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotorcalc.arrays import Array
+from rotorcalc.arrays import Array, real_array
 
 
 def matrix(xx: ArrayLike, xy: ArrayLike, yx: ArrayLike, yy: ArrayLike) -> Array:
@@ -24,15 +24,15 @@ def matrix(xx: ArrayLike, xy: ArrayLike, yx: ArrayLike, yy: ArrayLike) -> Array:
         The matrices.
     """
     matrices = np.empty((*np.broadcast(xx, xy, yx, yy).shape, 2, 2))
-    matrices[..., 0, 0], matrices[..., 0, 1] = xx, xy
-    matrices[..., 1, 0], matrices[..., 1, 1] = yx, yy
+    matrices[..., 0, 0], matrices[..., 0, 1] = real_array("xx", xx), real_array("xy", xy)
+    matrices[..., 1, 0], matrices[..., 1, 1] = real_array("yx", yx), real_array("yy", yy)
     return matrices
 
 
 def vector(x: ArrayLike, y: ArrayLike) -> Array:
     """Return the vectors (x, y), shape (..., 2), from their components, shape (...)."""
     vectors = np.empty((*np.broadcast(x, y).shape, 2))
-    vectors[..., 0], vectors[..., 1] = x, y
+    vectors[..., 0], vectors[..., 1] = real_array("x", x), real_array("y", y)
     return vectors
 
 
@@ -51,6 +51,7 @@ def rotate(coefficients: ArrayLike, angle: ArrayLike) -> Array:
     array, (..., 2, 2)
         The same in (X, Y): Q K Qᵀ with Q of Eq. 5.11.
     """
-    cos, sin = np.cos(angle), np.sin(angle)
+    phi = real_array("angle", angle)
+    cos, sin = np.cos(phi), np.sin(phi)
     Q = matrix(cos, -sin, sin, cos)
-    return Q @ np.asarray(coefficients, dtype=float) @ Q.swapaxes(-1, -2)
+    return Q @ real_array("coefficients", coefficients, ends=(2, 2)) @ Q.swapaxes(-1, -2)

@@ -8,18 +8,22 @@ that they serve as keys of a cache, and each checks its values once, when it is 
 import json
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Annotated, Any, Self, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.constants import g, zero_Celsius
 
-from rotorcalc.arrays import Array, shown
+from rotorcalc.arrays import Array, real_array, shown
 from rotorcalc.geometry import Geometry, Plain
 from rotorcalc.records import Bound, Choice, Record, from_tree, parsed, to_tree
 
 FORMAT_VERSION = 2
 _PLAIN = Plain()
+# The widest clearance over the radius: bearings have 0.0005 to 0.005, and Reynolds' equation holds
+# for films that are thin beside the radius.
+_WIDEST = 0.1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,6 +66,11 @@ class Oil(Record):
         array, (...)
             Viscosity, μ [Pa·s].
 
+        Raises
+        ------
+        ValueError
+            Where a temperature is no finite number.
+
         Examples
         --------
         >>> oil = Oil(
@@ -70,7 +79,10 @@ class Oil(Record):
         >>> float(oil.viscosity(50.0))
         0.02
         """
-        rise = np.asarray(temperature, dtype=float) - self.reference_temperature
+        T = real_array("temperature", temperature)
+        if not np.all(np.isfinite(T)):
+            raise ValueError(f"temperature = {shown(temperature)} °C: must be finite")
+        rise = T - self.reference_temperature
         return self.reference_viscosity * np.exp(-self.temperature_coefficient * rise)
 
 
@@ -111,6 +123,15 @@ class JournalBearing(Record):
             raise ValueError(
                 f"film = {self.film!r}: a bearing of kind {self.geometry.kind!r} has the film "
                 f"model {' or '.join(map(repr, self.geometry.models))}"
+            )
+        self._check_clearance()
+
+    def _check_clearance(self) -> None:
+        C, most = self.radial_clearance, _WIDEST * self.radius
+        if most < C:
+            raise ValueError(
+                f"radial_clearance = {C:.6g} m ({C * 1e6:.6g} µm): must be at most a tenth of the "
+                f"radius, {most:.6g} m ({most * 1e6:.6g} µm); lengths are in metres, 1 µm is 1e-6"
             )
 
     @property
@@ -218,7 +239,7 @@ class Machine(Record):
                 f"{viscosity} Pa·s, must be positive and finite"
             )
 
-    @property
+    @cached_property
     def viscosity(self) -> float:
         """Viscosity of the oil in the film, μ [Pa·s]."""
         return float(self.oil.viscosity(self.temperature))

@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linear_sum_assignment
 
-from rotorcalc.arrays import Array, BoolArray, ComplexArray
+from rotorcalc.arguments import checked
+from rotorcalc.arrays import Array, BoolArray, ComplexArray, complex_array, real_array
 from rotorcalc.display import Result
 from rotorcalc.machine import Rotor
 
@@ -62,6 +63,7 @@ class ModeShapes(Result):
         )
 
 
+@checked
 def state_matrix(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> Array:
     """Return the matrix A of the free motion, q̇ = A q.
 
@@ -88,6 +90,7 @@ def state_matrix(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> 
     return _massless_journals(rotor, K, C)
 
 
+@checked
 def eigenvalues(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> ComplexArray:
     """Return the eigenvalues λ of the free motion e^{λt}.
 
@@ -108,6 +111,7 @@ def eigenvalues(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> C
     return np.linalg.eigvals(state_matrix(rotor, K, C, flexible=flexible)).astype(complex)
 
 
+@checked
 def mode_shapes(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> ModeShapes:
     """Return the eigenvalues of the free motion with the shapes of its modes.
 
@@ -140,6 +144,7 @@ def mode_shapes(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> M
     )
 
 
+@checked
 def refined_eigenvalues(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> ComplexArray:
     """Return the eigenvalues λ of the free motion, each to a rounding error of its own.
 
@@ -181,6 +186,7 @@ def refined_eigenvalues(rotor: Rotor, K: Array, C: Array, *, flexible: bool = Tr
         return np.where(np.abs(step) <= _SETTLED * np.abs(values), values, np.nan)
 
 
+@checked
 def characteristic_polynomial(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> Array:
     """Return the polynomial in λ whose roots are the eigenvalues of the free motion.
 
@@ -230,12 +236,12 @@ def rotor_terms(rotor: Rotor, *, flexible: bool = True) -> Array:
 
 def damped_frequency(eigenvalue: ArrayLike) -> Array:
     """Return the frequency of a mode, ω_d = |Im λ| [rad/s], shape (...) of `eigenvalue` [1/s]."""
-    return np.abs(np.imag(eigenvalue))
+    return np.abs(complex_array("eigenvalue", eigenvalue).imag)
 
 
 def natural_frequency(eigenvalue: ArrayLike) -> Array:
     """Return the natural frequency, ω_n = |λ| [rad/s], shape (...) of `eigenvalue` [1/s]."""
-    return np.abs(np.asarray(eigenvalue))
+    return np.abs(complex_array("eigenvalue", eigenvalue))
 
 
 def damping_ratio(eigenvalue: ArrayLike) -> Array:
@@ -251,7 +257,8 @@ def damping_ratio(eigenvalue: ArrayLike) -> Array:
     array, (...)
         ζ; negative where the mode grows, ±1 where it does not oscillate.
     """
-    return -np.real(eigenvalue) / np.abs(eigenvalue)
+    lam = complex_array("eigenvalue", eigenvalue)
+    return -lam.real / np.abs(lam)
 
 
 def logarithmic_decrement(eigenvalue: ArrayLike) -> Array:
@@ -267,8 +274,9 @@ def logarithmic_decrement(eigenvalue: ArrayLike) -> Array:
     array, (...)
         Logarithm of the ratio of successive amplitudes; infinite where the mode does not oscillate.
     """
+    lam = complex_array("eigenvalue", eigenvalue)
     with np.errstate(divide="ignore"):
-        return -2.0 * np.pi * np.real(eigenvalue) / np.abs(np.imag(eigenvalue))
+        return -2.0 * np.pi * lam.real / np.abs(lam.imag)
 
 
 def undamped_frequency(stiffness: ArrayLike, mass: ArrayLike) -> Array:
@@ -289,7 +297,7 @@ def undamped_frequency(stiffness: ArrayLike, mass: ArrayLike) -> Array:
     array, (...)
         ω [rad/s]; not a number where the stiffness is negative.
     """
-    ratio = np.asarray(stiffness, dtype=float) / np.asarray(mass, dtype=float)
+    ratio = real_array("stiffness", stiffness) / real_array("mass", mass)
     return np.sqrt(np.where(ratio < 0.0, np.nan, ratio))
 
 
@@ -310,7 +318,9 @@ def follow_branches(eigenvalues: ArrayLike) -> ComplexArray:
     complex array, (n, m)
         The same values, each row reordered. The first row runs from the highest frequency down.
     """
-    branches: ComplexArray = np.array(eigenvalues, dtype=complex)
+    branches = complex_array("eigenvalues", eigenvalues).copy()
+    if branches.ndim != 2:
+        raise ValueError(f"eigenvalues: must have the shape (n, m), has {branches.shape}")
     order = np.lexsort((branches.real, -branches.imag))
     branches = np.take_along_axis(branches, order, axis=-1)
     i = 1

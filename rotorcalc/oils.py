@@ -9,6 +9,7 @@ import math
 
 from scipy.constants import convert_temperature
 
+from rotorcalc.arguments import checked
 from rotorcalc.machine import Oil
 
 # Kinematic viscosity at 40 °C (ISO 3448) and at 100 °C [mm²/s], the latter of a mineral oil with a
@@ -20,8 +21,11 @@ ISO_VG: dict[str, tuple[float, float]] = {
     "ISO VG 100": (100.0, 11.384),
 }
 DENSITY = 860.0
+# The range of the charts of ASTM D341 [°C].
+_COLDEST, _HOTTEST = -70.0, 370.0
 
 
+@checked
 def iso_oil(grade: str, *, temperature: float) -> Oil:
     """Return the exponential law that has a grade's viscosity and its slope at one temperature.
 
@@ -40,7 +44,7 @@ def iso_oil(grade: str, *, temperature: float) -> Oil:
     Raises
     ------
     ValueError
-        Where the grade is not known.
+        Where the grade is not known, or the temperature lies outside -70 to 370 °C.
 
     Examples
     --------
@@ -50,6 +54,11 @@ def iso_oil(grade: str, *, temperature: float) -> Oil:
     """
     if grade not in ISO_VG:
         raise ValueError(f"grade = {grade!r}: must be one of {', '.join(ISO_VG)}")
+    if not _COLDEST <= temperature <= _HOTTEST:
+        raise ValueError(
+            f"temperature = {temperature} °C: must lie between {_COLDEST:g} and {_HOTTEST:g} °C, "
+            "where Walther's law holds"
+        )
     A, B = _walther(*ISO_VG[grade])
     T = _kelvin(temperature)
     shifted = 10.0**10.0 ** (A - B * math.log10(T))  # ν + 0.7
@@ -62,6 +71,7 @@ def iso_oil(grade: str, *, temperature: float) -> Oil:
     )
 
 
+@checked
 def fitted_oil(
     *, temperatures: tuple[float, float], viscosities: tuple[float, float], density: float = DENSITY
 ) -> Oil:

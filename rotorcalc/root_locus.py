@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
+from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.display import Result
 from rotorcalc.modes import ModeShapes
@@ -48,6 +49,7 @@ class Locus(Result):
         return int(np.argmax(np.where(waves | ~np.any(waves), values.real, -np.inf)))
 
 
+@checked
 def root_locus(
     speed: Array, branches: ComplexArray, *, running_speed: float, shapes: ModeShapes
 ) -> Locus:

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from rotorcalc import modes
 from rotorcalc.analysis import Sweep
+from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, ComplexArray, IntArray
 from rotorcalc.coefficients import checked_speed, equilibrium, stiffness_and_damping
 from rotorcalc.display import Result
@@ -170,6 +171,7 @@ class ResponseFamily(Result):
     unstable: BoolArray
 
 
+@checked
 def response_curves(
     sweep: Sweep, point: Sweep, *, disk_peaks: ResponsePeaks, journal_peaks: ResponsePeaks
 ) -> ResponseCurves:
@@ -209,6 +211,7 @@ def response_curves(
     )
 
 
+@checked
 def unstable_ranges(sweep: Sweep) -> Array:
     """Return the ranges of speed within a sweep where some mode grows.
 
@@ -234,6 +237,7 @@ def unstable_ranges(sweep: Sweep) -> Array:
     return np.stack([starts, ends], axis=-1)
 
 
+@checked
 def orbits(sweep: Sweep, *, points: int = _ORBIT_POINTS, every: int = 1) -> Orbits:
     """Return the orbits of disk and journal about their static equilibrium.
 
@@ -257,12 +261,13 @@ def orbits(sweep: Sweep, *, points: int = _ORBIT_POINTS, every: int = 1) -> Orbi
         speed=sweep.speed[taken],
         disk=orbit_points(disk[..., 0], disk[..., 1], points=points),
         journal=orbit_points(journal[..., 0], journal[..., 1], points=points),
-        disk_forward=_ellipse(disk).semi_minor > 0.0,
-        journal_forward=_ellipse(journal).semi_minor > 0.0,
+        disk_forward=orbit_ellipse(disk).semi_minor > 0.0,
+        journal_forward=orbit_ellipse(journal).semi_minor > 0.0,
         is_rigid=sweep.machine.rotor.is_rigid,
     )
 
 
+@checked
 def clearance_orbit(point: Sweep) -> ClearanceOrbit:
     """Return the journal's orbit about its static equilibrium inside the clearance circle.
 
@@ -288,6 +293,7 @@ def clearance_orbit(point: Sweep) -> ClearanceOrbit:
     )
 
 
+@checked
 def response_family(
     machine: Machine, speed: ArrayLike, *, rotors: Sequence[Rotor]
 ) -> ResponseFamily:
@@ -332,6 +338,7 @@ def response_family(
     )
 
 
+@checked
 def damping_reference(machine: Machine) -> float:
     """Return a damping to measure midspan damping by [N·s/m].
 
@@ -352,6 +359,7 @@ def damping_reference(machine: Machine) -> float:
     return 2.0 * math.sqrt(rotor.shaft_stiffness * rotor.disk_mass)
 
 
+@checked
 def damping_variants(machine: Machine) -> tuple[Rotor, ...]:
     """Return the machine's rotor, then it with midspan damping of 0 to ½ `damping_reference`."""
     rotor, unit = machine.rotor, damping_reference(machine)
@@ -360,6 +368,7 @@ def damping_variants(machine: Machine) -> tuple[Rotor, ...]:
     return (rotor, *(other for other in others if other != rotor))
 
 
+@checked
 def journal_mass_variants(machine: Machine) -> tuple[Rotor, ...]:
     """Return the machine's rotor, then the same with journals of 0 to 40 % of half its mass."""
     rotor = machine.rotor
@@ -368,13 +377,9 @@ def journal_mass_variants(machine: Machine) -> tuple[Rotor, ...]:
     return (rotor, *(other for other in others if other != rotor))
 
 
-def _ellipse(response: ComplexArray) -> OrbitEllipse:
-    return orbit_ellipse(response[..., 0], response[..., 1])
-
-
 def _body(response: ComplexArray) -> BodyResponse:
     return BodyResponse(
-        amplitude=np.abs(response), lag=phase_lag(response), ellipse=_ellipse(response)
+        amplitude=np.abs(response), lag=phase_lag(response), ellipse=orbit_ellipse(response)
     )
 
 
@@ -385,7 +390,7 @@ def _body_on(
     lag = phase_lag(response[None, :])[0]
     near = np.array([float(np.interp(speed, speeds, curve.lag[:, i])) for i in range(2)])
     lag = lag + 2.0 * np.pi * np.rint((near - lag) / (2.0 * np.pi))
-    return BodyResponse(amplitude=np.abs(response), lag=lag, ellipse=_ellipse(response))
+    return BodyResponse(amplitude=np.abs(response), lag=lag, ellipse=orbit_ellipse(response))
 
 
 def _growth(sweep: Sweep) -> Array:

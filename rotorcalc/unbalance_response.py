@@ -14,7 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotorcalc.arrays import Array, ComplexArray, IntArray
+from rotorcalc.arguments import checked
+from rotorcalc.arrays import Array, ComplexArray, IntArray, complex_array
 from rotorcalc.coefficients import checked_speed
 from rotorcalc.display import Result
 from rotorcalc.machine import Rotor
@@ -71,6 +72,7 @@ class Rotors(Result):
         return Rotors(**{name: values[places, 0] for name, values in vars(self).items()})
 
 
+@checked
 def synchronous_response(
     rotor: Rotor | Rotors, K: Array, C: Array, speed: ArrayLike
 ) -> tuple[ComplexArray, ComplexArray]:
@@ -116,13 +118,14 @@ def synchronous_response(
     return disk, np.stack([x, y], axis=-1)
 
 
-def orbit_ellipse(x: ArrayLike, y: ArrayLike) -> OrbitEllipse:
+def orbit_ellipse(x: ArrayLike, y: ArrayLike | None = None) -> OrbitEllipse:
     """Return the ellipse that the phasors of X and Y draw.
 
     Parameters
     ----------
     x, y : array_like, (...)
-        Complex phasors of X and Y, in any one unit.
+        Complex phasors of X and Y, in any one unit; or both as one array of shape (..., 2), as a
+        sweep's `disk_response` has them.
 
     Returns
     -------
@@ -135,9 +138,14 @@ def orbit_ellipse(x: ArrayLike, y: ArrayLike) -> OrbitEllipse:
     >>> orbit = orbit_ellipse(2.0, -1.0j)
     >>> float(orbit.semi_major), float(orbit.semi_minor)
     (2.0, 1.0)
+    >>> orbit_ellipse([[2.0, -1.0j], [1.0, 1.0j]]).semi_minor
+    array([ 1., -1.])
     """
-    x, y = np.broadcast_arrays(np.asarray(x, dtype=complex), np.asarray(y, dtype=complex))
-    forward = (x + 1j * y) / 2.0
+    if y is None:
+        both = complex_array("x", x, ends=(2,))
+        x, y = both[..., 0], both[..., 1]
+    x, y = np.broadcast_arrays(complex_array("x", x), complex_array("y", y))
+    forward: ComplexArray = (x + 1j * y) / 2.0
     backward: ComplexArray = (x - 1j * y).conj() / 2.0
     return OrbitEllipse(
         semi_major=np.abs(forward) + np.abs(backward),
@@ -148,6 +156,7 @@ def orbit_ellipse(x: ArrayLike, y: ArrayLike) -> OrbitEllipse:
     )
 
 
+@checked
 def orbit_points(x: ArrayLike, y: ArrayLike, *, points: int = 73) -> Array:
     """Return the orbit that the phasors of X and Y draw, point by point over one turn.
 
@@ -168,7 +177,8 @@ def orbit_points(x: ArrayLike, y: ArrayLike, *, points: int = 73) -> Array:
     >>> orbit_points(2.0, -1.0j, points=5).round(12) + 0.0
     array([[ 2.,  0.], [ 0.,  1.], [-2.,  0.], [ 0., -1.], [ 2.,  0.]])
     """
-    phasors = np.stack(np.broadcast_arrays(x, y), axis=-1)
+    both = np.broadcast_arrays(complex_array("x", x), complex_array("y", y))
+    phasors = np.stack(both, axis=-1)
     turn = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, points))
     return np.real(phasors[..., None, :] * turn[:, None])
 
@@ -186,7 +196,7 @@ def phase_lag(response: ArrayLike) -> Array:
     array, (n, 2)
         Lag of X behind cos Ωt and of Y behind sin Ωt [rad]; at the first speed within ±π.
     """
-    return np.unwrap(-np.angle(np.asarray(response) / _FORWARD), axis=0)
+    return np.unwrap(-np.angle(complex_array("response", response, ends=(2,)) / _FORWARD), axis=0)
 
 
 def orbit_sizes(disk: ComplexArray, journal: ComplexArray) -> Array:

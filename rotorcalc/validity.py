@@ -9,6 +9,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from rotorcalc.analysis import Sweep
+from rotorcalc.arguments import checked
 from rotorcalc.unbalance_response import orbit_ellipse
 
 Level: TypeAlias = Literal["good", "caution", "outside"]
@@ -44,6 +45,7 @@ class Check:
     reason: str
 
 
+@checked
 def validity(point: Sweep) -> tuple[Check, ...]:
     """Return how far a machine at one speed keeps to what the model assumes.
 
@@ -66,7 +68,7 @@ def validity(point: Sweep) -> tuple[Check, ...]:
     eps, film = float(point.eccentricity_ratio), float(point.minimum_film_thickness)
     reynolds = machine.oil.density * float(point.speed) * R * C / machine.viscosity
     vortices = min(41.1 * float(np.sqrt(R / C)), 2000.0)
-    orbit = orbit_ellipse(point.journal_response[..., 0], point.journal_response[..., 1])
+    orbit = orbit_ellipse(point.journal_response)
     swing = float(orbit.semi_major) / C
     return (
         _above("Length over diameter, L/D", L / bearing.diameter, 0.5, 1.0,

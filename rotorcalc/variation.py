@@ -7,9 +7,11 @@ import functools
 from collections.abc import Mapping
 from dataclasses import fields, replace
 
+from rotorcalc.arguments import checked
 from rotorcalc.machine import JournalBearing, Machine, Oil, Rotor
 
 
+@checked
 def value_of(machine: Machine, field: str) -> float:
     """Return the value of an input.
 
@@ -36,6 +38,7 @@ def value_of(machine: Machine, field: str) -> float:
     return float(getattr(getattr(machine, record) if record else machine, name))
 
 
+@checked
 def varied(machine: Machine, values: Mapping[str, float]) -> Machine:
     """Return a machine with other values of some inputs.
 

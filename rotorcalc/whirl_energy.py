@@ -15,7 +15,8 @@ from numpy.typing import ArrayLike
 
 from rotorcalc import modes
 from rotorcalc.analysis import FilmCurves, Sweep, film_curves
-from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.arguments import checked
+from rotorcalc.arrays import Array, ComplexArray, complex_array, real_array
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.display import Result
 from rotorcalc.machine import JournalBearing, Machine, Rotor
@@ -99,6 +100,7 @@ class WhirlEnergy(Result):
     disk_loss: Array
 
 
+@checked
 def thresholds(sweep: Sweep) -> Thresholds:
     """Return thresholds, whirl frequencies and critical mass ratios of a machine over speed.
 
@@ -130,6 +132,7 @@ def thresholds(sweep: Sweep) -> Thresholds:
     )
 
 
+@checked
 def flexible_curves(curves: FilmCurves, sag_ratio: ArrayLike) -> Array:
     """Return the threshold speed of flexible rotors on one bearing (Eq. 5.50, Fig. 5.10).
 
@@ -145,10 +148,11 @@ def flexible_curves(curves: FilmCurves, sag_ratio: ArrayLike) -> Array:
     array, (m, n)
         p_sf [-]; infinite where the film cannot whirl.
     """
-    onset, sag = curves.onset, np.asarray(sag_ratio, dtype=float)[:, None]
+    onset, sag = curves.onset, real_array("sag_ratio", sag_ratio)[:, None]
     return flexible_threshold(onset.threshold_speed, onset.equivalent_stiffness, sag)
 
 
+@checked
 def film_limit(bearing: JournalBearing) -> FilmCurves:
     """Return the film at which whirl ends: at any higher eccentricity no rotor is unstable.
 
@@ -194,7 +198,7 @@ def orbit_area(orbit: ArrayLike) -> Array:
     >>> float(orbit_area([2.0, -1.0j]) / np.pi)
     2.0
     """
-    x, y = np.moveaxis(np.asarray(orbit, dtype=complex), -1, 0)
+    x, y = np.moveaxis(complex_array("orbit", orbit, ends=(2,)), -1, 0)
     return np.pi * np.imag(x * np.conj(y))
 
 
@@ -216,7 +220,7 @@ def stiffness_work(K: ArrayLike, orbit: ArrayLike) -> Array:
     array, (...)
         Work [J]; positive where it drives the orbit.
     """
-    stiffness = np.asarray(K, dtype=float)
+    stiffness = real_array("K", K, ends=(2, 2))
     return (stiffness[..., 0, 1] - stiffness[..., 1, 0]) * orbit_area(orbit)
 
 
@@ -237,11 +241,13 @@ def damping_work(C: ArrayLike, orbit: ArrayLike, frequency: ArrayLike) -> Array:
     array, (...)
         Energy [J]; positive where it brakes the orbit.
     """
-    P = np.asarray(orbit, dtype=complex)
-    quadratic = np.einsum("...i,...ij,...j->...", np.conj(P), np.asarray(C, dtype=float), P)
-    return np.pi * np.asarray(frequency) * quadratic.real
+    P = complex_array("orbit", orbit, ends=(2,))
+    damping = real_array("C", C, ends=(2, 2))
+    quadratic = np.einsum("...i,...ij,...j->...", np.conj(P), damping, P)
+    return np.pi * real_array("frequency", frequency) * quadratic.real
 
 
+@checked
 def whirl_orbit(machine: Machine, onset: Onset) -> WhirlOrbit:
     """Return the orbit in which a machine whirls at its onset.
 
@@ -280,6 +286,7 @@ def whirl_orbit(machine: Machine, onset: Onset) -> WhirlOrbit:
     )
 
 
+@checked
 def whirl_energy(machine: Machine, speed: ArrayLike, orbit: WhirlOrbit) -> WhirlEnergy:
     """Return what a whirl orbit would gain and lose in one turn at other speeds.
 

@@ -83,6 +83,34 @@ def error(record, **changes):
 # Bounds
 
 
+@pytest.mark.parametrize(
+    ("clearance", "words"),
+    [
+        (60.0, "radial_clearance = 60 m (6e+07 µm): must be at most a tenth of the radius, "),
+        (
+            0.06,
+            "radial_clearance = 0.06 m (60000 µm): must be at most a tenth of the radius, ",
+        ),
+        (0.0076, "radial_clearance = 0.0076 m (7600 µm): must be at most a tenth of the radius, "),
+    ],
+)
+def test_a_clearance_in_the_wrong_unit_is_refused_with_its_size(clearance, words):
+    message = error(JournalBearing, diameter=0.150, radial_clearance=clearance)
+    assert message.startswith(words)
+    assert "0.0075 m (7500 µm); lengths are in metres" in message
+
+
+def test_a_clearance_of_a_tenth_of_the_radius_is_accepted():
+    bearing = made(JournalBearing, diameter=0.2, radial_clearance=0.01)
+    assert bearing.radial_clearance == 0.01
+
+
+@pytest.mark.parametrize("temperature", ["50", math.nan, None, [20.0, math.inf], True, {}])
+def test_an_oil_has_no_viscosity_at_what_is_no_temperature(temperature):
+    with pytest.raises(ValueError, match=r"^temperature = "):
+        SHEET.oil.viscosity(temperature)
+
+
 @pytest.mark.parametrize(("record", "name"), POSITIVE)
 @pytest.mark.parametrize("value", [0.0, -0.0, -1e-300, -5.0, -1])
 def test_a_positive_field_refuses_zero_and_less(record, name, value):
@@ -104,8 +132,8 @@ def test_a_field_from_zero_accepts_zero(record, name):
 
 @pytest.mark.parametrize(("record", "name"), POSITIVE)
 def test_a_positive_field_accepts_what_is_barely_more_than_zero(record, name):
-    # With the smallest mass there is no journal to take out of it.
-    others = {"journal_mass": 0.0} if name == "mass" else {}
+    # With the smallest mass there is no journal to take out of it, and a journal has its clearance.
+    others = {"mass": {"journal_mass": 0.0}, "diameter": {"radial_clearance": 1e-303}}.get(name, {})
     assert getattr(made(record, **{name: 1e-300}, **others), name) == 1e-300
 
 
@@ -223,7 +251,7 @@ def test_records_are_frozen_equal_by_value_and_hashable(record):
 
 @pytest.mark.parametrize(("record", "name"), NUMBERS)
 def test_a_record_with_one_field_changed_is_another(record, name):
-    one, other = made(record), made(record, **{name: GOOD[record][name] * 1.5 + 1})
+    one, other = made(record), made(record, **{name: GOOD[record][name] * 1.5})
     assert one != other
     assert len({one, other}) == 2
 
@@ -293,12 +321,15 @@ def any_machine(draw):
         density=draw(positive),
     )
     temperature = draw(st.just(oil.reference_temperature) | temperatures)
+    diameter = draw(st.floats(1e-300, 1.7976931348623157e308))
     with np.errstate(over="ignore", under="ignore"):
         assume(0 < float(oil.viscosity(temperature)) < math.inf)
     return Machine(
         oil=oil,
         bearing=JournalBearing(
-            diameter=draw(positive), length=draw(positive), radial_clearance=draw(positive)
+            diameter=diameter,
+            length=draw(positive),
+            radial_clearance=draw(st.floats(5e-324, diameter / 20.0)),
         ),
         rotor=Rotor(
             mass=mass,

@@ -58,3 +58,18 @@ def test_an_impossible_fit_is_refused_in_words(temperatures, viscosities, words)
 def test_an_unknown_grade_is_refused_by_name():
     with pytest.raises(ValueError, match="ISO VG 33"):
         iso_oil("ISO VG 33", temperature=40.0)
+
+
+@pytest.mark.parametrize("temperature", [-200.0, -70.1, 371.0, math.nan, "40", None])
+@pytest.mark.parametrize("grade", ISO_VG)
+def test_a_grade_has_no_law_outside_walthers_range(grade, temperature):
+    with pytest.raises(ValueError, match=r"^temperature = "):
+        iso_oil(grade, temperature=temperature)
+
+
+@pytest.mark.parametrize("temperature", [-70.0, 370.0])
+@pytest.mark.parametrize("grade", ISO_VG)
+def test_a_grade_has_a_law_at_the_ends_of_the_range(grade, temperature):
+    oil = iso_oil(grade, temperature=temperature)
+    assert 0.0 < oil.reference_viscosity < math.inf
+    assert oil.temperature_coefficient > 0.0

@@ -9,6 +9,7 @@ from collections.abc import Callable
 
 from numpy.typing import ArrayLike
 
+from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
 from rotorcalc.films import short
 from rotorcalc.films.dynamics import FilmDynamics, reduced
@@ -57,6 +58,7 @@ def film_of(bearing: JournalBearing) -> Film:
     return MODELS[bearing.geometry.kind, bearing.model](bearing)
 
 
+@checked
 def journal_motion(bearing: JournalBearing) -> FilmMotion:
     """Return the force of a bearing's film on a journal that moves, where it depends on no more.
 
@@ -84,6 +86,7 @@ def journal_motion(bearing: JournalBearing) -> FilmMotion:
     return motion
 
 
+@checked
 def film_state(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmState:
     """Return the film of a bearing in static equilibrium over the modified Sommerfeld number.
 
@@ -107,6 +110,7 @@ def film_state(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmState:
     return film_of(bearing).state(OperatingPoints.at_sommerfeld(bearing, sommerfeld))
 
 
+@checked
 def film_coefficients(bearing: JournalBearing, sommerfeld: ArrayLike) -> tuple[Array, Array]:
     """Return the film's synchronous stiffness and damping over the modified Sommerfeld number.
 

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine
@@ -68,6 +69,7 @@ class EnergyBalance(Result):
         return max(float(np.abs(term).max()) for term in terms)
 
 
+@checked
 def energy_balance(machine: Machine, motion: Transient) -> EnergyBalance:
     """Return the energy balance of a motion, from its start to each of its samples.
 

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.integrate import ODEintWarning, odeint
 
+from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
 from rotorcalc.display import Result
 from rotorcalc.films import FilmUnits, journal_motion
@@ -200,6 +201,7 @@ class Equations:
         return np.array(rates)[:, 4:6] * nu[:, None] * unit
 
 
+@checked
 def resting(machine: Machine, position: Array) -> Start:
     """Return a state at rest, the shaft carrying its static sag.
 

@@ -32,6 +32,7 @@ from typing import NamedTuple, cast
 
 import numpy as np
 
+from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.films import film_of, journal_motion
@@ -101,6 +102,7 @@ class Hopf:
         return self.clearance * math.sqrt(square) if square >= 0.0 else math.nan
 
 
+@checked
 def hopf(machine: Machine) -> Hopf:
     """Return the onset of whirl of a machine without its imbalance, and which way it goes.
 
@@ -138,6 +140,7 @@ def hopf(machine: Machine) -> Hopf:
     )
 
 
+@checked
 def whirl_shape(machine: Machine, speed: float, frequency: float) -> ComplexArray:
     """Return the shape of the undamped whirl at an onset.
 

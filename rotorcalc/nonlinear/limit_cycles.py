@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, ComplexArray
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.display import Result
@@ -90,6 +91,7 @@ class Bifurcation(Result):
         return np.sqrt(first + share * (last - first)), self.stable[nearest]
 
 
+@checked
 def bifurcation(
     machine: Machine,
     *,
@@ -152,6 +154,7 @@ def bifurcation(
     )
 
 
+@checked
 def sweep(branch: Bifurcation, speed: ArrayLike, *, down: bool = False) -> Array:
     """Return the amplitude that a machine reaches as its speed creeps up, or down.
 
@@ -184,6 +187,7 @@ def sweep(branch: Bifurcation, speed: ArrayLike, *, down: bool = False) -> Array
     return reached
 
 
+@checked
 def start_on_cycle(machine: Machine, branch: Bifurcation, place: int) -> Start:
     """Return a state on a limit cycle, from which the motion goes round it.
 

@@ -14,6 +14,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from rotorcalc.analysis import analyse
+from rotorcalc.arguments import checked
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.signals import growth
 from rotorcalc.nonlinear.transient import simulate
@@ -60,6 +61,7 @@ class Onsets:
         return self.spread < _AGREE
 
 
+@checked
 def onsets(machine: Machine, *, progress: Callable[[float], object] | None = None) -> Onsets:
     """Return the onset of a machine, found three ways.
 
@@ -92,6 +94,7 @@ def onsets(machine: Machine, *, progress: Callable[[float], object] | None = Non
     )
 
 
+@checked
 def measured_growth(machine: Machine, speed: float) -> float:
     """Return the growth rate of a machine's whirl as a short release of its journal shows it.
 
@@ -114,6 +117,7 @@ def measured_growth(machine: Machine, speed: float) -> float:
     return growth(motion, rest=rest).real
 
 
+@checked
 def measured_onset(
     machine: Machine, *, near: float, progress: Callable[[float], object] | None = None
 ) -> float:

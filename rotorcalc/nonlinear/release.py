@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotorcalc import modes
+from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import Equilibrium, equilibrium
 from rotorcalc.display import Result
@@ -111,6 +112,7 @@ class Release(Result):
         return max(int(_SETTLED * len(self.motion.time)), 1)
 
 
+@checked
 def release(  # noqa: PLR0913 - from where, for how long, how exactly
     machine: Machine,
     speed: float,
@@ -175,6 +177,7 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
     )
 
 
+@checked
 def linear_motion(machine: Machine, speed: float, start: Start, time: Array) -> Array:
     """Return the journal's motion by the linear theory, about its rest.
 

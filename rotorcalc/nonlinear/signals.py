@@ -13,7 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.arguments import checked
+from rotorcalc.arrays import Array, ComplexArray, real_array
 from rotorcalc.display import Result
 from rotorcalc.nonlinear.transient import Transient
 
@@ -70,6 +71,7 @@ class Waterfall(Result):
     amplitude: Array
 
 
+@checked
 def spectrum(motion: Transient, *, of: str = "journal", last: int | None = None) -> Spectrum:
     """Return the spectrum of a motion, windowed by Hann, over orders of running speed.
 
@@ -109,6 +111,7 @@ def spectrum(motion: Transient, *, of: str = "journal", last: int | None = None)
     )
 
 
+@checked
 def waterfall(motion: Transient, *, spectra: int = 200, width: int = 32) -> Waterfall:
     """Return spectra of the journal's motion along a run-up.
 
@@ -146,6 +149,7 @@ def waterfall(motion: Transient, *, spectra: int = 200, width: int = 32) -> Wate
     )
 
 
+@checked
 def poincare_points(motion: Transient, *, of: str = "journal") -> Array:
     """Return where a motion is once a revolution, as the imbalance points along X.
 
@@ -165,6 +169,7 @@ def poincare_points(motion: Transient, *, of: str = "journal") -> Array:
     return _path(motion, of)[:: _samples(motion)]
 
 
+@checked
 def free_modes(
     motion: Transient, *, rest: ArrayLike | None = None, revolutions: int | None = None
 ) -> ComplexArray:
@@ -192,7 +197,7 @@ def free_modes(
     ValueError
         Where the motion is at rest, or has less than two revolutions.
     """
-    path = motion.journal - (np.zeros(2) if rest is None else np.asarray(rest, dtype=float))
+    path = motion.journal - (np.zeros(2) if rest is None else real_array("rest", rest, ends=(2,)))
     samples = _samples(motion)
     count = len(path) if revolutions is None else min(revolutions * samples + 1, len(path))
     if count < 2 * samples:
@@ -206,6 +211,7 @@ def free_modes(
     return values[values.imag >= 0.0]
 
 
+@checked
 def growth(
     motion: Transient, *, rest: ArrayLike | None = None, revolutions: int | None = None
 ) -> complex:

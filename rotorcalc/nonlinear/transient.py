@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotorcalc import modes
+from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, real_array, real_number, shown
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.display import Result
@@ -99,6 +100,7 @@ class TransientError(RuntimeError):
         return type(self), (str(self), self.partial)
 
 
+@checked
 def simulate(  # noqa: PLR0913 - how long, from where, to which speed
     machine: Machine,
     speed: float,
@@ -156,6 +158,7 @@ def simulate(  # noqa: PLR0913 - how long, from where, to which speed
     return _integrate(model, state, run, progress)
 
 
+@checked
 def start_on_mode(machine: Machine, speed: float, amplitude: float) -> Start:
     """Return a state on the least damped mode of the linear theory, about static equilibrium.
 
@@ -197,6 +200,7 @@ def start_on_mode(machine: Machine, speed: float, amplitude: float) -> Start:
     )
 
 
+@checked
 def last_state(motion: Transient) -> Start:
     """Return the state in which a motion ends, for another to start from."""
     return Start(

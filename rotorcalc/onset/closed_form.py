@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import elementwise
 
+from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
 from rotorcalc.films import film_coefficients, film_state
 from rotorcalc.machine import JournalBearing, Machine
@@ -39,6 +40,7 @@ _SIGMA = np.geomspace(1e-3, 1e3, 241)
 _ROOT: Any = {"xatol": 0.0, "xrtol": 1e-15, "fatol": 0.0, "frtol": 0.0}
 
 
+@checked
 def has_closed_form(machine: Machine) -> bool:
     """Return whether Eqs. 5.45 to 5.50 give the machine's onset, and no eigenvalues are needed."""
     rotor = machine.rotor
@@ -46,6 +48,7 @@ def has_closed_form(machine: Machine) -> bool:
     return massless and rotor.disk_damping == 0.0 and machine.bearing.model in ONE_CURVE
 
 
+@checked
 def closed_form_onset(machine: Machine, *, flexible: bool = True) -> Onset:
     """Return the onset of a machine by the module's equation, without its eigenvalues.
 
@@ -143,7 +146,7 @@ def _curve(film: str) -> tuple[Array, Array]:
 
 def _left_side(film: str, sigma: Array) -> tuple[Array, Array]:
     """Return σ²/p_s² and σ²ω̄², the two terms of the module's equation."""
-    any_bearing = JournalBearing(diameter=1.0, length=1.0, radial_clearance=1.0, film=film)
+    any_bearing = JournalBearing(diameter=1.0, length=1.0, radial_clearance=0.01, film=film)
     k, c = film_coefficients(any_bearing, sigma)
     onset = whirl_onset(k, c)  # p_s² in film units, not in the load's
     return sigma / (4.0 * onset.critical_mass), (sigma * onset.whirl_ratio) ** 2

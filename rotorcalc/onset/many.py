@@ -14,6 +14,7 @@ import numpy as np
 from scipy.optimize import elementwise
 
 from rotorcalc import modes
+from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, IntArray
 from rotorcalc.films import film_coefficients
 from rotorcalc.machine import JournalBearing, Machine
@@ -25,6 +26,7 @@ from rotorcalc.onset.search import onset_speed, search_speeds
 _FLEET = 4
 
 
+@checked
 def onset_speeds(machines: Sequence[Machine]) -> Array:
     """Return the onset speeds of many machines.
 

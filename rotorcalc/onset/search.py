@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import minimize_scalar
 
 from rotorcalc import modes
+from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import modified_sommerfeld, stiffness_and_damping
 from rotorcalc.films import film_coefficients, film_state
@@ -58,6 +59,7 @@ class Onset:
 _NO_ONSET = Onset(speed=math.inf, whirl_frequency=math.nan, eccentricity_ratio=math.nan)
 
 
+@checked
 def onset_speed(machine: Machine, flexible: bool = True) -> Onset:
     """Return the lowest speed at which the machine itself becomes unstable.
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotorcalc.arrays import Array
+from rotorcalc.arrays import Array, real_array
 from rotorcalc.display import Result
 
 
@@ -58,8 +58,8 @@ def whirl_onset(k: ArrayLike, c: ArrayLike) -> WhirlOnset:
     >>> round(float(onset.whirl_ratio), 6), round(float(onset.threshold_speed), 6)
     (0.51464, 2.541731)
     """
-    k_XX, k_XY, k_YX, k_YY = _elements(k)
-    c_XX, c_XY, c_YX, c_YY = _elements(c)
+    k_XX, k_XY, k_YX, k_YY = _elements("k", k)
+    c_XX, c_XY, c_YX, c_YY = _elements("c", c)
     # Eq. 5.45
     k_eq = (k_XX * c_YY + k_YY * c_XX - c_YX * k_XY - c_XY * k_YX) / (c_XX + c_YY)
     # Eq. 5.46
@@ -97,10 +97,11 @@ def flexible_threshold(
     array, (...)
         p_sf or Ω_sf, in the unit of `threshold_speed`.
     """
-    softening = 1.0 + np.asarray(equivalent_stiffness) * np.asarray(sag_ratio)
-    return np.asarray(threshold_speed) / np.sqrt(softening)
+    k_eq = real_array("equivalent_stiffness", equivalent_stiffness)
+    softening = 1.0 + k_eq * real_array("sag_ratio", sag_ratio)
+    return real_array("threshold_speed", threshold_speed) / np.sqrt(softening)
 
 
-def _elements(coefficients: ArrayLike) -> tuple[Array, Array, Array, Array]:
-    m = np.asarray(coefficients, dtype=float)
+def _elements(name: str, coefficients: ArrayLike) -> tuple[Array, Array, Array, Array]:
+    m = real_array(name, coefficients, ends=(2, 2))
     return m[..., 0, 0], m[..., 0, 1], m[..., 1, 0], m[..., 1, 1]

@@ -134,7 +134,7 @@ def _highest(peaks: ResponsePeaks) -> float:
 
 
 def _orbit(response: np.ndarray) -> tuple[complex, complex, float]:
-    orbit = orbit_ellipse(response[..., 0], response[..., 1])
+    orbit = orbit_ellipse(response)
     return complex(orbit.forward), complex(orbit.backward), float(orbit.semi_major)
 
 

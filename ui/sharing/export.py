@@ -123,6 +123,6 @@ def _orbit(words: str, units: Units, response: ComplexArray) -> Iterator[Column]
     for i, axis in enumerate("XY"):
         yield f"{words}: amplitude |{axis}|", units.film, amplitude[:, i]
         yield f"{words}: phase lag of {axis}", units.angle, lag[:, i]
-    ellipse = orbit_ellipse(response[:, 0], response[:, 1])
+    ellipse = orbit_ellipse(response)
     yield f"{words}: semi-major axis", units.film, ellipse.semi_major
     yield f"{words}: semi-minor axis (negative: backward)", units.film, ellipse.semi_minor

@@ -135,7 +135,7 @@ def _column(here: ModeShapes, i: int, speed: float, units: Units) -> tuple[str, 
 
 
 def _direction(phasors: ComplexArray) -> str:
-    orbit = orbit_ellipse(phasors[0], phasors[1])
+    orbit = orbit_ellipse(phasors)
     roundness = float(orbit.semi_minor / orbit.semi_major)
     if math.isnan(roundness) or abs(roundness) < 0.005:
         return "along a line"

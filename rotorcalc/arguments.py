@@ -1,0 +1,209 @@
+"""Arguments that a function's annotations rule out are refused, in words.
+
+A notebook's user calls with what is at hand: a text for a machine, "rigid" for a bool, a list for
+a number. Python would fail somewhere inside, or take a word for true. `checked` reads a function's
+annotations once and looks at every argument before the function begins. An argument annotated as
+array_like is left to the function, which reads it by `arrays.real_array`.
+"""
+
+import functools
+import numbers
+import sys
+import types
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import (
+    Annotated,
+    Any,
+    Literal,
+    NamedTuple,
+    ParamSpec,
+    TypeAlias,
+    TypeVar,
+    Union,
+    cast,
+    get_args,
+    get_origin,
+    get_type_hints,
+)
+
+import numpy as np
+
+from rotorcalc.arrays import shown
+
+P = ParamSpec("P")
+R = TypeVar("R")
+# Raises ValueError of a name and a value that it does not admit.
+_Check: TypeAlias = Callable[[str, Any], object]
+
+
+class _Kind(NamedTuple):
+    """A kind of value: what admits it, the words for it, and types that need no closer look."""
+
+    admits: Callable[[Any], bool]
+    words: str
+    surely: tuple[type, ...] = ()
+
+
+class _Rule(NamedTuple):
+    """What an argument must pass, unless its type is one of those that surely do."""
+
+    name: str
+    place: int
+    surely: tuple[type, ...]
+    check: _Check
+
+
+def checked(function: Callable[P, R]) -> Callable[P, R]:
+    """Return a function that refuses the arguments which its annotations rule out.
+
+    Parameters
+    ----------
+    function : callable
+        A function with annotated parameters.
+
+    Returns
+    -------
+    callable
+        The same function. Before it begins it raises ValueError, naming argument and value.
+
+    Examples
+    --------
+    >>> @checked
+    ... def doubled(times: int, *, rigid: bool = False) -> int:
+    ...     return 2 * times
+    >>> doubled(3, rigid="no")
+    Traceback (most recent call last):
+    ValueError: rigid = 'no': must be True or False
+    """
+    rules: list[_Rule] | None = None
+
+    @functools.wraps(function)
+    def call(*args: P.args, **kwargs: P.kwargs) -> R:
+        nonlocal rules
+        if rules is None:  # at the first call: an annotation may name what is defined further down
+            rules = _rules(function)
+        for name, place, surely, check in rules:
+            if place < len(args):
+                value = args[place]
+            elif name in kwargs:
+                value = kwargs[name]
+            else:
+                continue
+            if type(value) not in surely:
+                check(name, value)
+        return function(*args, **kwargs)
+
+    return call
+
+
+def _rules(function: Callable[..., Any]) -> list[_Rule]:
+    """Return the rules of a function's parameters, keyword-only ones at a place past all others."""
+    code = cast("types.FunctionType", function).__code__
+    places = {name: place for place, name in enumerate(code.co_varnames[: code.co_argcount])}
+    found: list[_Rule] = []
+    for name, hint in get_type_hints(function, include_extras=True).items():
+        rule = _rule(hint)
+        if rule is not None and name != "return":
+            found.append(_Rule(name, places.get(name, sys.maxsize), *rule))
+    return found
+
+
+def _rule(hint: Any) -> tuple[tuple[type, ...], _Check] | None:
+    """Return the types that pass and the check of the others; None where the function looks."""
+    if get_origin(hint) is Annotated:
+        return (), get_args(hint)[1].check  # a Bound or a Choice, as in the fields of a record
+    union = get_origin(hint) in (Union, types.UnionType)
+    kinds = [_kind(member) for member in (get_args(hint) if union else (hint,))]
+    known = [kind for kind in kinds if kind is not None]
+    if len(known) < len(kinds):
+        return None
+
+    def check(name: str, value: Any) -> None:
+        for kind in known:
+            if kind.admits(value):
+                return
+        words = " or ".join(kind.words for kind in known)
+        raise ValueError(f"{name} = {shown(value)}: must be {words}")
+
+    return tuple(one for kind in known for one in kind.surely), check
+
+
+def _kind(hint: Any) -> _Kind | None:
+    """Return the kind of value that an annotation admits, None where it is not known here."""
+    origin, args = get_origin(hint), get_args(hint)
+    if hint in _PLAIN or origin in _PLAIN:
+        return _PLAIN[origin or hint]
+    if origin is Literal:
+        return _Kind(_among(args), " or ".join(map(repr, args)))
+    if origin in (Sequence, tuple):
+        return _sequence(args[0], None if origin is Sequence or Ellipsis in args else len(args))
+    return _record(hint) if isinstance(hint, type) and origin is None else None
+
+
+def _record(cls: type) -> _Kind:
+    article = "an" if cls.__name__[0] in "AEIO" else "a"
+    return _Kind(_of(cls), f"{article} {cls.__name__}", (cls,))
+
+
+def _sequence(element: Any, length: int | None = None) -> _Kind | None:
+    """Return a list of elements, of so many where a length is given."""
+    kind = _kind(element)
+    if kind is None:
+        return None
+
+    def admits(values: Any) -> bool:
+        listed = isinstance(values, Sequence | np.ndarray) and not isinstance(values, str | bytes)
+        right = listed and length in (None, len(cast("Sequence[Any]", values)))
+        return right and all(map(kind.admits, cast("Sequence[Any]", values)))
+
+    return _Kind(
+        admits, f"{'a list' if length is None else f'a list of {length}'}, each {kind.words}"
+    )
+
+
+def _of(*cls: type) -> Callable[[Any], bool]:
+    def admits(value: object) -> bool:
+        return isinstance(value, cls)
+
+    return admits
+
+
+def _among(words: tuple[str, ...]) -> Callable[[Any], bool]:
+    def admits(value: object) -> bool:
+        return isinstance(value, str) and value in words
+
+    return admits
+
+
+def _is_number(value: Any) -> bool:
+    if isinstance(value, np.ndarray):  # of no dimension, as the results at one speed are
+        given = cast("np.ndarray[Any, Any]", value)
+        return given.ndim == 0 and given.dtype.kind in "iuf"
+    return not isinstance(value, bool) and isinstance(value, numbers.Real)
+
+
+def _is_whole(value: Any) -> bool:
+    return not isinstance(value, bool) and isinstance(value, numbers.Integral)
+
+
+def _is_array(value: Any) -> bool:
+    if not isinstance(value, np.ndarray | np.generic):
+        return False
+    return cast("np.ndarray[Any, Any]", value).dtype.kind in "biufc"
+
+
+def _is_list(value: Any) -> bool:
+    return isinstance(value, Iterable) and not isinstance(value, str | bytes | Mapping)
+
+
+_PLAIN: dict[Any, _Kind] = {
+    types.NoneType: _Kind(_of(types.NoneType), "None", (types.NoneType,)),
+    bool: _Kind(_of(bool, np.bool_), "True or False", (bool,)),
+    float: _Kind(_is_number, "a number", (float, int)),
+    int: _Kind(_is_whole, "a whole number", (int,)),
+    str: _Kind(_of(str), "a text", (str,)),
+    np.ndarray: _Kind(_is_array, "an array of numbers"),
+    Callable: _Kind(callable, "a function"),
+    Mapping: _Kind(_of(Mapping), "a mapping of names to values", (dict,)),
+    Iterable: _Kind(_is_list, "a list"),
+}
