@@ -107,7 +107,10 @@ def side_flow(sweep: Sweep, point: Sweep, units: Units) -> Chart:
 def friction_coefficient(sweep: Sweep, point: Sweep, units: Units) -> Chart:
     """Return the friction coefficient over running speed; without load it has no value."""
     title = style.titled("Friction coefficient", "f", "-")
-    return _over_speed(sweep, point, units, ("friction_coefficient", units.number, title))
+    chart = _over_speed(sweep, point, units, ("friction_coefficient", units.number, title))
+    loaded = point.machine.static_load > 0.0
+    notes = [] if loaded else [text.remark("no load: drag over load is infinite", 0.98, 0.97)]
+    return {**chart, "layout": {**chart["layout"], "annotations": notes}}
 
 
 def drag_torque(sweep: Sweep, point: Sweep, units: Units) -> Chart:

@@ -3,12 +3,12 @@
 from dataclasses import replace
 
 import numpy as np
-import plotly.graph_objects as go
 import pytest
 
 from rotorcalc import PRESETS, analyse
 from rotorcalc.coefficients import film_field
 from rotorcalc.figures import SI, US, machine
+from tests.figures.charts import check_plotly_takes_it
 
 THETA = np.linspace(0.0, 2.0 * np.pi, 181)
 
@@ -29,7 +29,7 @@ def trace(chart, name):
 @pytest.mark.parametrize("load", [None, 0.0])
 def test_plotly_accepts_the_chart(name, units, load):
     _, chart = drawn(PRESETS[name], units, load=load)
-    assert go.Figure(chart).data
+    check_plotly_takes_it(chart)
 
 
 @pytest.mark.parametrize("name", PRESETS)

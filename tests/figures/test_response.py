@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from rotorcalc import PRESETS, Machine, Rotor, analyse, onset_speed
-from rotorcalc.figures import SI, US, Units, figure, response, with_baseline
+from rotorcalc.figures import SI, US, Units, response, with_baseline
 from rotorcalc.unbalance_curves import (
     ResponseCurves,
     clearance_orbit,
@@ -25,6 +25,7 @@ from rotorcalc.unbalance_curves import (
 )
 from rotorcalc.unbalance_peaks import response_peaks
 from rotorcalc.unbalance_response import orbit_ellipse, orbit_points
+from tests.figures.charts import check_baseline_is_behind, check_plotly_takes_it, curves_in_window
 from tests.machines import machines
 
 SHEET = PRESETS["sheet-1e8"].machine
@@ -69,11 +70,17 @@ def _charts(machine: Machine, units: Units) -> Iterator[dict[str, Any]]:
 @pytest.mark.parametrize("machine", MACHINES.values(), ids=MACHINES.keys())
 def test_every_chart_is_a_plotly_figure(machine: Machine, units: Units) -> None:
     for chart in _charts(machine, units):
-        assert figure(chart).data
-        assert figure(with_baseline(chart, chart)).data
+        check_plotly_takes_it(chart)
+        assert curves_in_window(chart)
         for axis in (chart["layout"]["xaxis"], chart["layout"]["yaxis"]):
             assert np.all(np.isfinite(axis["range"]))
             assert axis["range"][0] != axis["range"][1]
+
+
+def test_a_pinned_machine_stands_behind_every_chart() -> None:
+    pinned_charts = _charts(MACHINES["damped"], SI)
+    for chart, pinned in zip(_charts(SHEET, SI), pinned_charts, strict=True):
+        check_baseline_is_behind(chart, pinned)
 
 
 def test_the_scrubber_starts_at_the_running_speed_and_moves_the_right_traces() -> None:

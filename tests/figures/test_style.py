@@ -5,8 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotorcalc.figures import SI, US, figure, style, themed, with_baseline
+from rotorcalc.figures import SI, US, style, themed, with_baseline
 from rotorcalc.units import SYSTEMS
+from tests.figures.charts import check_plotly_takes_it
 
 
 def drawn(top):
@@ -44,7 +45,7 @@ def test_a_baseline_stands_behind_and_stays_in_the_picture():
     names = [trace["name"] for trace in chart["data"]]
     assert names[: len(names) // 2] == [f"A: {name}" for name in names[len(names) // 2 :]]
     assert chart["layout"]["yaxis"]["range"] == [0.0, 8.0]
-    assert figure(chart).data
+    check_plotly_takes_it(chart)
 
 
 def test_a_baseline_that_draws_the_same_is_not_drawn_twice():
