@@ -37,6 +37,14 @@ def onset() -> list[Case]:
                 "Eqs. 5.8, 5.45, 5.46" + (" and 5.50" if flexible else ""), "rpm",
             )
         )  # fmt: skip
+        sweep = analyse(machine, found.speed)
+        there = float(sweep.flexible_threshold if flexible else sweep.rigid_threshold)
+        cases.append(
+            Case(
+                group, f"Threshold speed there, {name}", there / _RPM, found.speed / _RPM,
+                1e-9 * closed / _RPM, "Ω = Ω_sf(ε(Ω))" if flexible else "Ω = Ω_s(ε(Ω))", "rpm",
+            )
+        )  # fmt: skip
     machine = PRESETS["sheet-1e8"].machine
     found = search.onset_speed(machine, flexible=False)
     state = equilibrium(machine, found.speed)
