@@ -18,11 +18,12 @@ from typing import NamedTuple
 import numpy as np
 
 from rotorcalc.arrays import Array, ComplexArray
-from rotorcalc.films import FilmUnits, journal_motion
+from rotorcalc.films import FilmUnits, film_of, journal_motion
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.rotor_impedance import impedance
 
-_DIFFERENCE = 1e-6
+# Step of a difference of the film's force, as a share of what it must not pass, and its bounds.
+_DIFFERENCE_SHARE, _SMALLEST_DIFFERENCE, _LARGEST_DIFFERENCE = 1e-3, 1e-11, 1e-6
 
 
 class Cycle(NamedTuple):
@@ -61,7 +62,7 @@ class Balance:
         bearing = machine.bearing
         self.machine, self.C = machine, bearing.radial_clearance
         self.film_per_speed = float(FilmUnits(bearing, machine.viscosity, 1.0).force)
-        self.force = journal_motion(bearing).force
+        self.force, self.wall = journal_motion(bearing).force, film_of(bearing).gap
 
     def residual(self, cycle: Cycle) -> tuple[Array, Array]:
         """Return the residual, (2m,), and its derivatives by all unknowns, (2m, 2m + 2)."""
@@ -95,14 +96,29 @@ class Balance:
     def film(self, place: Array, velocity: Array) -> tuple[Array, Array, Array]:
         """Return the film's force, (m, 2), and its derivatives by place and velocity, (m, 2, 2)."""
         states = np.concatenate([place, velocity], axis=1)
+        h = self._difference(place, velocity)
         force = self._forces(states)
         slopes = np.empty((len(place), 2, 4))
         for j in range(4):
-            step = np.zeros(4)
-            step[j] = _DIFFERENCE
-            ahead, behind = self._forces(states + step), self._forces(states - step)
-            slopes[:, :, j] = (ahead - behind) / (2.0 * _DIFFERENCE)
+            step = h * np.eye(4)[j]
+            slopes[:, :, j] = (self._forces(states + step) - self._forces(states - step)) / (2 * h)
         return force, slopes[:, :, :2], slopes[:, :, 2:]
+
+    def gap(self, path: Array) -> float:
+        """Return the thinnest film along a path of the journal, in C."""
+        return float(np.min(self.wall(path)))
+
+    def _difference(self, place: Array, velocity: Array) -> Array:
+        """Return how far to step for a difference of the force, (m, 1).
+
+        A plain bearing's force is not smooth where the velocity relative to half speed whirl
+        vanishes, and large whirl comes to within a millionth of it: a step that passes it gives a
+        slope that belongs to neither side, and with it Newton's method crawls.
+        """
+        relative = np.hypot(velocity[:, 0] + 0.5 * place[:, 1], velocity[:, 1] - 0.5 * place[:, 0])
+        room = np.minimum(relative, self.wall(place))
+        share = _DIFFERENCE_SHARE * room[:, None]
+        return np.clip(share, _SMALLEST_DIFFERENCE, _LARGEST_DIFFERENCE)
 
     def _forces(self, states: Array) -> Array:
         return np.array([self.force(*state) for state in states.tolist()])

@@ -23,13 +23,90 @@ from rotorcalc.nonlinear.hopf import Hopf, whirl_shape
 _FEWEST_POINTS, _MOST_POINTS = 33, 257
 _TAIL = 1e-6
 # Newton's method: steps at most, and the size of the last one.
-_ITERATIONS, _SETTLED = 8, 1e-10
-_FIRST_AMPLITUDE = 0.02
+_ITERATIONS, _SETTLED = 10, 1e-9
+# Sizes of the first cycle, in C, tried in turn; one much smaller than the first is at rest.
+_FIRST_SIZES, _AT_REST = (0.02, 0.005, 0.001), 1e-4
+# Lengths of a step along the branch. It grows after a step that took Newton's method few enough.
 _FIRST_STEP, _LONGEST_STEP, _SHORTEST_STEP = 0.02, 0.035, 1e-5
+_FEW, _LONGER, _SHORTER = 6, 1.5, 0.4
+_NEAREST_WALL = 0.03
+# No branch is known that has so many: it only keeps one that winds for ever from running for ever.
+_MOST_CYCLES = 2000
 
 
 class BifurcationError(RuntimeError):
     """The limit cycles could not be followed from the onset."""
+
+
+class Branch:
+    """The limit cycles of a machine, one after the other along their branch from the onset.
+
+    Parameters
+    ----------
+    balance : Balance
+        The balance of the machine's forces.
+    onset : Hopf
+        Its onset.
+    lowest, highest : float
+        Speeds between which to follow it, Ω [rad/s].
+
+    Attributes
+    ----------
+    ended : str
+        In words what ended the branch; empty until it has ended.
+    """
+
+    def __init__(self, balance: Balance, onset: Hopf, lowest: float, highest: float) -> None:
+        self.balance, self.onset = balance, onset
+        self.lowest, self.highest = lowest, highest
+        self.ended = ""
+
+    def __iter__(self) -> Iterator[Cycle]:
+        """Yield the cycles, the last one at the bound of the speeds where they reach it."""
+        last, step = _born(self.balance.machine, self.onset), _FIRST_STEP
+        cycle = self._first()
+        for _ in range(_MOST_CYCLES):
+            bounded = min(max(cycle.speed, self.lowest), self.highest)
+            if bounded != cycle.speed:
+                word = "highest" if bounded == self.highest else "lowest"
+                self.ended = f"reached the {word} speed asked for"
+                cycle = _at_speed(self.balance, last, cycle, bounded)
+                if cycle is not None:
+                    yield cycle
+                return
+            yield cycle
+            after, step = self._next(last, cycle, step)
+            if after is None:
+                return
+            last, cycle = cycle, after
+        self.ended = f"has more than {_MOST_CYCLES} cycles"
+
+    def _first(self) -> Cycle:
+        for size in _FIRST_SIZES:
+            cycle = small_cycle(self.balance, self.onset, size)
+            if cycle is not None:
+                return cycle
+        raise BifurcationError("no limit cycle found next to the onset")
+
+    def _next(self, last: Cycle, cycle: Cycle, step: float) -> tuple[Cycle | None, float]:
+        """Return the next cycle and the step after it; None, and the reason kept, at the end."""
+        if self.balance.gap(cycle.path) < _NEAREST_WALL:
+            self.ended = f"came to within {_NEAREST_WALL:.0%} of the clearance to the wall"
+            return None, step
+        last = last.resampled(len(cycle.path))
+        chord = cycle.vector() - last.vector()
+        tangent = chord / _length(chord, len(cycle.path))
+        while step >= _SHORTEST_STEP:
+            found, steps = _corrected(self.balance, cycle, tangent, step)
+            if found is None:
+                step *= _SHORTER
+            elif _through_rest(cycle, found):
+                self.ended = "shrank to rest at another onset"
+                return None, step
+            else:
+                return found, min(_LONGER * step, _LONGEST_STEP) if steps <= _FEW else step
+        self.ended = "was lost: Newton's method finds no next cycle, however near"
+        return None, step
 
 
 def small_cycle(balance: Balance, onset: Hopf, size: float) -> Cycle | None:
@@ -59,25 +136,14 @@ def small_cycle(balance: Balance, onset: Hopf, size: float) -> Cycle | None:
     return cycle
 
 
-def followed(balance: Balance, onset: Hopf) -> Iterator[Cycle]:
-    """Yield the cycles along their branch, from the first one that is not all but at rest."""
-    last = _born(balance.machine, onset)
-    cycle, step = small_cycle(balance, onset, _FIRST_AMPLITUDE), _FIRST_STEP
-    if cycle is None:
-        raise BifurcationError("no limit cycle found next to the onset")
-    yield cycle
-    while step >= _SHORTEST_STEP:
-        last = last.resampled(len(cycle.path))
-        chord = cycle.vector() - last.vector()
-        tangent = chord / _length(chord, len(cycle.path))
-        found, steps = _corrected(balance, cycle, tangent, step)
-        if found is None:
-            step *= 0.4
-            continue
-        last, cycle = cycle, found
-        yield cycle
-        if steps <= 4:
-            step = min(1.5 * step, _LONGEST_STEP)
+def _through_rest(cycle: Cycle, after: Cycle) -> bool:
+    """Return whether the next cycle is at rest, or beyond it with its phase turned over."""
+    now, then = (_around_mean(one.resampled(_FEWEST_POINTS).path) for one in (cycle, after))
+    return float(np.sum(now * then)) <= 0.0 or float(np.abs(then).max()) < _AT_REST
+
+
+def _around_mean(path: Array) -> Array:
+    return path - path.mean(axis=0)
 
 
 def _weights(m: int) -> Array:
@@ -103,28 +169,40 @@ def _corrected(
 
     Finer where it needs more points to be resolved.
     """
-    found, steps = _newton(balance, cycle, tangent, step)
+    found, steps = _newton(balance, cycle, tangent, step, _weights(len(cycle.path)) * tangent)
     while found is not None and found.tail() > _TAIL and len(found.path) < _MOST_POINTS:
         points = 2 * len(found.path) - 1
         cycle, m = cycle.resampled(points), len(cycle.path)
         fine = Cycle(tangent[:-2].reshape(2, m).T, 1.0, 1.0).resampled(points)
         tangent = np.concatenate([fine.path.T.ravel(), tangent[-2:]])
-        found, steps = _newton(balance, cycle, tangent, step)
+        found, steps = _newton(balance, cycle, tangent, step, _weights(len(cycle.path)) * tangent)
     return found, steps
 
 
+def _at_speed(balance: Balance, before: Cycle, after: Cycle, speed: float) -> Cycle | None:
+    """Return the cycle between two others that has a speed; None where it is not found."""
+    m = len(after.path)
+    start, chord = before.resampled(m), after.vector() - before.resampled(m).vector()
+    along = np.zeros(2 * m + 2)
+    along[-1] = 1.0
+    found, _ = _newton(balance, start, chord / chord[-1], math.log(speed / start.speed), along)
+    return found
+
+
 def _newton(
-    balance: Balance, cycle: Cycle, tangent: Array, step: float
+    balance: Balance, cycle: Cycle, tangent: Array, step: float, along: Array
 ) -> tuple[Cycle | None, int]:
-    """Return Newton's solution of the balance, at a distance from a cycle and in phase with it."""
+    """Return Newton's solution of the balance, a step from a cycle and in phase with the guess.
+
+    The step is measured by the unknowns' weights `along`.
+    """
     m, start = len(cycle.path), cycle.vector()
     unknown: Array = start + step * tangent
-    along = _weights(m) * tangent
     # A shift of the phase moves the path by dx/dτ; the guess has the phase of the solution.
     shift = (differentiation(m) @ Cycle.of(unknown).path).T.ravel()
     for count in range(1, _ITERATIONS + 1):
         now = Cycle.of(unknown)
-        if np.hypot(*now.path.T).max() >= 1.0:
+        if balance.gap(now.path) <= 0.0:
             return None, count
         residual, jacobian = balance.residual(now)
         moved: Array = unknown - start

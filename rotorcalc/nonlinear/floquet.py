@@ -11,30 +11,42 @@ from scipy.linalg import expm
 
 from rotorcalc import modes
 from rotorcalc.arrays import Array
-from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.collocation import Balance, Cycle, differentiation
 
 
-def multiplier(machine: Machine, cycle: Cycle) -> float:
+def multiplier(balance: Balance, cycle: Cycle) -> float:
     """Return the largest modulus of the Floquet multipliers, the one that is always 1 left out.
 
     The state matrix A(τ) of small motions about the cycle is integrated over its period by
     exponentials of its values in the middle of many steps (Magnus, second order, extrapolated).
+
+    Parameters
+    ----------
+    balance : Balance
+        The balance of the machine's forces.
+    cycle : Cycle
+        A solution of it.
+
+    Returns
+    -------
+    float
+        Growth of the least damped small motion over one period [-]; below 1 the cycle is stable.
     """
     fine, coarse = (
-        _monodromy(machine, cycle.resampled(points * len(cycle.path))) for points in (2, 1)
+        _monodromy(balance, cycle.resampled(points * len(cycle.path))) for points in (2, 1)
     )
     values = np.linalg.eigvals(fine + (fine - coarse) / 3.0)
     rest = np.delete(values, np.argmin(np.abs(values - 1.0)))
     return float(np.abs(rest).max())
 
 
-def _monodromy(machine: Machine, cycle: Cycle) -> Array:
-    balance, m = Balance(machine), len(cycle.path)
+def _monodromy(balance: Balance, cycle: Cycle) -> Array:
+    """Return the matrix that takes a small motion about the cycle through one period."""
+    m = len(cycle.path)
     velocity = cycle.ratio * (differentiation(m) @ cycle.path)
     _, by_place, by_velocity = balance.film(cycle.path, velocity)
     stiffness = balance.film_per_speed * cycle.speed / balance.C
-    balanced = replace(machine.rotor, imbalance=0.0)
+    balanced = replace(balance.machine.rotor, imbalance=0.0)
     A = modes.state_matrix(balanced, -stiffness * by_place, -stiffness / cycle.speed * by_velocity)
     # Each step has A in its middle; the first is cut in two, so that the period begins at τ = 0.
     step = 2.0 * np.pi / (cycle.ratio * cycle.speed * m)

@@ -18,14 +18,11 @@ from rotorcalc.coefficients import equilibrium
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.collocation import Balance, Cycle, harmonics
-from rotorcalc.nonlinear.continuation import BifurcationError, followed
+from rotorcalc.nonlinear.continuation import BifurcationError, Branch
 from rotorcalc.nonlinear.equations import Start
 from rotorcalc.nonlinear.floquet import multiplier
 from rotorcalc.nonlinear.hopf import Hopf, hopf
 from rotorcalc.nonlinear.rotor_impedance import disk_impedance
-
-MOST_CYCLES = 400
-_NEAREST_WALL = 0.97
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +33,10 @@ class Bifurcation(Result):
     ----------
     hopf : Hopf
         The onset, where the cycles begin.
+    ended : str
+        What ended the branch, in words: "reached the highest speed asked for", or "lowest"; "came
+        to within 3% of the clearance to the wall"; "shrank to rest at another onset"; or why it
+        could not be followed further.
     speed, whirl_frequency : array, (n,)
         Ω and ω [rad/s].
     amplitude : array, (n,)
@@ -51,6 +52,7 @@ class Bifurcation(Result):
     """
 
     hopf: Hopf
+    ended: str
     speed: Array
     whirl_frequency: Array
     amplitude: Array
@@ -113,7 +115,8 @@ def bifurcation(
     Returns
     -------
     Bifurcation
-        Until the cycles leave those speeds or come to within 3 % of the clearance to the wall.
+        Until the cycles reach a bound of the speeds, with a last one there, come to within 3 % of
+        the clearance to the wall, or end otherwise; `ended` says which.
 
     Raises
     ------
@@ -126,24 +129,24 @@ def bifurcation(
     if not 0.0 < lowest < 1.0 < highest < math.inf:
         raise ValueError(f"lowest = {lowest}, highest = {highest}: must lie on either side of 1")
     onset = hopf(machine)
+    balance = Balance(machine)
+    branch = Branch(balance, onset, lowest * onset.speed, highest * onset.speed)
     found: list[_Found] = []
     share = 0.0
-    for cycle in followed(Balance(machine), onset):
-        ratio = cycle.speed / onset.speed
-        if not lowest <= ratio <= highest or len(found) == MOST_CYCLES:
-            break
-        found.append(_measured(machine, cycle))
+    for cycle in branch:
+        found.append(_measured(balance, cycle))
         if progress is not None:
-            share = max(share, found[-1].eccentricity_ratio ** 2, (ratio - 1.0) / (highest - 1.0))
+            ratio = cycle.speed / onset.speed
+            nearest_wall = (1.0 - found[-1].gap) ** 2
+            share = max(share, nearest_wall, (ratio - 1.0) / (highest - 1.0))
             progress(share)
-        if found[-1].eccentricity_ratio > _NEAREST_WALL:
-            break
     if not found:
         raise BifurcationError("no limit cycle found next to the onset")
     if progress is not None:
         progress(1.0)
     return Bifurcation(
         hopf=onset,
+        ended=branch.ended,
         speed=np.array([one.cycle.speed for one in found]),
         whirl_frequency=np.array([one.cycle.speed * one.cycle.ratio for one in found]),
         amplitude=np.array([one.amplitude for one in found]),
@@ -227,16 +230,18 @@ class _Found(NamedTuple):
     cycle: Cycle
     amplitude: float
     eccentricity_ratio: float
+    gap: float
     multiplier: float
 
 
-def _measured(machine: Machine, cycle: Cycle) -> _Found:
+def _measured(balance: Balance, cycle: Cycle) -> _Found:
     """Return a cycle with its size and its stability."""
-    rest = equilibrium(machine, cycle.speed).film.position
+    rest = equilibrium(balance.machine, cycle.speed).film.position
     dense = cycle.resampled(4 * len(cycle.path) + 1).path
     return _Found(
         cycle=cycle,
-        amplitude=float(np.hypot(*(dense - rest).T).max()) * machine.bearing.radial_clearance,
+        amplitude=float(np.hypot(*(dense - rest).T).max()) * balance.C,
         eccentricity_ratio=float(np.hypot(*dense.T).max()),
-        multiplier=multiplier(machine, cycle),
+        gap=balance.gap(dense),
+        multiplier=multiplier(balance, cycle),
     )

@@ -82,7 +82,7 @@ def test_the_normal_form_grows_as_the_motion_does(kind):
     assert (4.0 * growths[0] - growths[1]) / 3.0 == pytest.approx(onset.lyapunov, rel=0.03)
 
 
-@settings(max_examples=80)
+@settings(max_examples=70)
 @given(machine=any_machine)
 @example(machine=stiff(1e9))
 @example(machine=stiff(1e10))
@@ -114,7 +114,7 @@ def lyapunov_of_cycles(machine, onset):
     return once[best + 1], doubt[best]
 
 
-@settings(max_examples=80)
+@settings(max_examples=40)
 @given(machine=any_machine)
 def test_the_error_bounds_the_difference_from_extended_precision(machine):
     onset = found_of(machine)

@@ -5,11 +5,22 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import assume, example, given, settings
 
-from rotorcalc import PRESETS, analyse, bifurcation, hopf, simulate
+from rotorcalc import (
+    PRESETS,
+    JournalBearing,
+    Machine,
+    Oil,
+    Rotor,
+    analyse,
+    bifurcation,
+    hopf,
+    simulate,
+)
 from rotorcalc.nonlinear import limit_cycles, transient
 from rotorcalc.nonlinear.limit_cycles import sweep
-from tests.machines import ROTORS, SHEET, C, balanced, near_hopf
+from tests.machines import RIGID, ROTORS, SHEET, C, balanced, log_uniform, machines, near_hopf
 
 
 @pytest.fixture(scope="module")
@@ -118,6 +129,77 @@ def test_floquet_agrees_with_the_turns_of_the_branch(subcritical, supercritical)
         rising = np.gradient(branch.speed) > 0.0
         flips = np.abs(branch.multiplier - 1.0) < 0.02
         assert np.all((rising == branch.stable) | flips)
+
+
+def rigid(mass, **bearing):
+    """Return a rigid rotor of a mass on thick oil and a long bearing."""
+    return Machine(
+        oil=Oil(reference_viscosity=0.1, reference_temperature=50, temperature_coefficient=0.03),
+        bearing=JournalBearing(
+            **{"diameter": 0.1, "length": 0.08, "radial_clearance": 100e-6} | bearing
+        ),
+        rotor=Rotor(mass=mass),
+        temperature=50.0,
+    )
+
+
+def test_a_branch_goes_on_where_its_film_is_all_but_in_half_speed_whirl():
+    """There the force's slopes change within a millionth of CΩ."""
+    branch = bifurcation(rigid(50.0), highest=1.5)
+    onset = branch.hopf.speed
+    assert branch.ended == "reached the highest speed asked for"
+    assert branch.speed[-1] == pytest.approx(1.5 * onset, rel=1e-12)
+    assert len(branch.speed) < 60
+    for factor in (1.31, 1.4, 1.499):
+        sizes, stable = branch.at(factor * onset)
+        assert len(sizes[stable]) == 1
+
+
+def test_a_branch_ends_on_the_lowest_speed_too(subcritical):
+    lowest = 0.5 + 0.5 * float(subcritical.folds[0] / subcritical.hopf.speed)
+    branch = bifurcation(near_hopf(0.06, 1.0)[0], lowest=lowest)
+    assert branch.ended == "reached the lowest speed asked for"
+    assert branch.speed[-1] == pytest.approx(lowest * branch.hopf.speed, rel=1e-12)
+    known, _ = subcritical.at(branch.speed[-1])
+    assert branch.amplitude[-1] == pytest.approx(min(known), rel=0.01)
+
+
+def test_a_branch_may_shrink_to_rest_at_another_onset():
+    """Midspan damping ends this machine's instability at a higher speed: there it can rest."""
+    machine = Machine(
+        oil=Oil(reference_viscosity=0.02, reference_temperature=50, temperature_coefficient=0.03),
+        bearing=JournalBearing(diameter=0.1, length=0.05, radial_clearance=40e-6),
+        rotor=Rotor(mass=100.0, shaft_stiffness=3e5, disk_damping=20.0),
+        temperature=50.0,
+    )
+    branch = bifurcation(machine)
+    assert branch.ended == "shrank to rest at another onset"
+    square = branch.amplitude[-2:] ** 2
+    end = branch.speed[-1] + np.diff(branch.speed)[-1] * square[1] / (square[0] - square[1])
+    growth = [
+        analyse(machine, factor * end).flexible_eigenvalues.real.max() for factor in (0.999, 1.001)
+    ]
+    assert growth[0] > 0.0 > growth[1]
+
+
+@settings(max_examples=15)
+@given(machine=machines(stiffness=RIGID | log_uniform(1e5, 1e10), damped=True, journals=True))
+@example(machine=rigid(2000.0, length=0.02))
+@example(machine=rigid(0.5, radial_clearance=200e-6))
+def test_a_branch_goes_where_it_was_asked_or_says_why_not(machine):
+    try:
+        branch = bifurcation(machine)
+    except ValueError:
+        assume(False)
+    ratio = branch.speed / branch.hopf.speed
+    assert np.all((ratio > 0.5 - 1e-9) & (ratio < 1.5 + 1e-9))
+    reasons = {
+        "reached the highest speed asked for": ratio[-1] == pytest.approx(1.5),
+        "reached the lowest speed asked for": ratio[-1] == pytest.approx(0.5),
+        "came to within 3% of the clearance to the wall": branch.eccentricity_ratio[-1] > 0.97,
+        "shrank to rest at another onset": branch.amplitude[-1] < 0.1 * branch.hopf.clearance,
+    }
+    assert reasons[branch.ended]
 
 
 def test_the_imbalance_plays_no_part():

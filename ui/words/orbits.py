@@ -328,6 +328,7 @@ def say_cycles(branch: Bifurcation, units: Units) -> None:
             f"Supercritical at {at}: {rate} ({error}). Above the onset a small whirl grows gently "
             "with speed and goes with it."
         )
+    st.caption(f"The branch of limit cycles {branch.ended}.")
 
 
 # --- Three ways to the onset ------------------------------------------------------------------
