@@ -120,8 +120,8 @@ def onset_three_ways(page: Page) -> None:
         ask.with_onset(page).chart(
             lambda c: draw.onset_growth(*ask.three_onsets(c), units), "orbits_onset",
             alt="Growth rate over speed: eigenvalues as a line, measured rates as points.",
-            caption="Each point: 16 revolutions of the nonlinear motion after a kick of "
-            "C/10000, its exponentials fitted. Without imbalance. Eqs. 5.38, 5.45 to 5.50.",
+            caption="Each point: eight whirls of the nonlinear motion from a whirl of C/10000, "
+            "exponentials fitted to them. Without imbalance. Eqs. 5.38, 5.45 to 5.50.",
         )  # fmt: skip
 
 

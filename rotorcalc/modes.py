@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linear_sum_assignment
 
 from rotorcalc.arguments import checked
-from rotorcalc.arrays import Array, BoolArray, ComplexArray, complex_array, real_array
+from rotorcalc.arrays import Array, BoolArray, ComplexArray, IntArray, complex_array, real_array
 from rotorcalc.display import Result
 from rotorcalc.machine import Rotor
 
@@ -232,6 +232,31 @@ def rotor_terms(rotor: Rotor, *, flexible: bool = True) -> Array:
     terms[5] = np.convolve(N, N)
     degree = 4 if s == 0.0 else 6 if m_j == 0.0 else 8
     return terms[:, : degree + 1]
+
+
+def leading(eigenvalues: ArrayLike) -> ComplexArray:
+    """Return the eigenvalue of the least damped mode that oscillates: of the whirl.
+
+    Parameters
+    ----------
+    eigenvalues : array_like, (..., n)
+        λ of all modes [1/s].
+
+    Returns
+    -------
+    complex array, (...)
+        Of those with Im λ > 0 the one that decays slowest, or grows fastest; not a number where
+        none oscillates.
+    """
+    values = complex_array("eigenvalues", eigenvalues)
+    place = leading_place(values)[..., None]
+    value: ComplexArray = np.take_along_axis(values, place, axis=-1)[..., 0]
+    return np.where(value.imag > 0.0, value, complex(np.nan, np.nan))
+
+
+def leading_place(eigenvalues: ComplexArray) -> IntArray:
+    """Return the place of `leading` among eigenvalues, (...); that of any where none oscillates."""
+    return np.argmax(np.where(eigenvalues.imag > 0.0, eigenvalues.real, -np.inf), axis=-1)
 
 
 def damped_frequency(eigenvalue: ArrayLike) -> Array:

@@ -15,7 +15,7 @@ import numpy as np
 
 from rotorcalc import modes
 from rotorcalc.arguments import checked
-from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.arrays import Array
 from rotorcalc.coefficients import Equilibrium, equilibrium
 from rotorcalc.display import Result
 from rotorcalc.films import film_of
@@ -227,12 +227,7 @@ def _linear(
     with np.errstate(over="ignore", invalid="ignore"):
         turning = np.exp(time[:, None] * np.append(values[one], 1j * speed))
         motion = np.real(turning @ phasors)
-    return motion, orbit_points(*journal), _leading(values)
-
-
-def _leading(values: ComplexArray) -> complex:
-    waves = values[values.imag > 0.0]
-    return complex(waves[np.argmax(waves.real)]) if len(waves) else complex(math.nan, math.nan)
+    return motion, orbit_points(*journal), complex(modes.leading(values))
 
 
 def _drawn(linear: Array, rest: Array, C: float) -> Array:

@@ -202,10 +202,33 @@ def free_modes(
     count = len(path) if revolutions is None else min(revolutions * samples + 1, len(path))
     if count < 2 * samples:
         raise ValueError("motion: must have two revolutions or more")
-    stride = max(1, count // _MOST_ROWS)
-    path, step = path[:count:stride], float(motion.time[stride] - motion.time[0])
+    return fitted_modes(path[:count], float(motion.time[1] - motion.time[0]))
+
+
+def fitted_modes(path: Array, step: float) -> ComplexArray:
+    """Return the exponents of the exponentials that add up to a path, as `free_modes` does.
+
+    Parameters
+    ----------
+    path : array, (n, 2)
+        X and Y at even steps of time.
+    step : float
+        Time from one to the next [s].
+
+    Returns
+    -------
+    complex array, (modes,)
+        λ [1/s] with Im λ ≥ 0, the one with the largest share in the path first.
+
+    Raises
+    ------
+    ValueError
+        Where the path is at rest.
+    """
+    stride = max(1, len(path) // _MOST_ROWS)
+    path = path[::stride]
     factors = _pencil(path)
-    values: ComplexArray = np.asarray(np.log(factors) / step, dtype=complex)
+    values: ComplexArray = np.asarray(np.log(factors) / (stride * step), dtype=complex)
     shares = _shares(factors, path)
     values = values[np.argsort(-shares)]
     return values[values.imag >= 0.0]

@@ -179,14 +179,16 @@ def start_on_mode(machine: Machine, speed: float, amplitude: float) -> Start:
     Raises
     ------
     ValueError
-        Where the speed is not positive or the amplitude is not positive and finite.
+        Where the speed is not positive, the amplitude is not positive and finite, or no mode
+        oscillates.
     """
     if not 0.0 < real_number("amplitude", amplitude) < math.inf:
         raise ValueError(f"amplitude = {amplitude} m: must be positive and finite")
     state = equilibrium(machine, _checked_speed("speed", speed))
     shapes = modes.mode_shapes(machine.rotor, state.stiffness, state.damping)
-    waves = np.flatnonzero(shapes.eigenvalues.imag > 0.0)
-    mode = waves[np.argmax(shapes.eigenvalues.real[waves])]
+    mode = modes.leading_place(shapes.eigenvalues)
+    if shapes.eigenvalues[mode].imag <= 0.0:
+        raise ValueError(f"machine: none of its modes oscillates at {speed:.6g} rad/s")
     lam, disk, journal = shapes.eigenvalues[mode], shapes.disk[mode], shapes.journal[mode]
     # The phase at which the journal's displacement is largest: (x·x) real and positive.
     scale = amplitude * np.exp(-0.5j * np.angle(np.sum(journal**2)))

@@ -8,7 +8,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rotorcalc import Transient, analyse, simulate
-from rotorcalc.nonlinear.measured_onset import measured_growth, onsets
 from rotorcalc.nonlinear.signals import free_modes, growth, poincare_points, spectrum, waterfall
 from tests.machines import ROTORS, RPM, SHEET, C, balanced, near_hopf, with_rotor
 
@@ -108,30 +107,6 @@ def test_a_run_up_shows_whirl_from_the_onset_on_and_the_imbalance_throughout():
     assert np.all(whirl[seen.speed > 10000 * RPM] > 0.3 * C)
     synchronous = seen.amplitude[:, np.argmin(np.abs(seen.order - 1.0))]
     assert np.all(synchronous[seen.speed < 8800 * RPM] > 1e-3 * C)
-
-
-@pytest.mark.parametrize("kind", ROTORS)
-def test_three_ways_to_the_onset_agree(kind):
-    told = []
-    found = onsets(balanced(ROTORS[kind], 0.1 * C), progress=told.append)
-    assert found.agree
-    assert found.spread < 1e-5
-    assert math.isnan(found.closed_form) == (kind not in ("rigid", "massless journals"))
-    assert told == sorted(told)
-    assert 0.0 < told[0] < told[-1] < 1.0
-
-
-def test_the_three_disagree_where_one_of_them_is_wrong(monkeypatch):
-    monkeypatch.setattr(
-        "rotorcalc.nonlinear.measured_onset.measured_growth",
-        lambda machine, speed: measured_growth(machine, speed) + 1.0,
-    )
-    assert not onsets(balanced(ROTORS["rigid"])).agree
-
-
-def test_a_machine_without_an_onset_has_none_to_compare():
-    with pytest.raises(ValueError, match="has no onset"):
-        onsets(with_rotor(disk_damping=1e5))
 
 
 def test_bad_requests_are_refused_in_words():

@@ -369,10 +369,13 @@ def say_onsets(found: Onsets, units: Units) -> None:
             reading = f"{float(units.speed.of(speed)):.2f} {units.speed.name}"
             st.metric(label, unknown if math.isnan(speed) else reading)
             st.caption(how)
-    if found.agree:
+    if found.agree == "agree":
         st.success(f"They agree: the largest difference is {found.spread:.1e} of the onset.")
-    elif math.isnan(found.measured):
-        st.warning("No onset was measured from half to twice the speed that the eigenvalues give.")
+    elif found.agree == "not measured":
+        st.warning(
+            "Not measured: from half to twice the speed that the eigenvalues give, no change from "
+            "decay to growth could be watched in the time allowed."
+        )
     else:
         st.error(f"They disagree by {found.spread:.1%} of the onset.")
 
