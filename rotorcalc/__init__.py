@@ -14,7 +14,7 @@ from rotorcalc.nonlinear.hopf import Hopf, hopf
 from rotorcalc.nonlinear.limit_cycles import Bifurcation, bifurcation
 from rotorcalc.nonlinear.measured_onset import Onsets, onsets
 from rotorcalc.nonlinear.transient import Start, Transient, TransientError, simulate, start_on_mode
-from rotorcalc.onset.search import Onset, onset_speed
+from rotorcalc.onset import Onset, onset_speed
 from rotorcalc.onset.whirl import WhirlOnset, whirl_onset
 from rotorcalc.presets import PRESETS, Preset
 from rotorcalc.unbalance_response import OrbitEllipse, orbit_ellipse

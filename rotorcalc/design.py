@@ -19,7 +19,7 @@ from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine
-from rotorcalc.onset.closed_form import has_closed_form
+from rotorcalc.onset.closed_form import covers
 from rotorcalc.onset.many import onset_speeds
 from rotorcalc.variation import address, value_of, varied
 
@@ -181,7 +181,7 @@ def onset_map(  # noqa: PLR0913 - two axes, each a name and its values
     xs, ys = np.asarray(xs, dtype=float), np.asarray(ys, dtype=float)
     rows = [[_machine_or_none(machine, {x: a, y: b}) for a in xs] for b in ys]
     made = [row_machine for row in rows for row_machine in row if row_machine is not None]
-    whole = all(has_closed_form(one) for one in made)
+    whole = all(covers(one) for one in made)
     speed = np.empty((len(ys), len(xs)))
     # In one go where that is cheapest, else by blocks of rows, so that the progress can be told.
     height = max(1, len(ys) if whole else len(ys) // _BLOCKS)
@@ -329,7 +329,7 @@ def _movement(one: Sensitivity, onset: float) -> float:
 
 def _scan_values(machine: Machine, field: str, low: float, high: float) -> Array:
     ends = [varied(machine, {field: value}) for value in (low, high)]
-    points = _SCAN if all(has_closed_form(end) for end in ends) else _SLOW_SCAN
+    points = _SCAN if all(covers(end) for end in ends) else _SLOW_SCAN
     return np.geomspace(low, high, points) if low > 0.0 else np.linspace(low, high, points)
 
 

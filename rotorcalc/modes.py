@@ -9,7 +9,9 @@ Source: San Andrés, Notes 5, Eq. 5.38 (rigid), and the calculation sheet (flexi
 and journal mass are the two extensions that the sheet leaves to its reader.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -211,26 +213,34 @@ def characteristic_polynomial(rotor: Rotor, K: Array, C: Array, *, flexible: boo
     return film_terms(K, C) @ rotor_terms(rotor, flexible=flexible)
 
 
-def film_terms(K: Array, C: Array) -> Array:
+def film_terms(K: NDArray[Any], C: NDArray[Any]) -> NDArray[Any]:
     """Return the film's part in `characteristic_polynomial`: of det Z, tr Z and 1, (..., 6)."""
-    one = np.ones(K.shape[:-2])
+    one = np.ones(K.shape[:-2], dtype=K.dtype)
     return np.stack([*_determinant(K, C), _trace(K), _trace(C), one], axis=-1)
 
 
-def rotor_terms(rotor: Rotor, *, flexible: bool = True) -> Array:
-    """Return the rotor's part in `characteristic_polynomial`: of D², D N and N², (6, n+1)."""
-    s, m_j = 1.0 / rotor.shaft_stiffness if flexible else 0.0, rotor.journal_mass
-    D = np.array([1.0, s * rotor.disk_damping, s * rotor.disk_mass])
-    N = np.zeros(5)
-    N[2:] = m_j * D
-    N[1:3] += rotor.disk_damping, rotor.disk_mass
-    terms = np.zeros((6, 9))
+def rotor_terms(
+    rotor: Rotor, *, flexible: bool = True, number: Callable[[float], Any] = float
+) -> NDArray[Any]:
+    """Return the rotor's part in `characteristic_polynomial`: of D², D N and N², (6, n+1).
+
+    In floats, or in what else `number` makes of them, such as `decimal.Decimal`.
+    """
+    bends = flexible and not rotor.is_rigid
+    s = 1 / number(rotor.shaft_stiffness) if bends else number(0.0)
+    m_j, C_s = number(rotor.journal_mass), number(rotor.disk_damping)
+    m_d = number(rotor.mass) / 2 - m_j
+    zero = number(0.0)
+    D = np.array([number(1.0), s * C_s, s * m_d])
+    N = np.array([zero, C_s, m_d, zero, zero])
+    N[2:] += m_j * D
+    terms = np.full((6, 9), zero)
     for power in range(3):
         terms[power, power : power + 5] = np.convolve(D, D)
     for power in range(2):
         terms[3 + power, power : power + 7] = np.convolve(D, N)
     terms[5] = np.convolve(N, N)
-    degree = 4 if s == 0.0 else 6 if m_j == 0.0 else 8
+    degree = 4 if s == 0 else 6 if m_j == 0 else 8
     return terms[:, : degree + 1]
 
 
@@ -403,16 +413,18 @@ def _slow(K: Array, C: Array) -> ComplexArray:
         return np.stack([(q + swing) / a, np.where(swing == 0.0, c / q, (q - swing) / a)], axis=-1)
 
 
-def _determinant(K: Array, C: Array) -> tuple[Array, Array, Array]:
+def _determinant(
+    K: NDArray[Any], C: NDArray[Any]
+) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
     """Return det(K + λC): det K, K : adj C and det C, of λ's powers 0, 1 and 2."""
 
-    def both(A: Array, B: Array) -> Array:
+    def both(A: NDArray[Any], B: NDArray[Any]) -> NDArray[Any]:
         return A[..., 0, 0] * B[..., 1, 1] - A[..., 0, 1] * B[..., 1, 0]
 
     return both(K, K), both(K, C) + both(C, K), both(C, C)
 
 
-def _trace(A: Array) -> Array:
+def _trace(A: NDArray[Any]) -> NDArray[Any]:
     return A[..., 0, 0] + A[..., 1, 1]
 
 

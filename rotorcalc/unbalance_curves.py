@@ -14,15 +14,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotorcalc import modes
 from rotorcalc.analysis import Sweep
 from rotorcalc.arguments import checked
-from rotorcalc.arrays import Array, BoolArray, ComplexArray, IntArray
+from rotorcalc.arrays import Array, BoolArray, ComplexArray
 from rotorcalc.coefficients import checked_speed, equilibrium, stiffness_and_damping
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine, Rotor
-from rotorcalc.numerics import routh
-from rotorcalc.onset.closed_form import has_closed_form
+from rotorcalc.onset import judge
 from rotorcalc.unbalance_peaks import ResponsePeaks, disk_peak_speeds
 from rotorcalc.unbalance_response import (
     OrbitEllipse,
@@ -34,8 +32,6 @@ from rotorcalc.unbalance_response import (
     synchronous_response,
 )
 
-# A mode grows if it does so by more than a rounding error of the fastest mode's rate.
-_ROUNDING = 1e-9
 _ORBIT_POINTS = 73
 # Points around a peak, in spacings of the sweep: without much damping it is narrower than one.
 _NEAR = np.concatenate([-(0.5 ** np.arange(1, 10)), [0.0], 0.5 ** np.arange(9, 0, -1)])
@@ -223,18 +219,14 @@ def unstable_ranges(sweep: Sweep) -> Array:
     Returns
     -------
     array, (m, 2)
-        First and last speed of each range [rad/s], interpolated between the sweep's; `onset_speed`
-        gives the first onset to the last digit.
+        First and last speed of each range [rad/s], to the digits of `onset_speed`.
+
+    Raises
+    ------
+    ValueError
+        Where the speeds are not in one row and rising.
     """
-    growth = _growth(sweep)
-    grows = np.concatenate([[False], growth > 0.0, [False]])
-    first, last = (
-        np.flatnonzero(~grows[:-1] & grows[1:]),
-        np.flatnonzero(grows[:-1] & ~grows[1:]) - 1,
-    )
-    starts = _crossings(sweep.speed, growth, np.maximum(first - 1, 0), first)
-    ends = _crossings(sweep.speed, growth, last, np.minimum(last + 1, len(growth) - 1))
-    return np.stack([starts, ends], axis=-1)
+    return judge.unstable_ranges(sweep.machine, sweep.speed)
 
 
 @checked
@@ -327,14 +319,13 @@ def response_family(
     denser, order = np.unique(np.concatenate([speeds, near]), return_index=True)
     disk, journal = np.concatenate([sizes, sizes_there], axis=-1)[..., order]
     K, C = (np.concatenate(pair)[order] for pair in zip(film, film_there, strict=True))
+    machines = [replace(machine, rotor=rotor, load=machine.static_load) for rotor in rotors]
     return ResponseFamily(
         rotors=tuple(rotors),
         speed=denser,
         disk=disk,
         journal=journal,
-        unstable=np.array(
-            [~routh.decays(modes.characteristic_polynomial(rotor, K, C)) for rotor in rotors]
-        ),
+        unstable=np.array([judge.is_unstable(one, denser, film=(K, C)) for one in machines]),
     )
 
 
@@ -391,25 +382,6 @@ def _body_on(
     near = np.array([float(np.interp(speed, speeds, curve.lag[:, i])) for i in range(2)])
     lag = lag + 2.0 * np.pi * np.rint((near - lag) / (2.0 * np.pi))
     return BodyResponse(amplitude=np.abs(response), lag=lag, ellipse=orbit_ellipse(response))
-
-
-def _growth(sweep: Sweep) -> Array:
-    """Return a measure of the growth over a sweep: positive where the machine is unstable."""
-    if has_closed_form(sweep.machine):  # without eigenvalues: from −1 far below Eq. 5.50's to 1
-        return 2.0 / (1.0 + sweep.flexible_threshold / sweep.speed) - 1.0
-    return _fastest_growth(sweep.flexible_eigenvalues)
-
-
-def _fastest_growth(values: ComplexArray) -> Array:
-    """Return the largest Re λ less what may be rounding error, (...), of eigenvalues (..., m)."""
-    return values.real.max(axis=-1) - _ROUNDING * np.abs(values).max(axis=-1)
-
-
-def _crossings(speeds: Array, growth: Array, i: IntArray, j: IntArray) -> Array:
-    """Return where the growth changes sign between neighbours i and j, or i where they are one."""
-    rise = growth[j] - growth[i]
-    part = -growth[i] / np.where(i == j, np.inf, rise)
-    return speeds[i] + part * (speeds[j] - speeds[i])
 
 
 def _near(speeds: Array, peaks: Array) -> Array:

@@ -20,7 +20,7 @@ from rotorcalc.arrays import Array, ComplexArray, complex_array, real_array
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.display import Result
 from rotorcalc.machine import JournalBearing, Machine, Rotor
-from rotorcalc.onset.search import Onset
+from rotorcalc.onset import Onset
 from rotorcalc.onset.whirl import flexible_threshold
 
 _I = np.eye(2)

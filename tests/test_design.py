@@ -87,14 +87,13 @@ def test_the_closed_form_is_the_onset_on_the_eigenvalues(machine: Machine, flexi
 
 
 def test_no_closed_form_is_said_in_words() -> None:
-    with pytest.raises(ValueError, match="no closed form for a machine with midspan damping or"):
+    with pytest.raises(ValueError, match="no closed form for a machine with midspan damping"):
         closed_form.closed_form_onset(DAMPED)
 
 
-@pytest.mark.parametrize("film", sorted(closed_form.ONE_CURVE))
-def test_one_film_has_one_onset(film: str) -> None:
+def test_one_film_has_one_onset() -> None:
     """Both terms of the equation rise with σ, so it has one root whatever the static sag."""
-    for term in closed_form._curve(film):
+    for term in closed_form._table():
         whirls = term > 0.0
         assert np.all(np.diff(term[whirls]) > 0.0)
         assert np.all(np.diff(whirls.astype(int)) >= 0)
@@ -113,7 +112,7 @@ def test_machines_of_all_kinds_are_solved_in_their_order() -> None:
         ({}, True),
         ({"shaft_stiffness": math.inf}, True),
         ({"shaft_stiffness": math.inf, "journal_mass": 20.0}, True),  # all moves as one
-        ({"journal_mass": 20.0}, False),
+        ({"journal_mass": 20.0}, False),  # a balance, but not Eq. 5.50
         ({"disk_damping": 1.0}, False),
         ({"shaft_stiffness": math.inf, "disk_damping": 1.0}, False),
     ],

@@ -2,6 +2,7 @@
 
 import functools
 import math
+from dataclasses import replace
 from pkgutil import resolve_name
 
 import numpy as np
@@ -78,16 +79,13 @@ def test_the_misprints_of_the_source_would_be_found(monkeypatch):
 
 
 def test_a_wrong_onset_would_be_found(monkeypatch):
-    right = search.onset_speed
+    right = search.searched_onset
 
     def wrong(machine, flexible=True):
         found = right(machine, flexible)
-        return search.Onset(
-            speed=found.speed * 0.99, whirl_frequency=found.whirl_frequency,
-            eccentricity_ratio=found.eccentricity_ratio,
-        )  # fmt: skip
+        return replace(found, speed=found.speed * 0.99)
 
-    monkeypatch.setattr(search, "onset_speed", wrong)
+    monkeypatch.setattr(search, "searched_onset", wrong)
     assert "Onset, sheet's rotor, K_rot = 1e7 N/m" in failed()
 
 

@@ -21,7 +21,7 @@ from rotorcalc import (
 from rotorcalc.analysis import FilmCurves
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import equilibrium
-from rotorcalc.onset.search import Onset
+from rotorcalc.onset import Onset
 
 SHEET = PRESETS["sheet-1e8"].machine
 finite = st.floats(-10.0, 10.0)
@@ -134,7 +134,12 @@ def test_without_load_nothing_brakes_the_whirl() -> None:
 
 
 def test_without_onset_there_is_no_orbit() -> None:
-    never = Onset(speed=math.inf, whirl_frequency=math.nan, eccentricity_ratio=math.nan)
+    never = Onset(
+        speed=math.inf,
+        whirl_frequency=math.nan,
+        eccentricity_ratio=math.nan,
+        method="polynomial",
+    )
     with pytest.raises(ValueError, match="without an onset"):
         whirl_energy.whirl_orbit(SHEET, never)
 

@@ -31,7 +31,6 @@ from rotorcalc.coefficients import (
     film_forces,
     unloading,
 )
-from rotorcalc.onset import closed_form
 from rotorcalc.root_locus import Locus, root_locus
 from rotorcalc.unbalance_curves import (
     ClearanceOrbit,
@@ -274,8 +273,6 @@ def _locus(machine: Machine, speed: float, top_speed: float, flexible: bool) -> 
 
 @lru_cache(maxsize=256)
 def _onset(machine: Machine, flexible: bool) -> Onset:
-    if closed_form.has_closed_form(machine):
-        return closed_form.closed_form_onset(machine, flexible=flexible)
     return onset_speed(machine, flexible=flexible)
 
 

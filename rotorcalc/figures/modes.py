@@ -13,7 +13,7 @@ from rotorcalc.figures import style
 from rotorcalc.figures.root_locus import HARDLY_SWINGS, points, whirl_frequency, window
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
 from rotorcalc.modes import ModeShapes
-from rotorcalc.onset.search import Onset
+from rotorcalc.onset import Onset
 from rotorcalc.root_locus import Locus
 from rotorcalc.units import Units
 

@@ -10,7 +10,7 @@ from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.figures import style
 from rotorcalc.figures.animation import scrubbed
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
-from rotorcalc.onset.search import Onset
+from rotorcalc.onset import Onset
 from rotorcalc.root_locus import Locus
 from rotorcalc.units import Units
 

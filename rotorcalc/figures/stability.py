@@ -12,7 +12,7 @@ from rotorcalc.arrays import Array
 from rotorcalc.display import Result
 from rotorcalc.figures import style
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
-from rotorcalc.onset.search import Onset
+from rotorcalc.onset import Onset
 from rotorcalc.units import Unit, Units
 from rotorcalc.whirl_energy import Thresholds, WhirlEnergy
 

@@ -39,7 +39,7 @@ from rotorcalc.films import film_of, journal_motion
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.film_expansion import FilmExpansion
 from rotorcalc.nonlinear.rotor_impedance import impedance
-from rotorcalc.onset.search import onset_speed
+from rotorcalc.onset import onset_speed
 
 # Two answers by polynomials of so many points, the second a little beside the onset, by as much as
 # the onset itself may be wrong. ℓ is known to a few times their difference, or to the rounding of

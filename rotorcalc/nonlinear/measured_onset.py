@@ -20,9 +20,8 @@ from rotorcalc.arguments import checked
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.signals import fitted_modes
 from rotorcalc.nonlinear.transient import TransientError, simulate, start_on_mode
-from rotorcalc.onset.closed_form import has_closed_form
-from rotorcalc.onset.many import onset_speeds
-from rotorcalc.onset.search import onset_speed
+from rotorcalc.onset.closed_form import closed_form_onset, covers
+from rotorcalc.onset.search import searched_onset
 
 # The first whirl, in clearances, and at most in thinnest films: small enough for its growth to be
 # the linear theory's to a millionth of |λ|, large enough beside the integrator's errors.
@@ -46,7 +45,7 @@ class Onsets:
     Attributes
     ----------
     closed_form : float
-        Where Ω = Ω_s(ε(Ω)); not a number for a rotor with midspan damping or journal mass.
+        Where Ω = Ω_s(ε(Ω)); not a number for a rotor with midspan damping.
     eigenvalues : float
         Where the largest Re λ vanishes; infinite where there is none.
     measured : float
@@ -95,11 +94,11 @@ def onsets(machine: Machine, *, progress: Callable[[float], object] | None = Non
     ValueError
         Where the machine has no onset, or whirls at any speed for want of load.
     """
-    by_eigenvalues = onset_speed(machine).speed
+    by_eigenvalues = searched_onset(machine).speed  # not by the closed form
     if not 0.0 < by_eigenvalues < math.inf:
         why = "whirls at any speed" if by_eigenvalues == 0.0 else "has no onset"
         raise ValueError(f"machine: {why}, so there is none to compare")
-    closed = float(onset_speeds([machine])[0]) if has_closed_form(machine) else math.nan
+    closed = closed_form_onset(machine).speed if covers(machine) else math.nan
     return Onsets(
         closed_form=closed,
         eigenvalues=by_eigenvalues,

@@ -1,48 +1,73 @@
 """Whether all roots of a polynomial decay, without its roots: Routh, Hurwitz and Kharitonov.
 
-Polynomials are arrays (..., n+1) of the coefficients from the constant to that of λⁿ, n even.
+Polynomials are arrays (..., n+1) of the coefficients from the constant to that of λⁿ, n even; of
+floats, or of `decimal.Decimal` where more digits are needed than a float has.
 
 Hurwitz's matrix of a polynomial whose roots all decay is totally nonnegative, and so elimination
 in it, which is Routh's scheme, is as good as the coefficients are, each to its own size.
 Kharitonov: all polynomials whose coefficients lie between bounds decay if four of them do.
 """
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from rotorcalc.arrays import Array, BoolArray
 
-# To how much the coefficients are known, relative, with what Routh's scheme rounds.
+# To how much float coefficients are known, relative, with what Routh's scheme rounds.
 _ROUNDING = 128 * float(np.finfo(float).eps)
 # To which side each coefficient lies in Kharitonov's four polynomials, from the constant on.
 _KHARITONOV = np.tile([[-1, -1, 1, 1], [1, 1, -1, -1], [1, -1, -1, 1], [-1, 1, 1, -1]], 3)
 
 
-def decays(polynomial: Array) -> BoolArray:
-    """Return whether all roots of polynomials decay: whether Routh's first column is positive."""
-    return np.all(polynomial > 0.0, axis=-1) & np.all(_left(polynomial) > 0.0, axis=0)
+def determinant(polynomial: NDArray[Any]) -> Array:
+    """Return Hurwitz's last determinant, over the product that Routh's scheme begins with.
 
-
-def determinant(polynomial: Array) -> Array:
-    """Return Hurwitz's last determinant, over what it were had Routh's scheme nothing to take away.
-
-    It vanishes where a first pair of roots meets the imaginary axis, smooth in the coefficients.
+    At most 1; it vanishes where a pair of roots lies on the imaginary axis, and is smooth in the
+    coefficients.
     """
-    return np.prod(_left(polynomial), axis=0)
+    with np.errstate(invalid="ignore", over="ignore"):  # where a row began with zero
+        return np.prod(_left(polynomial), axis=0)
 
 
-def doubt(polynomial: Array) -> Array:
-    """Return a number that is negative where all roots surely decay, whatever rounding does, or 1.
+def margin(polynomial: NDArray[Any]) -> Array:
+    """Return a number that is negative where all roots decay, else 1.
 
     The nearer to 0, the nearer a pair of roots to the imaginary axis.
     """
-    left = _left(_bounds(polynomial))
-    decay = np.all(left > 0.0, axis=(0, -1)) & np.all(polynomial > 0.0, axis=-1)
-    return np.where(decay, -np.min(left[-1], axis=-1), 1.0)
+    left = _left(polynomial)
+    decay = np.all((polynomial > 0).astype(bool), axis=-1) & np.all(left > 0.0, axis=0)
+    return np.where(decay, -left[-1], 1.0)
+
+
+def margin_bounds(polynomial: Array) -> tuple[Array, Array]:
+    """Return the least and the largest `margin` that a polynomial can have as its terms round.
+
+    Kharitonov's four polynomials lie on all sides of the one they bound: where all four have a root
+    past the axis it has one too.
+    """
+    margins = margin(_bounds(polynomial))
+    return np.min(margins, axis=-1), np.max(margins, axis=-1)
 
 
 def surely_crossed(polynomial: Array) -> BoolArray:
     """Return whether a first pair of roots is past the imaginary axis, whatever rounding does."""
     return np.all(determinant(_bounds(polynomial)) < 0.0, axis=-1)
+
+
+def exact_determinant(polynomial: NDArray[np.object_]) -> Any:
+    """Return `determinant` of one polynomial of decimals as a decimal."""
+    return np.prod(_scheme(polynomial)[1])
+
+
+def axis_frequency(polynomial: NDArray[Any]) -> Array:
+    """Return ω of the roots ±jω of a polynomial whose `determinant` vanishes.
+
+    Source: the row of Routh's scheme above the one that vanishes, a λ² + b, divides it.
+    """
+    above, _ = _scheme(polynomial)
+    return np.sqrt(np.asarray(above[1] / above[0], dtype=float))
 
 
 def _bounds(polynomial: Array) -> Array:
@@ -51,19 +76,24 @@ def _bounds(polynomial: Array) -> Array:
     return polynomial[..., None, :] * (1.0 + _ROUNDING * signs)
 
 
-def _left(polynomial: Array) -> Array:
+def _left(polynomial: NDArray[Any]) -> Array:
     """Return Routh's first column over the coefficients of λⁿ⁻² … λ, (n-2, ...).
 
     What elimination leaves of each, at most 1; all are positive where all roots decay and all
     coefficients are positive.
     """
+    return _scheme(polynomial)[1].astype(float)
+
+
+def _scheme(polynomial: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+    """Return the row of λ² in Routh's scheme, (2, ...), and the column of `_left`."""
     falling = np.moveaxis(polynomial, -1, 0)[::-1]
     above, row = falling[0::2], falling[1::2]
-    left: list[Array] = []
+    left: list[NDArray[Any]] = []
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         for whole in falling[2:-1]:
             below = above[1:].copy()
             below[: len(row) - 1] -= above[0] / row[0] * row[1:]
             left.append(below[0] / whole)
             above, row = row, below
-    return np.stack(left)
+    return above, np.stack(left)

@@ -1,6 +1,51 @@
-"""Where whirl sets in: the film's threshold, and the onset speed of a machine or of many."""
+"""Where whirl sets in: the film's threshold, and the onset speed of a machine.
 
-from rotorcalc.onset.search import Onset, onset_speed
-from rotorcalc.onset.whirl import WhirlOnset, flexible_threshold, whirl_onset
+`onset_speed` chooses its way itself: the closed form where the rotor is undamped, else the
+characteristic polynomial in floats, and in sixty digits where floats leave doubt.
+"""
 
-__all__ = ["Onset", "WhirlOnset", "flexible_threshold", "onset_speed", "whirl_onset"]
+from rotorcalc.arguments import checked
+from rotorcalc.machine import Machine
+from rotorcalc.onset.closed_form import closed_form_onset, covers
+from rotorcalc.onset.search import searched_onset
+from rotorcalc.onset.whirl import Method, Onset, WhirlOnset, flexible_threshold, whirl_onset
+
+__all__ = [
+    "Method",
+    "Onset",
+    "WhirlOnset",
+    "flexible_threshold",
+    "onset_speed",
+    "whirl_onset",
+]
+
+
+@checked
+def onset_speed(machine: Machine, flexible: bool = True) -> Onset:
+    """Return the lowest speed at which the machine itself becomes unstable.
+
+    Each speed has its own equilibrium, so without midspan damping and journal mass it is where
+    Ω = Ω_sf(ε(Ω)) of Eqs. 5.45 to 5.50; it holds with both too.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    flexible : bool
+        Whether the shaft bends; a rigid shaft never does.
+
+    Returns
+    -------
+    Onset
+        Speed, whirl frequency and eccentricity ratio at the onset, and how it was found. Without
+        load the direct stiffness vanishes (Eq. 5.37), and the onset is at speed 0: the machine
+        whirls at any speed.
+
+    Raises
+    ------
+    ValueError
+        Where `flexible` is neither True nor False.
+    """
+    if covers(machine):
+        return closed_form_onset(machine, flexible=bool(flexible))
+    return searched_onset(machine, bool(flexible))

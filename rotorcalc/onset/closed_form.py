@@ -1,20 +1,23 @@
-"""The onset of machines with massless journals and no midspan damping, without eigenvalues.
+"""The onset of a machine without midspan damping, on a film whose k and c depend on σ alone.
 
-Such a machine goes unstable where Ω = Ω_sf(ε(Ω)). With σ = sΩ/F_o, s = μLR(L/C)²/4, that is the
-root in σ of
+Undamped, the rotor's dynamic stiffness at the journal is real at every frequency, so at the onset
+it balances the film's K_eq at the film's own whirl ratio ω̄. With X = (ω̄Ω)²:
 
-    σ² (1/p_s² + (Γ/C) ω̄²) = s²/(M C F_o)        (Eqs. 5.8, 5.45, 5.46 and 5.50)
+    (K_eq − M_j X)(K_rot − m_d X) = K_rot m_d X
 
-whose left side is the film's alone but for the static sag, and rises with σ. So whole grids of
-machines are solved at once.
+whose lower root is the first met. In A = M X/K_eq = M/M_c, B = m_d X/K_rot and β = M_j/M this is
 
-Source: San Andrés, Notes 5.
+    A + B − β A B = 1,  B < 1
+
+With σ = sΩ/F_o, s = μLR(L/C)²/4, A = (M C F_o/s²) σ²/p_s² and B = (m_d F_o²/(K_rot s²)) (σω̄)²: two
+curves of the film alone, both of which rise with σ, and so does the left side up to the root. So
+whole grids of machines are solved at once. For massless journals it is Eq. 5.50 with Ω = Ω_sf.
+
+Source: San Andrés, Notes 5, Eqs. 5.8, 5.45, 5.46 and 5.50; journal mass by the same balance.
 """
 
 import functools
-import math
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -22,40 +25,40 @@ from scipy.optimize import elementwise
 
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
-from rotorcalc.films import film_coefficients, film_state
+from rotorcalc.films import FilmUnits, film_coefficients, film_of, film_state
 from rotorcalc.machine import JournalBearing, Machine
 from rotorcalc.numerics.roots import narrow_root
-from rotorcalc.onset.search import Onset
-from rotorcalc.onset.whirl import whirl_onset
+from rotorcalc.onset.whirl import Onset, whirl_onset
 
-# Film models whose k and c depend on σ alone, so that one curve serves every bearing.
-ONE_CURVE = frozenset({"short"})
-
-
+# The film whose two curves rise with σ.
+_CURVE = "short"
+_ANY_BEARING = JournalBearing(diameter=1.0, length=1.0, radial_clearance=0.01)
 # Modified Sommerfeld numbers between which a root is bracketed. Below no film can whirl, above it
-# is all but centred, where the left side of the equation grows as σ².
+# is all but centred, where both curves grow as σ².
 _SIGMA = np.geomspace(1e-3, 1e3, 241)
-
-
 _ROOT: Any = {"xatol": 0.0, "xrtol": 1e-15, "fatol": 0.0, "frtol": 0.0}
+
+
+def covers(machine: Machine) -> bool:
+    """Return whether the module's equation gives a machine's onset."""
+    return machine.rotor.disk_damping == 0.0 and film_of(machine.bearing).curve == _CURVE
 
 
 @checked
 def has_closed_form(machine: Machine) -> bool:
-    """Return whether Eqs. 5.45 to 5.50 give the machine's onset, and no eigenvalues are needed."""
+    """Return whether Eq. 5.50 gives a machine's onset: no midspan damping, massless journals."""
     rotor = machine.rotor
-    massless = rotor.journal_mass == 0.0 or rotor.is_rigid
-    return massless and rotor.disk_damping == 0.0 and machine.bearing.model in ONE_CURVE
+    return covers(machine) and (rotor.journal_mass == 0.0 or rotor.is_rigid)
 
 
 @checked
 def closed_form_onset(machine: Machine, *, flexible: bool = True) -> Onset:
-    """Return the onset of a machine by the module's equation, without its eigenvalues.
+    """Return the onset of a machine by the module's equation.
 
     Parameters
     ----------
     machine : Machine
-        A machine with `has_closed_form`; with a rigid shaft it may have journal mass.
+        A machine that the equation `covers`.
     flexible : bool
         Whether the shaft bends; a rigid shaft never does.
 
@@ -67,86 +70,85 @@ def closed_form_onset(machine: Machine, *, flexible: bool = True) -> Onset:
     Raises
     ------
     ValueError
-        Where the machine has midspan damping, or journal mass on a shaft that bends.
+        Where the machine has midspan damping.
     """
-    if not flexible:
-        machine = replace(machine, rotor=replace(machine.rotor, shaft_stiffness=math.inf))
-    if not has_closed_form(machine):
-        raise ValueError("no closed form for a machine with midspan damping or journal mass")
-    M, K_rot, F, s, C = _numbers(machine)
-    if F == 0.0:
-        return Onset(speed=0.0, whirl_frequency=0.0, eccentricity_ratio=0.0)
-    film, sag, wanted = machine.bearing.model, F / (K_rot * C), s**2 / (M * C * F)
-    low, high = _bracket(film, sag=np.array([sag]), wanted=np.array([wanted]))
-    sigma = narrow_root(lambda sigma: _residual(film, sigma, sag, wanted), low[0], high[0])
+    if not covers(machine):
+        raise ValueError("no closed form for a machine with midspan damping")
+    if machine.static_load == 0.0:
+        return Onset(speed=0.0, whirl_frequency=0.0, eccentricity_ratio=0.0, method="closed form")
+    a, b, beta, speed_of = _numbers(machine, flexible)
+    [low], [high] = _bracket(*(np.array([x]) for x in (a, b, beta)))
+    sigma = narrow_root(lambda sigma: _excess(sigma, a, b, beta), low, high)
     state = film_state(machine.bearing, sigma)
-    speed = sigma * F / s
+    speed = sigma * speed_of
+    ratio = float(whirl_onset(state.stiffness, state.damping).whirl_ratio)
     return Onset(
         speed=speed,
-        whirl_frequency=float(whirl_onset(state.k, state.c).whirl_ratio) * speed,
+        whirl_frequency=ratio * speed,
         eccentricity_ratio=float(state.eccentricity_ratio),
+        method="closed form",
     )
 
 
 def closed_onsets(machines: Sequence[Machine]) -> Array:
     """Return the onsets of machines with one film model and a closed form."""
-    numbers = np.array([_numbers(machine) for machine in machines])
     speeds = np.zeros(len(machines))  # without load the onset is at speed 0
-    loaded = numbers[:, 2] > 0.0
-    M, K_rot, F, s, C = numbers[loaded].T
-    sigma = _root(machines[0].bearing.model, sag=F / (K_rot * C), wanted=s**2 / (M * C * F))
-    speeds[loaded] = sigma * F / s
+    loaded = [i for i, machine in enumerate(machines) if machine.static_load > 0.0]
+    if not loaded:
+        return speeds
+    a, b, beta, speed_of = np.array([_numbers(machines[i], True) for i in loaded]).T
+    # The stubs lack what find_root returns for arrays of arguments.
+    found: Any = elementwise.find_root(
+        _excess, _bracket(a, b, beta), args=(a, b, beta), tolerances=_ROOT
+    )
+    if not np.all(found.success):
+        raise RuntimeError("no onset found within the search's iterations")
+    speeds[loaded] = found.x * speed_of
     return speeds
 
 
-def _numbers(machine: Machine) -> tuple[float, ...]:
-    """Return M, K_rot, F_o, s = σF_o/Ω, C of a machine."""
-    bearing, rotor = machine.bearing, machine.rotor
-    L, C = bearing.length, bearing.radial_clearance
-    s = machine.viscosity * L * bearing.radius * (L / C) ** 2 / 4.0
-    return rotor.half_mass, rotor.shaft_stiffness, machine.static_load, s, C
+def _numbers(machine: Machine, flexible: bool) -> tuple[float, float, float, float]:
+    """Return M C F_o/s², m_d F_o²/(K_rot s²), β and Ω/σ of a machine."""
+    bearing, rotor, F = machine.bearing, machine.rotor, machine.static_load
+    speed_of = 4.0 * F / float(FilmUnits(bearing, machine.viscosity, 1.0).force)
+    a = rotor.half_mass * bearing.radial_clearance / F * speed_of**2
+    if rotor.is_rigid or not flexible:
+        return a, 0.0, 0.0, speed_of
+    b = rotor.disk_mass / rotor.shaft_stiffness * speed_of**2
+    return a, b, rotor.journal_mass / rotor.half_mass, speed_of
 
 
-def _root(film: str, *, sag: Array, wanted: Array) -> Array:
-    """Return the lowest σ at which the left side of the module's equation is the right one."""
-
-    def residual(sigma: Array, sag: Array, wanted: Array) -> Array:
-        return _residual(film, sigma, sag, wanted)
-
-    bracket = _bracket(film, sag=sag, wanted=wanted)
-    # The stubs lack what find_root returns for arrays of arguments.
-    found: Any = elementwise.find_root(residual, bracket, args=(sag, wanted), tolerances=_ROOT)
-    if not np.all(found.success):
-        raise RuntimeError("no onset found within the search's iterations")
-    return np.asarray(found.x, dtype=float)
-
-
-def _bracket(film: str, *, sag: Array, wanted: Array) -> tuple[Array, Array]:
-    """Return σ below and above the root, where the left side first passes the right one."""
-    rigid, flexible = _curve(film)
-    table = rigid + sag[:, None] * flexible
-    first = np.argmax(table >= wanted[:, None], axis=1)
-    beyond = table[:, -1] < wanted  # where the film is centred
-    far = 2.0 * _SIGMA[-1] * np.sqrt(wanted / table[:, -1])
+def _bracket(a: Array, b: Array, beta: Array) -> tuple[Array, Array]:
+    """Return σ below and above the root."""
+    rigid, flexible = _table()
+    table = excess_mass(a * rigid[:, None], b * flexible[:, None], beta)
+    first = np.argmax(table >= 0.0, axis=0)
+    beyond = table[-1] < 0.0  # where the film is centred and both curves grow as σ²
+    far = 2.0 * _SIGMA[-1] / np.sqrt(a * rigid[-1] + b * flexible[-1])  # A + B = 4 there
     low = np.where(beyond, _SIGMA[-1], _SIGMA[np.maximum(first - 1, 0)])
-    high = np.where(beyond, far, _SIGMA[first])
-    return low, high
+    return low, np.where(beyond, far, _SIGMA[first])
 
 
-def _residual(film: str, sigma: Any, sag: Any, wanted: Any) -> Any:
-    """Return how far the left side is above the right one, relative; of floats or arrays."""
-    rigid, flexible = _left_side(film, sigma)
-    return (rigid + sag * flexible) / wanted - 1.0
+def excess_mass(A: Any, B: Any, beta: Any) -> Any:
+    """Return A + B − βAB − 1, positive where the rotor is too heavy for the film to hold it.
+
+    Beyond B = 1, the lower root's end, the product grows no further, so that the sum still rises.
+    Of floats or arrays.
+    """
+    return A * (1.0 - beta * np.minimum(B, 1.0)) + B - 1.0
+
+
+def _excess(sigma: Any, a: Any, b: Any, beta: Any) -> Any:
+    rigid, flexible = _curves(sigma)
+    return excess_mass(a * rigid, b * flexible, beta)
 
 
 @functools.cache
-def _curve(film: str) -> tuple[Array, Array]:
-    return _left_side(film, _SIGMA)
+def _table() -> tuple[Array, Array]:
+    return _curves(_SIGMA)
 
 
-def _left_side(film: str, sigma: Array) -> tuple[Array, Array]:
-    """Return σ²/p_s² and σ²ω̄², the two terms of the module's equation."""
-    any_bearing = JournalBearing(diameter=1.0, length=1.0, radial_clearance=0.01, film=film)
-    k, c = film_coefficients(any_bearing, sigma)
-    onset = whirl_onset(k, c)  # p_s² in film units, not in the load's
+def _curves(sigma: Array) -> tuple[Array, Array]:
+    """Return σ²/p_s² and (σω̄)²."""
+    onset = whirl_onset(*film_coefficients(_ANY_BEARING, sigma))  # p_s² in film units
     return sigma / (4.0 * onset.critical_mass), (sigma * onset.whirl_ratio) ** 2

@@ -1,12 +1,12 @@
 """Onset speeds of many machines at once, by their characteristic polynomials alone.
 
-What `stability.onset_speed` does for one machine, on arrays over machines, up to where it would ask
-the eigenvalues. Where the polynomials leave doubt it is left to that. The films follow one curve
-over σ: k and c depend on nothing of the bearing but its film model.
+What `onset_speed` does for one machine, on arrays over machines, up to where floats leave doubt:
+there it is asked itself. The films follow one curve over σ: k and c depend on nothing of the
+bearing but its film model.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,11 +16,12 @@ from scipy.optimize import elementwise
 from rotorcalc import modes
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, IntArray
-from rotorcalc.films import film_coefficients
+from rotorcalc.films import film_coefficients, film_of
 from rotorcalc.machine import JournalBearing, Machine
 from rotorcalc.numerics import routh
-from rotorcalc.onset.closed_form import ONE_CURVE, closed_onsets, has_closed_form
-from rotorcalc.onset.search import onset_speed, search_speeds
+from rotorcalc.onset import onset_speed
+from rotorcalc.onset.closed_form import closed_onsets, covers
+from rotorcalc.onset.search import search_speeds
 
 # From so many machines on their onsets are sooner found together than one by one.
 _FLEET = 4
@@ -46,15 +47,13 @@ def onset_speeds(machines: Sequence[Machine]) -> Array:
         Where the search does not end.
     """
     speeds = np.full(len(machines), np.nan)
-    films: dict[str, list[int]] = {}
-    others: list[int] = []
-    for i, machine in enumerate(machines):
-        if has_closed_form(machine):
-            films.setdefault(machine.bearing.model, []).append(i)
-        elif machine.bearing.model in ONE_CURVE:
-            others.append(i)
-    for indices in films.values():
-        speeds[indices] = closed_onsets([machines[i] for i in indices])
+    closed = [i for i, machine in enumerate(machines) if covers(machine)]
+    speeds[closed] = closed_onsets([machines[i] for i in closed])
+    others = [
+        i
+        for i, machine in enumerate(machines)
+        if not covers(machine) and _curve(machine) is not None
+    ]
     if len(others) >= _FLEET:
         speeds[others] = sure_onsets([machines[i] for i in others])
     for i, machine in enumerate(machines):
@@ -85,14 +84,20 @@ def sure_onsets(machines: Sequence[Machine]) -> Array:
         Onset speed, Ω_s [rad/s], as `onset_speed` gives it; not a number where that must be asked.
     """
     speeds = np.full(len(machines), np.nan)
-    kinds: dict[tuple[str, int], list[int]] = {}
+    kinds: dict[tuple[Hashable, int], list[int]] = {}
     terms = [modes.rotor_terms(machine.rotor) for machine in machines]
     for i, machine in enumerate(machines):
         if machine.static_load > 0.0:
-            kinds.setdefault((machine.bearing.model, terms[i].shape[-1]), []).append(i)
+            kinds.setdefault((_curve(machine), terms[i].shape[-1]), []).append(i)
     for same in kinds.values():
         speeds[same] = _sure_onsets([machines[i] for i in same], np.stack([terms[i] for i in same]))
     return speeds
+
+
+def _curve(machine: Machine) -> Hashable:
+    """Return what is equal for machines whose films follow one curve over σ, None for others."""
+    film = film_of(machine.bearing)
+    return film.curve if film.inner == 0 else None
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,7 +152,7 @@ def _sure_onsets(machines: Sequence[Machine], rotor_terms: Array) -> Array:
     points = max(len(search) for search in searches)
     speeds: Array = first[:, None] * ratio[:, None] ** np.arange(points, dtype=float)
     fleet = _fleet(machines, rotor_terms)
-    doubt = routh.doubt(fleet.polynomials(speeds, np.arange(len(machines))))
+    doubt = routh.margin_bounds(fleet.polynomials(speeds, np.arange(len(machines))))[1]
     in_doubt = doubt > 0.0
     end: IntArray = np.where(np.any(in_doubt, axis=1), np.argmax(in_doubt, axis=1), points)
     smooth = ~_has_hump(doubt)
@@ -178,5 +183,7 @@ def _crossings(fleet: _Fleet, which: IntArray, low: Array, high: Array) -> Array
     around = found.x[:, None] * np.array([1.0 - _SURE, 1.0 + _SURE])
     around = np.where(found.success[:, None], around, low[:, None])
     below_above = fleet.polynomials(around, which)
-    sharp = (routh.doubt(below_above[:, 0]) < 0.0) & routh.surely_crossed(below_above[:, 1])
+    sharp = (routh.margin_bounds(below_above[:, 0])[1] < 0.0) & routh.surely_crossed(
+        below_above[:, 1]
+    )
     return np.where(sharp, found.x, np.nan)

@@ -1,71 +1,39 @@
-"""Where whirl sets in on a whole machine: the lowest speed at which a mode of it grows.
+"""The onset of any machine whose film is its K and C: on its characteristic polynomial.
 
-Model: the film's linear force coefficients about static equilibrium, each at its own speed's; a
-symmetric rotor.
-
-Source: San Andrés, Notes 5, Eqs. 5.41 to 5.50.
+The speeds that an onset can have are looked through for the first at which some root may not decay,
+and there Hurwitz's last determinant is followed to zero. In floats where these tell it beyond
+doubt, else in sixty digits.
 """
 
-import functools
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
 
 import numpy as np
-from numpy.typing import ArrayLike
-from scipy.optimize import minimize_scalar
+from numpy.polynomial.polynomial import polyval
+from scipy.optimize import brentq, minimize_scalar
 
-from rotorcalc import modes
-from rotorcalc.arguments import checked
-from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.arrays import Array
 from rotorcalc.coefficients import modified_sommerfeld, stiffness_and_damping
-from rotorcalc.films import film_coefficients, film_state
-from rotorcalc.machine import JournalBearing, Machine, Rotor
+from rotorcalc.films import film_of, film_state
+from rotorcalc.machine import Machine
 from rotorcalc.numerics import routh
 from rotorcalc.numerics.roots import narrow_root
-from rotorcalc.onset.whirl import whirl_onset
+from rotorcalc.onset.characteristic import ExactPolynomial, polynomial
+from rotorcalc.onset.whirl import Method, Onset, whirl_onset
 
 # Speeds a decade at which the search for the onset looks before it closes in.
 _POINTS_PER_DECADE = 30
+# It looks at so many speeds at once, and no further than it must.
+_BLOCK, _EXACT_BLOCK = 64, 4
+# How near to an onset, relative, there is no doubt below it that the machine is stable, and none
+# above it that it is not.
+_SURE = 1e-9
+# Newton's steps from a root that is all but right, and how near to the axis one then lies.
+_REFINEMENTS, _ON_AXIS = 3, 1e-8
 
 
-# It looks at so many at once, and no further than it must.
-_BLOCK = 64
-
-
-# How near to the onset, relative, the growth is a straight line over speed.
-_STRAIGHT = 1e-7
-
-
-@dataclass(frozen=True)
-class Onset:
-    """The lowest speed at which a machine becomes unstable.
-
-    Attributes
-    ----------
-    speed : float
-        Running speed at the onset, Ω_s [rad/s]; infinite where there is none.
-    whirl_frequency : float
-        Frequency of the whirl there, ω_s [rad/s]; not a number where there is none.
-    eccentricity_ratio : float
-        Eccentricity ratio there, ε [-]; not a number where there is none.
-    """
-
-    speed: float
-    whirl_frequency: float
-    eccentricity_ratio: float
-
-
-_NO_ONSET = Onset(speed=math.inf, whirl_frequency=math.nan, eccentricity_ratio=math.nan)
-
-
-@checked
-def onset_speed(machine: Machine, flexible: bool = True) -> Onset:
-    """Return the lowest speed at which the machine itself becomes unstable.
-
-    Found on the eigenvalues, each at its own speed's equilibrium, so it holds with midspan
-    damping and journal mass too. Without either it is where Ω = Ω_s(ε(Ω)) of Eqs. 5.45 to 5.50.
-    Their polynomial tells sooner where all of them surely decay: there they are not computed.
+def searched_onset(machine: Machine, flexible: bool = True) -> Onset:
+    """Return the onset of a machine by its characteristic polynomial.
 
     Parameters
     ----------
@@ -77,69 +45,165 @@ def onset_speed(machine: Machine, flexible: bool = True) -> Onset:
     Returns
     -------
     Onset
-        Speed, whirl frequency and eccentricity ratio at the onset. Without load the direct
-        stiffness vanishes (Eq. 5.37), and the onset is at speed 0: the machine whirls at any speed.
+        As `onset_speed` gives it.
     """
 
-    def doubt(speed: Array) -> Array:
-        return routh.doubt(_polynomial(machine, speed, flexible))
+    def most(speeds: Array) -> Array:
+        return routh.margin_bounds(polynomial(machine, speeds, flexible))[1]
 
     speeds = search_speeds(machine, flexible)
-    bracket = _first_crossing(doubt, speeds)
+    bracket = first_crossing(most, speeds)
     if bracket is None:
-        return _NO_ONSET
-    found = _sharp_crossing(machine, flexible, *bracket)
-    if found is None:
-        found = _crossing_beyond_doubt(machine, flexible, speeds[speeds >= bracket[0]])
-    speed, whirl_frequency = found
-    if math.isinf(speed):
-        return _NO_ONSET
-    sigma = modified_sommerfeld(machine, speed or float(speeds[0]))
+        return _no_onset("polynomial")
+    found = _in_floats(machine, flexible, *bracket)
+    if found is not None:
+        return _onset_at(machine, *found, method="polynomial")
+    exact = ExactPolynomial(machine, flexible)
+    bracket = first_crossing(exact.margins, speeds[speeds >= bracket[0]], block=_EXACT_BLOCK)
+    if bracket is None:
+        return _no_onset("extended precision")
+    found = (0.0, 0.0) if bracket[0] == 0.0 else _in_many_digits(exact, *bracket)
+    return _onset_at(machine, *found, method="extended precision")
+
+
+def crossing(machine: Machine, stable: float, unstable: float, *, flexible: bool = True) -> float:
+    """Return the speed at which a machine turns from stable to unstable [rad/s].
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    stable, unstable : float
+        Speeds at which it is stable and unstable [rad/s]; either may be the higher.
+    flexible : bool
+        Whether the shaft bends; a rigid shaft never does.
+
+    Returns
+    -------
+    float
+        A speed between the two [rad/s].
+    """
+    found = _in_floats(machine, flexible, stable, unstable)
+    return (found or _in_many_digits(ExactPolynomial(machine, flexible), stable, unstable))[0]
+
+
+def _no_onset(method: Method) -> Onset:
+    return Onset(
+        speed=math.inf, whirl_frequency=math.nan, eccentricity_ratio=math.nan, method=method
+    )
+
+
+def _onset_at(machine: Machine, speed: float, whirl_frequency: float, *, method: Method) -> Onset:
+    # At speed 0, where it is without load, the journal sits in the centre.
+    sigma = modified_sommerfeld(machine, speed) if speed > 0.0 else math.inf
     eps = film_state(machine.bearing, sigma).eccentricity_ratio
-    return Onset(speed=speed, whirl_frequency=whirl_frequency, eccentricity_ratio=float(eps))
+    return Onset(
+        speed=speed, whirl_frequency=whirl_frequency, eccentricity_ratio=float(eps), method=method
+    )
 
 
-def _fastest(rotor: Rotor, K: Array, C: Array, flexible: bool) -> ComplexArray:
-    """Return the eigenvalue of the mode that grows fastest [1/s]."""
-    lam = modes.refined_eigenvalues(rotor, K, C, flexible=flexible)
-    rightmost = np.argmax(np.where(np.isfinite(lam), lam.real, -np.inf), axis=-1)
-    return np.take_along_axis(lam, rightmost[..., None], axis=-1)[..., 0]
+def _in_floats(
+    machine: Machine, flexible: bool, stable: float, unstable: float
+) -> tuple[float, float] | None:
+    """Return speed and whirl frequency where a machine changes, None where that is in doubt."""
+
+    def polynomials(speed: Array | float) -> Array:
+        return polynomial(machine, speed, flexible)
+
+    if stable == 0.0 or not routh.surely_crossed(polynomials(unstable)):
+        return None
+    low, high = sorted((stable, unstable))
+    root = narrow_root(lambda speed: routh.determinant(polynomials(speed)), low, high)
+    aside = math.copysign(_SURE, unstable - stable)
+    before, there, after = polynomials(root * np.array([1.0 - aside, 1.0, 1.0 + aside]))
+    if routh.margin_bounds(before)[1] > 0.0 or not routh.surely_crossed(after):
+        return None
+    frequency = _axis_frequency(there)
+    if math.isnan(frequency):
+        return ExactPolynomial(machine, flexible).sharpened(root)
+    return root, frequency
 
 
-def _growth(machine: Machine, speed: ArrayLike, flexible: bool) -> Array:
-    """Return the fastest growth of any mode, max Re λ/Ω [-], shape of `speed`."""
-    K, C = stiffness_and_damping(machine, speed)
-    return _fastest(machine.rotor, K, C, flexible).real / np.asarray(speed)
+def _axis_frequency(polynomial: Array) -> float:
+    """Return ω of the roots ±jω of a polynomial [rad/s], NaN where floats do not tell it.
+
+    The row of Routh's scheme tells it worse than the speed is known; Newton's method betters it.
+    """
+    with np.errstate(invalid="ignore", over="ignore"):
+        root, step = 1j * float(routh.axis_frequency(polynomial)), 0.0j
+        slope = polynomial[1:] * np.arange(1, len(polynomial))
+        for _ in range(_REFINEMENTS):
+            step = complex(polyval(root, polynomial) / polyval(root, slope))
+            root -= step
+    on_axis = max(abs(step), abs(root.real)) <= _ON_AXIS * abs(root)
+    return root.imag if on_axis else math.nan
 
 
-def _polynomial(machine: Machine, speed: ArrayLike, flexible: bool) -> Array:
-    K, C = stiffness_and_damping(machine, speed)
-    return modes.characteristic_polynomial(machine.rotor, K, C, flexible=flexible)
+def _in_many_digits(exact: ExactPolynomial, stable: float, unstable: float) -> tuple[float, float]:
+    """Return speed and whirl frequency where a machine changes between two speeds."""
+    # More than one pair of roots may cross between the two.
+    while exact.determinant(stable) <= 0.0 or exact.determinant(unstable) >= 0.0:
+        middle = 0.5 * (stable + unstable)
+        grows = exact.margins(np.array([middle]))[0] > 0.0
+        stable, unstable = (stable, middle) if grows else (middle, unstable)
+    root = float(brentq(exact.determinant, stable, unstable, xtol=1e-300, rtol=1e-14))
+    return exact.sharpened(root)
+
+
+def first_crossing(
+    values: Callable[[Array], Array], speeds: Array, block: int = _BLOCK
+) -> tuple[float, float] | None:
+    """Return speeds between which a function first turns positive, or None where it never does.
+
+    Speed 0 and the first of them where that is so from there on.
+    """
+    found = np.empty(0)
+    for begin in range(0, len(speeds), block):
+        found = np.concatenate([found, values(speeds[begin : begin + block])])
+        if np.any(found > 0.0):
+            break
+    first = int(np.argmax(found > 0.0)) if np.any(found > 0.0) else len(found)
+    hidden = next(humps(values, speeds, found[:first]), None)
+    if hidden is not None or first == len(found):
+        return hidden
+    return float(speeds[first - 1]) if first > 0 else 0.0, float(speeds[first])
+
+
+def humps(
+    values: Callable[[Array], Array], speeds: Array, found: Array
+) -> Iterator[tuple[float, float]]:
+    """Yield where a function is positive between speeds at which it is not, as it were unseen.
+
+    Looked for at each local maximum of the values `found` at the speeds; a speed below the hump
+    and that of its top.
+    """
+    before, here, after = found[:-2], found[1:-1], found[2:]
+    for i in np.flatnonzero((before < here) & (here >= after) & (here <= 0.0)):
+        top = minimize_scalar(
+            lambda speed: -float(values(np.array([speed]))[0]),
+            bounds=(speeds[i], speeds[i + 2]),
+            method="bounded",
+        )
+        if top.fun < 0.0:
+            yield float(speeds[i]), float(top.x)
 
 
 def search_speeds(machine: Machine, flexible: bool = True) -> Array:
     """Return speeds that span the first of all onsets there can be [rad/s], by equal ratios.
 
     A film that cannot whirl feeds no mode, whatever the rotor, so the search begins at the last
-    speed before the film can; near the wall, below σ = 1e-3, none can. Above σ = 10 the film is all
-    but centred and no longer changes. Without load it is centred at every speed, and the search
-    begins far below every rate of the rotor, but not so far that the growth drowns in rounding.
+    speed before the film can; and from some σ on the film no longer changes (`sommerfeld_range`).
+    Without load it is that of the centre at every speed, and the search begins far below every
+    rate of the rotor.
     """
     unit = float(modified_sommerfeld(machine, 1.0))
-    limit = _whirl_limit(machine.bearing)
-    lowest = limit / unit if math.isfinite(unit) else 1e-3 * _slowest_rate(machine, flexible)
-    centred = 10.0 / unit if math.isfinite(unit) else lowest
+    lightest, centred = film_of(machine.bearing).sommerfeld_range
+    is_loaded = math.isfinite(unit)
+    lowest = lightest / unit if is_loaded else 1e-3 * _slowest_rate(machine, flexible)
+    centred = centred / unit if is_loaded else lowest
     highest = 2.0 * max(centred, _highest_onset(machine, centred, flexible))
     points = 1 + math.ceil(_POINTS_PER_DECADE * math.log10(highest / lowest))
     return np.geomspace(lowest, highest, points)
-
-
-@functools.lru_cache(maxsize=256)
-def _whirl_limit(bearing: JournalBearing) -> float:
-    """Return a modified Sommerfeld number up to which a bearing's film cannot whirl [-]."""
-    sigma = np.geomspace(1e-3, 10.0, 1 + 4 * _POINTS_PER_DECADE)
-    ratio = whirl_onset(*film_coefficients(bearing, sigma)).whirl_ratio
-    return float(sigma[max(int(np.argmax(ratio > 0.0)) - 1, 0)])
 
 
 def _slowest_rate(machine: Machine, flexible: bool) -> float:
@@ -173,80 +237,3 @@ def _highest_onset(machine: Machine, centred: float, flexible: bool) -> float:
         # no whirl.
         taken = C_s if C_s**2 >= 2.0 * k * m else min(2.0 * k * m / C_s, 1e6 * C)
     return math.sqrt(max(squares)) * (1.0 + taken / C) / float(film.whirl_ratio)
-
-
-def _sharp_crossing(
-    machine: Machine, flexible: bool, low: float, high: float
-) -> tuple[float, float] | None:
-    """Return speed and whirl frequency of an onset between two speeds, or None.
-
-    Where Hurwitz's last determinant vanishes, to its rounding; there the growth of the eigenvalue
-    that crosses is a straight line over speed. None where they do not cross so near to it.
-    """
-
-    def determinant(speed: Array) -> Array:
-        return routh.determinant(_polynomial(machine, speed, flexible))
-
-    try:
-        root = narrow_root(determinant, low, high) if low > 0.0 else math.nan
-    except ValueError:  # of one sign at both ends
-        root = math.nan
-    if math.isnan(root):
-        return None
-    near = root * np.array([1.0 - _STRAIGHT, 1.0 + _STRAIGHT])
-    K, C = stiffness_and_damping(machine, near)
-    stable, unstable = modes.refined_eigenvalues(machine.rotor, K, C, flexible=flexible)
-    after = unstable[np.nanargmax(unstable.real)]
-    if not (np.nanmax(stable.real) < 0.0 < after.real):
-        return None
-    before = stable[np.nanargmin(np.abs(stable - after))]
-    share = before.real / (before.real - after.real)
-    whirl = before + (after - before) * share
-    return float(near[0] + (near[1] - near[0]) * share), float(modes.damped_frequency(whirl))
-
-
-def _crossing_beyond_doubt(machine: Machine, flexible: bool, speeds: Array) -> tuple[float, float]:
-    """Return speed and frequency where the growth first vanishes, by the eigenvalues alone.
-
-    Speed 0 where it never does anything but grow, infinite where it always decays.
-    """
-
-    def growth(speed: Array) -> Array:
-        return _growth(machine, speed, flexible)
-
-    bracket = _first_crossing(growth, speeds)
-    if bracket is None:
-        return math.inf, math.nan
-    low, high = bracket
-    if low == 0.0:
-        return 0.0, 0.0
-    within_rounding = growth(np.array(low)) >= 0.0
-    speed = low if within_rounding else narrow_root(growth, low, high)
-    whirl = _fastest(machine.rotor, *stiffness_and_damping(machine, speed), flexible)
-    return speed, float(modes.damped_frequency(whirl))
-
-
-def _first_crossing(values: Callable[[Array], Array], speeds: Array) -> tuple[float, float] | None:
-    """Return speeds between which a function first turns positive, or None where it never does.
-
-    Speed 0 and the first of them where that is so from there on. A hump of the function that hides
-    between two speeds is looked for at each of its local maxima.
-    """
-    found = np.empty(0)
-    for begin in range(0, len(speeds), _BLOCK):
-        found = np.concatenate([found, values(speeds[begin : begin + _BLOCK])])
-        if np.any(found > 0.0):
-            break
-    first = int(np.argmax(found > 0.0)) if np.any(found > 0.0) else len(found)
-    is_peak = (found[:-2] < found[1:-1]) & (found[1:-1] >= found[2:])
-    for i in np.flatnonzero(is_peak[: max(first - 1, 0)]):
-        top = minimize_scalar(
-            lambda speed: -float(values(np.array(speed))),
-            bounds=(speeds[i], speeds[i + 2]),
-            method="bounded",
-        )
-        if top.fun < 0.0:
-            return float(speeds[i]), float(top.x)
-    if first == len(found):
-        return None
-    return float(speeds[first - 1]) if first > 0 else 0.0, float(speeds[first])

@@ -1,4 +1,4 @@
-"""The threshold of whirl of a rotor on given film coefficients, dimensionless or not.
+"""The threshold of whirl of a rotor on given film coefficients, and the record of an onset.
 
 Model: the film's linear force coefficients about static equilibrium; a symmetric rotor. At the
 threshold one mode whirls undamped, at the whirl ratio ω̄ = ω_s/Ω_s times the running speed.
@@ -7,12 +7,16 @@ Source: San Andrés, Notes 5, Eqs. 5.41 to 5.50.
 """
 
 from dataclasses import dataclass
+from typing import Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from rotorcalc.arrays import Array, real_array
 from rotorcalc.display import Result
+
+# How an onset was found, the surest and soonest first.
+Method: TypeAlias = Literal["closed form", "polynomial", "extended precision"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +41,29 @@ class WhirlOnset(Result):
     threshold_speed: Array
 
 
+@dataclass(frozen=True)
+class Onset:
+    """The lowest speed at which a machine becomes unstable.
+
+    Attributes
+    ----------
+    speed : float
+        Running speed at the onset, Ω_s [rad/s]; infinite where there is none.
+    whirl_frequency : float
+        Frequency of the whirl there, ω_s [rad/s]; not a number where there is none.
+    eccentricity_ratio : float
+        Eccentricity ratio there, ε [-]; not a number where there is none.
+    method : str
+        How it was found: by the "closed form" of `onset.closed_form`, on the characteristic
+        "polynomial", or on that in "extended precision" where floats leave doubt.
+    """
+
+    speed: float
+    whirl_frequency: float
+    eccentricity_ratio: float
+    method: Method
+
+
 def whirl_onset(k: ArrayLike, c: ArrayLike) -> WhirlOnset:
     """Return the threshold of whirl of a rigid rotor on given film coefficients.
 
@@ -44,7 +71,9 @@ def whirl_onset(k: ArrayLike, c: ArrayLike) -> WhirlOnset:
     ----------
     k, c : array_like, (..., 2, 2)
         Dimensionless stiffness k = K·C/F_o and damping c = C·ΩC/F_o in X, Y [-] (Eq. 5.32). In
-        another common unit, such as the film's own, k_eq and p_s² come out in that unit.
+        another common unit, such as the film's own, k_eq and p_s² come out in that unit. Of a
+        centred film the cross stiffness and direct damping of Eq. 5.32 are infinite: the onset is
+        then the limit for a vanishing load, where K_XY = −K_YX = ΩC_XX/2 = ΩC_YY/2 (Eq. 5.37).
 
     Returns
     -------
@@ -60,10 +89,14 @@ def whirl_onset(k: ArrayLike, c: ArrayLike) -> WhirlOnset:
     """
     k_XX, k_XY, k_YX, k_YY = _elements("k", k)
     c_XX, c_XY, c_YX, c_YY = _elements("c", c)
-    # Eq. 5.45
-    k_eq = (k_XX * c_YY + k_YY * c_XX - c_YX * k_XY - c_XY * k_YX) / (c_XX + c_YY)
-    # Eq. 5.46
-    ratio2 = ((k_eq - k_XX) * (k_eq - k_YY) - k_XY * k_YX) / (c_XX * c_YY - c_XY * c_YX)
+    with np.errstate(invalid="ignore"):
+        # Eq. 5.45
+        k_eq = (k_XX * c_YY + k_YY * c_XX - c_YX * k_XY - c_XY * k_YX) / (c_XX + c_YY)
+        # Eq. 5.46
+        ratio2 = ((k_eq - k_XX) * (k_eq - k_YY) - k_XY * k_YX) / (c_XX * c_YY - c_XY * c_YX)
+    centred = np.isinf(k_XY)
+    k_eq = np.where(centred, 0.5 * (k_XX + k_YY), k_eq)
+    ratio2 = np.where(centred, 0.25, ratio2)
     can_whirl = ratio2 > 0.0  # else no real frequency feeds the whirl: stable at any mass
     p_s2 = np.where(can_whirl, k_eq / np.where(can_whirl, ratio2, 1.0), np.inf)
     return WhirlOnset(

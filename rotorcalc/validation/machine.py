@@ -30,7 +30,7 @@ def onset() -> list[Case]:
         ("friswell-5-5-1", True, "Friswell's bearing"),
     ):
         machine = PRESETS[key].machine
-        found, closed = search.onset_speed(machine, flexible), _closed_onset(machine, flexible)
+        found, closed = search.searched_onset(machine, flexible), _closed_onset(machine, flexible)
         cases.append(
             Case(
                 group, f"Onset, {name}", found.speed / _RPM, closed / _RPM, 1e-9 * closed / _RPM,
@@ -46,14 +46,14 @@ def onset() -> list[Case]:
             )
         )  # fmt: skip
     machine = PRESETS["sheet-1e8"].machine
-    found = search.onset_speed(machine, flexible=False)
+    found = search.searched_onset(machine, flexible=False)
     state = equilibrium(machine, found.speed)
     values = modes.eigenvalues(machine.rotor, state.stiffness, state.damping, flexible=False)
     crossing = values[np.argmax(values.real)]
     ratio = float(analyse(machine, found.speed).whirl_ratio)
     growth = float(crossing.real) / found.speed
     axis = "an eigenvalue lies on the imaginary axis"
-    bare = search.onset_speed(_unloaded(machine), flexible=False)
+    bare = search.searched_onset(_unloaded(machine), flexible=False)
     return [
         *cases,
         Case(group, "Re λ/Ω at the rigid onset", growth, 0.0, 1e-9, axis),
@@ -158,9 +158,9 @@ def sheet() -> list[Case]:
     clearance, M = stiff.bearing.radial_clearance, stiff.rotor.half_mass
     point = analyse(stiff, 6000.0 * _RPM)
     onsets = (
-        ("rigid", search.onset_speed(stiff, flexible=False), 10651.9, 5332.6),
-        ("K_rot = 1e8 N/m", search.onset_speed(stiff), 8919.3, None),
-        ("K_rot = 1e7 N/m", search.onset_speed(soft), 4627.1, None),
+        ("rigid", search.searched_onset(stiff, flexible=False), 10651.9, 5332.6),
+        ("K_rot = 1e8 N/m", search.searched_onset(stiff), 8919.3, None),
+        ("K_rot = 1e7 N/m", search.searched_onset(soft), 4627.1, None),
     )
     alone = [
         float(modes.undamped_frequency(m.rotor.shaft_stiffness, M)) / _RPM for m in (stiff, soft)

@@ -81,7 +81,7 @@ async def test_a_visitor_of_the_load_puts_back_what_makes_no_machine(server: Rep
         visitor.moved[:] = [("Journal mass", 0.0)]
         await visitor.slide("Journal mass", 160.0)
         assert is_refused(visitor)
-        await act(visitor, random.Random(0))  # noqa: S311 - any dice do
+        await act(visitor, random.Random(0))
         assert not is_refused(visitor)
         assert visitor.query == "mass=300"
 

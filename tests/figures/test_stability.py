@@ -11,7 +11,7 @@ from rotorcalc import PRESETS, design, variation, whirl_energy
 from rotorcalc.figures import SI, US, Chart, Units
 from rotorcalc.figures import design as what_if
 from rotorcalc.figures import stability as figures
-from rotorcalc.onset.search import Onset
+from rotorcalc.onset import Onset
 from tests.figures.charts import (
     check_baseline_is_behind,
     check_plotly_takes_it,
@@ -114,7 +114,12 @@ def test_chart_is_valid_in_us_units(key: str, draw: Callable[[Computed, Units], 
 @pytest.mark.parametrize("name", [name for name in CHARTS if not name.startswith("energy")])
 def test_chart_is_valid_where_there_is_no_onset(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     draw = CHARTS[name]
-    never = Onset(speed=math.inf, whirl_frequency=math.nan, eccentricity_ratio=math.nan)
+    never = Onset(
+        speed=math.inf,
+        whirl_frequency=math.nan,
+        eccentricity_ratio=math.nan,
+        method="polynomial",
+    )
     monkeypatch.setattr(Computed, "onset", never)
     monkeypatch.setattr(ask, "sensitivities", lambda _: _endless())
     _check(draw(computed_from(VALUES["damped"]), SI))

@@ -18,7 +18,7 @@ SLIDES, TABS = 0.7, 0.15
 
 async def walk(visitor: Visitor, *, until: float, every: float, seed: int) -> None:
     """Open the home page and act until a time, at a steady pace that begins anywhere in it."""
-    dice = random.Random(seed)  # noqa: S311 - a walk that can be repeated
+    dice = random.Random(seed)
     due = time.perf_counter() + dice.random() * every
     begun = False
     while due < until:

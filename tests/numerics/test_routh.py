@@ -16,7 +16,7 @@ SPEEDS = np.linspace(500, 20000, 40) * RPM
 
 
 def is_unstable(rotor, K, C):
-    return ~routh.decays(modes.characteristic_polynomial(rotor, K, C))
+    return routh.margin(modes.characteristic_polynomial(rotor, K, C)) > 0.0
 
 
 @settings(max_examples=60)

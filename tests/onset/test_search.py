@@ -14,6 +14,7 @@ from rotorcalc.coefficients import equilibrium, modified_sommerfeld
 from rotorcalc.films import short
 from rotorcalc.numerics import routh
 from rotorcalc.onset import search
+from rotorcalc.onset.characteristic import polynomial
 from rotorcalc.onset.whirl import flexible_threshold, whirl_onset
 from tests.machines import (
     ALWAYS_STABLE,
@@ -429,7 +430,7 @@ def test_no_onset_has_no_whirl():
 def test_where_there_is_no_doubt_no_root_is_unstable(machine, power, flexible):
     speed = 10.0**power / float(modified_sommerfeld(machine, 1.0))
     count = unstable_roots(machine, speed, flexible=flexible)
-    if routh.doubt(search._polynomial(machine, np.array(speed), flexible)) < 0:
+    if routh.margin_bounds(polynomial(machine, np.array(speed), flexible))[1] < 0:
         assert count == 0
 
 
@@ -438,7 +439,7 @@ def test_there_is_no_doubt_but_beside_the_onset(rotor):
     machine = balanced(rotor)
     onset = onset_speed(machine).speed
     speeds = onset * np.array([0.01, 0.1, 0.5, 1 - 1e-9, 1 + 1e-9, 1.05, 1.2, 1.5, 2, 5, 10])
-    doubt = routh.doubt(search._polynomial(machine, speeds, True))
+    _, doubt = routh.margin_bounds(polynomial(machine, speeds, True))
     unstable = [unstable_roots(machine, speed) > 0 for speed in speeds]
     assert unstable[:5] == [False, False, False, False, True]
     assert list(doubt > 0) == unstable
@@ -453,15 +454,18 @@ def test_kharitonovs_polynomials_are_the_four_that_there_are():
 
 @pytest.mark.parametrize("rotor", ROTORS.values(), ids=ROTORS)
 @pytest.mark.parametrize("load", [None, 1.0, 0.0])
-def test_the_eigenvalues_alone_find_the_same_onset(monkeypatch, rotor, load):
-    """As they must where rounding leaves the polynomial in doubt at every speed."""
+def test_all_ways_find_the_same_onset(monkeypatch, rotor, load):
+    """The polynomial in floats, and in many digits where rounding leaves it in doubt everywhere."""
     machine = replace(balanced(rotor), load=load)
     onset = onset_speed(machine)
+    in_floats = search.searched_onset(machine)
     monkeypatch.setattr(routh, "_ROUNDING", 1.0)
-    monkeypatch.setattr(search, "_sharp_crossing", lambda *_: None)
-    alone = onset_speed(machine)
-    for name in ("speed", "whirl_frequency", "eccentricity_ratio"):
-        assert getattr(alone, name) == pytest.approx(getattr(onset, name), rel=1e-12), name
+    in_digits = search.searched_onset(machine)
+    assert in_digits.method == "extended precision"
+    assert in_floats.method == ("extended precision" if load == 0.0 else "polynomial")
+    for found in (in_floats, in_digits):
+        for name in ("speed", "whirl_frequency", "eccentricity_ratio"):
+            assert getattr(found, name) == pytest.approx(getattr(onset, name), rel=1e-12), name
 
 
 @given(st.floats(0.02, 0.98))
@@ -473,11 +477,11 @@ def test_a_hump_between_two_speeds_is_found(place):
         hump = 1.001 - (speed - 4.0 - place) ** 2
         return np.where(speed < 9.5, np.maximum(hump, -1.0 - 0.1 * (speed - 7) ** 2) - 1.0, 1.0)
 
-    low, high = search._first_crossing(values, speeds)
+    low, high = search.first_crossing(values, speeds)
     assert values(np.array(low)) < 0 < values(np.array(high))
     assert high < 6
-    assert search._first_crossing(lambda s: values(s) - 0.01, speeds) == (9.0, 10.0)
-    assert search._first_crossing(lambda s: values(s) - 9.0, speeds) is None
+    assert search.first_crossing(lambda s: values(s) - 0.01, speeds) == (9.0, 10.0)
+    assert search.first_crossing(lambda s: values(s) - 9.0, speeds) is None
 
 
 # Without load
@@ -486,13 +490,13 @@ def test_a_hump_between_two_speeds_is_found(place):
 @few
 @given(machines(load=st.just(0.0)), st.booleans())
 def test_without_load_an_undamped_rotor_whirls_at_any_speed(machine, flexible):
-    assert onset_speed(machine, flexible=flexible) == Onset(0.0, 0.0, 0.0)
+    assert onset_speed(machine, flexible=flexible) == Onset(0.0, 0.0, 0.0, "closed form")
 
 
 @few
 @given(machines(stiffness=RIGID, damped=True, load=st.just(0.0)))
 def test_without_load_damping_does_not_help_a_rigid_rotor(machine):
-    assert onset_speed(machine) == Onset(0.0, 0.0, 0.0)
+    assert onset_speed(machine) == Onset(0.0, 0.0, 0.0, "extended precision")
 
 
 @few

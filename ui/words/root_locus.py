@@ -7,7 +7,7 @@ import streamlit as st
 from rotorcalc import modes
 from rotorcalc.arrays import ComplexArray
 from rotorcalc.modes import ModeShapes
-from rotorcalc.onset.search import Onset
+from rotorcalc.onset import Onset
 from rotorcalc.unbalance_response import orbit_ellipse
 from rotorcalc.units import Units
 from ui.computed import Computed

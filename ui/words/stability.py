@@ -219,9 +219,9 @@ def onset_map(computed: Computed, x: str, y: str, units: Units) -> design.OnsetM
     machine = computed.machine
     axes = [(FIELDS[key], q.low, q.high, q.log)
             for key in (x, y) for q in [quantity(key, machine, units)]]  # fmt: skip
-    if closed_form.has_closed_form(machine) and not {x, y} & {"cs", "mj"}:
+    if computed.onset.method == "closed form" and "cs" not in {x, y}:
         return _onset_map(machine, *axes, _FINE)
-    bar = st.progress(0.0, "Eigenvalues at every point of the map …")
+    bar = st.progress(0.0, "The onset at every point of the map …")
     found = _onset_map(machine, *axes, _COARSE, tell=bar.progress)
     bar.empty()
     return found

@@ -1,0 +1,108 @@
+"""The characteristic polynomial of a machine: in floats over speed, in sixty digits at one speed.
+
+On a lightly loaded film, σ ≫ 1, or a soft shaft the growth of a whirl is to the film's own rates
+as 1/σ and as K_rot/K_eq. Where both are small together, a float's sixteen digits do not hold it.
+"""
+
+from collections.abc import Callable
+from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal, localcontext
+from functools import wraps
+from typing import Any, ParamSpec, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rotorcalc import modes
+from rotorcalc.arrays import Array
+from rotorcalc.coefficients import stiffness_and_damping
+from rotorcalc.films import film_of
+from rotorcalc.films.short import exact
+from rotorcalc.machine import Machine
+from rotorcalc.numerics import routh
+
+# A division by zero gives infinity as in NumPy, not an error.
+_DIGITS = Context(prec=60, Emax=MAX_EMAX, Emin=MIN_EMIN, traps=[])
+# Secants beside a zero, and how far from it, relative, the first begins.
+_DECIMALS: Callable[[Any], Any] = np.frompyfunc(Decimal, 1, 1)
+_SECANTS, _ASIDE = 4, Decimal("1e-9")
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+
+def many_digits(function: Callable[P, T]) -> Callable[P, T]:
+    """Have a function compute with `Decimal` in sixty digits."""
+
+    @wraps(function)
+    def computed(*args: P.args, **kwargs: P.kwargs) -> T:
+        with localcontext(_DIGITS):
+            return function(*args, **kwargs)
+
+    return computed
+
+
+def polynomial(machine: Machine, speed: ArrayLike, flexible: bool) -> Array:
+    """Return the characteristic polynomials of a machine at speeds (...), floats (..., n+1)."""
+    K, C = stiffness_and_damping(machine, speed)
+    return modes.characteristic_polynomial(machine.rotor, K, C, flexible=flexible)
+
+
+class ExactPolynomial:
+    """The characteristic polynomial of one machine in sixty digits, of its values as they are.
+
+    So are the coefficients of a short film. Those of another model are the floats that it knows.
+    """
+
+    @many_digits
+    def __init__(self, machine: Machine, flexible: bool) -> None:
+        bearing = machine.bearing
+        mu, D, L, C = map(
+            Decimal,
+            (machine.viscosity, bearing.diameter, bearing.length, bearing.radial_clearance),
+        )
+        R = D / 2
+        self._sommerfeld = mu * L * R / (4 * Decimal(machine.static_load)) * (L / C) ** 2
+        self._damping = mu * R * (L / C) ** 3
+        self._machine, self._is_short = machine, film_of(bearing).curve == "short"
+        self._rotor = modes.rotor_terms(machine.rotor, flexible=flexible, number=Decimal)
+
+    def margins(self, speeds: Array) -> Array:
+        """Return `routh.margin` at speeds (n,)."""
+        return np.array([self._ask(routh.margin, speed) for speed in speeds.tolist()])
+
+    def determinant(self, speed: float) -> float:
+        """Return `routh.determinant` at a speed."""
+        return self._ask(routh.determinant, speed)
+
+    @many_digits
+    def sharpened(self, speed: float) -> tuple[float, float]:
+        """Return the place of a zero of the determinant, and ω of the roots ±jω there [rad/s].
+
+        By a secant from beside a speed that is the place to a float's digits: what Routh's scheme
+        says of ω can change millions of times as fast as the speed.
+        """
+        before, here = Decimal(speed) * (1 + _ASIDE), Decimal(speed)
+        if not self._is_short:
+            return speed, float(routh.axis_frequency(self._at(here)))
+        value = self._determinant(before)
+        for _ in range(_SECANTS):
+            there = self._determinant(here)
+            if there == value:
+                break
+            before, here, value = here, here - there * (here - before) / (there - value), there
+        return float(here), float(routh.axis_frequency(self._at(here)))
+
+    @many_digits
+    def _ask(self, question: Callable[[NDArray[Any]], Array], speed: float) -> float:
+        return float(question(self._at(Decimal(speed))))
+
+    def _determinant(self, speed: Decimal) -> Decimal:
+        return routh.exact_determinant(self._at(speed))
+
+    def _at(self, speed: Decimal) -> NDArray[np.object_]:
+        if not self._is_short:
+            K, C = stiffness_and_damping(self._machine, float(speed))
+            return modes.film_terms(_DECIMALS(K), _DECIMALS(C)) @ self._rotor
+        k, c = exact.coefficients(self._sommerfeld * speed)
+        film = modes.film_terms(k * (self._damping * speed), c * self._damping)
+        return film @ self._rotor
