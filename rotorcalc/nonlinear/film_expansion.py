@@ -8,16 +8,13 @@ each line is tried at shorter and shorter reach. Too long a line is not resolved
 too short a one drowns in rounding: the reach is taken at which the answer changes least.
 """
 
-from collections.abc import Callable
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import chebyshev
 
 from rotorcalc.arrays import Array, ComplexArray
-
-# Force in X and Y from position and velocity of the journal.
-Force: TypeAlias = Callable[[float, float, float, float], tuple[float, float]]
+from rotorcalc.films.model import Force
 
 # The first reach over the way to the wall, the ratio of a reach to the last, and how many.
 _FARTHEST, _SHORTER, _MOST_REACHES = 0.9, 0.6, 40

@@ -35,7 +35,7 @@ import numpy as np
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import equilibrium
-from rotorcalc.films import film_of, journal_motion
+from rotorcalc.films import FilmUnits, film_of, journal_motion
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.film_expansion import FilmExpansion
 from rotorcalc.nonlinear.rotor_impedance import impedance
@@ -119,8 +119,10 @@ def hopf(machine: Machine) -> Hopf:
     Raises
     ------
     ValueError
-        Where the machine has no onset, or whirls at any speed for want of load.
+        Where the machine has no onset, or whirls at any speed, as a plain bearing without load
+        does; where the film gives no force for a moving journal, or has inner coordinates.
     """
+    journal_motion(machine.bearing)  # refuses a film that this cannot expand
     onset = onset_speed(machine)
     if not 0.0 < onset.speed < math.inf:
         why = "whirls at any speed" if onset.speed == 0.0 else "has no onset"
@@ -196,16 +198,14 @@ def _growth_slope(machine: Machine, speed: float, frequency: float) -> float:
 def _lyapunov_terms(machine: Machine, speed: float, frequency: float, points: int) -> Array:
     """Return the three terms of ℓ [1/s]: by the mean shift, the second harmonic and the cubic."""
     bearing, film = machine.bearing, equilibrium(machine, speed).film
-    force = journal_motion(bearing).force
     gap = float(film_of(bearing).gap(film.position))
-    expansion = FilmExpansion(force, film.position, gap, points)
+    expansion = FilmExpansion(journal_motion(bearing).force, film.position, gap, points)
     q, p = _whirl(machine, speed, frequency)
     swing = 1j * frequency / speed
     Q = np.concatenate([q, swing * q])
     along = expansion.whirl(Q)
     # From the film's unit of force and clearances to N and m.
-    C = bearing.radial_clearance
-    unit = machine.viscosity * speed * bearing.radius * bearing.length**3 / C**3
+    unit = float(FilmUnits(bearing, machine.viscosity, speed).stiffness)
     steady, double = (_balance(machine, speed, harmonic * frequency) for harmonic in (0.0, 2.0))
     h_0 = unit * cast("ComplexArray", np.linalg.solve(steady, along.QQ_))
     h_2 = 0.5 * unit * cast("ComplexArray", np.linalg.solve(double, along.QQ))

@@ -121,8 +121,7 @@ def bifurcation(
     Raises
     ------
     ValueError
-        Where the machine has no onset, or whirls at any speed for want of load, or the onset does
-        not lie between the speeds.
+        Where the onset does not lie between the speeds, and as `hopf` does.
     BifurcationError
         Where not even the first cycle is found.
     """

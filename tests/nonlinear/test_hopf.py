@@ -17,7 +17,8 @@ from rotorcalc.nonlinear import transient
 from rotorcalc.nonlinear.collocation import Balance
 from rotorcalc.nonlinear.continuation import small_cycle
 from rotorcalc.nonlinear.film_expansion import FilmExpansion
-from tests.machines import RIGID, ROTORS, C, balanced, log_uniform, machines, near_hopf
+from tests.films.models import BEARINGS, Preloaded
+from tests.machines import RIGID, ROTORS, SHEET, C, balanced, log_uniform, machines, near_hopf
 
 SOFT_TO_RIGID = RIGID | log_uniform(1e5, 1e10)
 # Between the stiffness of the shaft and that of the film lie four orders of magnitude.
@@ -93,6 +94,25 @@ def test_the_coefficient_is_that_of_the_limit_cycles(machine):
     lyapunov, doubt = lyapunov_of_cycles(machine, onset)
     assume(doubt < 0.003 * abs(lyapunov))
     assert abs(onset.lyapunov - lyapunov) < 0.01 * abs(lyapunov) + onset.lyapunov_error
+
+
+@pytest.mark.parametrize("spring", [0.05, 0.2, 0.3])
+@pytest.mark.parametrize("stiffness", [1e7, math.inf])
+def test_another_film_has_the_coefficient_of_its_limit_cycles(spring, stiffness):
+    """One with direct stiffness, which holds the journal without load."""
+    bearing = replace(SHEET.bearing, geometry=Preloaded(spring=spring))
+    rotor = replace(SHEET.rotor, shaft_stiffness=stiffness)
+    onset = hopf(machine := replace(SHEET, bearing=bearing, rotor=rotor))
+    lyapunov, doubt = lyapunov_of_cycles(machine, onset)
+    assert doubt < 1e-3 * abs(lyapunov)
+    assert onset.lyapunov_error < 1e-3 * abs(lyapunov)
+    assert onset.lyapunov == pytest.approx(lyapunov, rel=5e-3)
+
+
+@pytest.mark.parametrize("name", ["ringed", "ringed, heavy"])
+def test_films_with_parts_that_move_are_refused_in_words(name):
+    with pytest.raises(ValueError, match="parts that move by themselves"):
+        hopf(replace(SHEET, bearing=BEARINGS[name]))
 
 
 def lyapunov_of_cycles(machine, onset):

@@ -20,6 +20,7 @@ from rotorcalc import (
 )
 from rotorcalc.nonlinear import limit_cycles, transient
 from rotorcalc.nonlinear.limit_cycles import sweep
+from tests.films.models import Preloaded
 from tests.machines import RIGID, ROTORS, SHEET, C, balanced, log_uniform, machines, near_hopf
 
 
@@ -131,6 +132,14 @@ def test_floquet_agrees_with_the_turns_of_the_branch(subcritical, supercritical)
         assert np.all((rising == branch.stable) | flips)
 
 
+REASONS = [
+    "reached the highest speed asked for",
+    "reached the lowest speed asked for",
+    "came to within 3% of the clearance to the wall",
+    "shrank to rest at another onset",
+]
+
+
 def rigid(mass, **bearing):
     """Return a rigid rotor of a mass on thick oil and a long bearing."""
     return Machine(
@@ -153,6 +162,21 @@ def test_a_branch_goes_on_where_its_film_is_all_but_in_half_speed_whirl():
     for factor in (1.31, 1.4, 1.499):
         sizes, stable = branch.at(factor * onset)
         assert len(sizes[stable]) == 1
+
+
+def test_another_film_has_its_branch():
+    bearing = replace(SHEET.bearing, geometry=Preloaded(spring=0.3))
+    machine = replace(SHEET, bearing=bearing)
+    branch = bifurcation(machine, highest=1.1)
+    assert branch.ended in REASONS
+    assert branch.stable[0] == (not branch.hopf.subcritical)
+    place = int(np.flatnonzero(branch.stable)[-1])
+    speed, path = branch.speed[place], branch.paths[place]
+    start = limit_cycles.start_on_cycle(machine, branch, place)
+    balanced = replace(machine, rotor=replace(machine.rotor, imbalance=0.0))
+    motion = simulate(balanced, speed, revolutions=6, start=start)
+    distance = np.hypot(*(motion.journal[:, None] - path[None]).transpose(2, 0, 1)).min(axis=1)
+    assert distance.max() < 0.51 * np.hypot(*np.diff(path, axis=0).T).max()
 
 
 def test_a_branch_ends_on_the_lowest_speed_too(subcritical):
@@ -193,13 +217,14 @@ def test_a_branch_goes_where_it_was_asked_or_says_why_not(machine):
         assume(False)
     ratio = branch.speed / branch.hopf.speed
     assert np.all((ratio > 0.5 - 1e-9) & (ratio < 1.5 + 1e-9))
-    reasons = {
+    as_said = {
         "reached the highest speed asked for": ratio[-1] == pytest.approx(1.5),
         "reached the lowest speed asked for": ratio[-1] == pytest.approx(0.5),
         "came to within 3% of the clearance to the wall": branch.eccentricity_ratio[-1] > 0.97,
         "shrank to rest at another onset": branch.amplitude[-1] < 0.1 * branch.hopf.clearance,
     }
-    assert reasons[branch.ended]
+    assert list(as_said) == REASONS
+    assert as_said[branch.ended]
 
 
 def test_the_imbalance_plays_no_part():
