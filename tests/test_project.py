@@ -5,6 +5,7 @@ import subprocess
 import sys
 import tomllib
 from collections.abc import Iterator
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -45,6 +46,16 @@ def test_lock_pins_every_package_and_names_no_source(name: str) -> None:
     pins = [line for line in lines if not line.startswith("#")]
     assert pins
     assert [pin for pin in pins if not PIN.fullmatch(pin)] == []
+
+
+def test_the_mover_of_charts_was_written_for_the_locked_plotly() -> None:
+    """Moving a drawn chart relies on the inside of Plotly, which may change with any release."""
+    mover = (ROOT / "ui/live/move.js").read_text("utf-8")
+    (written_for,) = re.findall(r"Python package plotly ([\d.]+\d):", mover)
+    for lock in ("requirements.txt", "deploy/requirements.txt"):
+        (locked,) = re.findall(r"^plotly==(\S+)$", (ROOT / lock).read_text("utf-8"), re.MULTILINE)
+        assert locked == written_for, lock
+    assert version("plotly") == written_for
 
 
 def test_the_core_loads_neither_streamlit_nor_plotly() -> None:

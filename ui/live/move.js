@@ -2,6 +2,10 @@
 //
 // Lines, points, notes and shapes go to their new places in the picture as it stands. Where that cannot
 // be done Plotly draws at once, and elsewhere when nothing has moved for a while.
+//
+// Written for plotly.js of the Python package plotly 7.1.0: it reads _fullLayout and _fullData, the names
+// and the order of the classes in the SVG, and where uid, data-index and data-unformatted stand, none of
+// which Plotly promises to keep. After an update run tests/browser/test_live.py, then change the number.
 
 // Seen only under a pointer, and that is on a thumb.
 const HOVERED = new Set(["customdata", "hovertemplate"]);
