@@ -26,7 +26,7 @@ from tests.app.session import (
 )
 from ui.inputs import INPUTS
 
-pytestmark = pytest.mark.parametrize("path", PAGES)
+every_page = pytest.mark.parametrize("path", PAGES)
 
 # Charts that show nothing but the running speed, or no machine at all.
 UNMARKED = {"energy_bars", "tornado", "orbits", "orbit_scrubber", "conventions"}
@@ -50,6 +50,7 @@ def _choose(at: AppTest, units: str, typed: bool) -> None:
     open_part(at, "settings", False)
 
 
+@every_page
 @pytest.mark.parametrize("units", ["SI", "US"])
 def test_every_tab_at_every_preset(path: str, units: str) -> None:
     at = visit(path, units=units)
@@ -60,6 +61,7 @@ def test_every_tab_at_every_preset(path: str, units: str) -> None:
             assert faults(at) == [], (preset, label)
 
 
+@every_page
 @pytest.mark.parametrize("units", ["SI", "US"])
 def test_typed_inputs_at_every_preset(path: str, units: str) -> None:
     at = visit(path)
@@ -71,13 +73,17 @@ def test_typed_inputs_at_every_preset(path: str, units: str) -> None:
     assert any(field.key == f"input_C_{units}_typed" for field in at.number_input)
 
 
+@every_page
 @pytest.mark.parametrize("units", ["SI", "US"])
+def test_every_input_has_a_slider(path: str, units: str) -> None:
+    assert len(slider_keys(visit(path, units=units, **LOADED))) == len(INPUTS)
+
+
+# In US units the same sliders move the same machine: one page is enough.
+@pytest.mark.parametrize(("path", "units"), [*((path, "SI") for path in PAGES), (HOME, "US")])
 def test_both_ends_of_every_slider(path: str, units: str) -> None:
     at = visit(path, units=units, **LOADED)
     keys = slider_keys(at)
-    assert len(keys) == len(INPUTS)
-    if units == "US" and path != HOME:
-        return  # the same sliders move the same machine
     # What notes say holds for all machines; the tabs of Orbits show one release after the other.
     for label in tours(at) if path not in (NOTES, ORBITS) else [""]:
         for key, end, shown in _ends(at, keys):
@@ -106,6 +112,7 @@ def _no_disk(at: AppTest) -> bool:
     )
 
 
+@every_page
 def test_every_choice_on_the_page(path: str) -> None:
     at = visit(path)
     for label in tours(at):
@@ -129,17 +136,20 @@ def _try_out(at: AppTest, kind: str, key: str, label: str) -> None:
         found[0].set_value(was).run()
 
 
+@every_page
 @pytest.mark.parametrize("units", ["SI", "US"])
 def test_every_chart_names_its_axes_and_fixes_their_ranges(path: str, units: str) -> None:
-    at = visit(path, units=units)
+    at, seen = visit(path, units=units), 0
     for label in tours(at):
         for key, figure in charts(at).items():
+            seen += 1
             for name, axis in _axes(figure):
                 place = (label, key, name)
                 assert len(axis.get("range", ())) == 2, place
                 assert all(math.isfinite(end) for end in axis["range"]), place
                 if axis.get("visible", True) and not axis.get("ticktext"):
                     assert NAMED.search(axis["title"]["text"]), place
+    assert seen
 
 
 def _axes(figure: dict) -> Iterator[tuple[str, dict]]:
@@ -148,13 +158,17 @@ def _axes(figure: dict) -> Iterator[tuple[str, dict]]:
             yield name, axis
 
 
+@every_page
 def test_every_chart_has_a_text_for_those_who_do_not_see_it(path: str) -> None:
-    at = visit(path)
+    at, seen = visit(path), 0
     for label in tours(at):
         for chart in at.get("plotly_chart"):
+            seen += 1
             assert len(chart.proto.alt) > 20, (label, chart.key)
+    assert seen
 
 
+@every_page
 def test_every_chart_marks_the_running_speed(path: str) -> None:
     at = visit(path)
     for label in tours(at):
@@ -163,9 +177,11 @@ def test_every_chart_marks_the_running_speed(path: str) -> None:
                 assert HERE in json.dumps(figure["data"]), (label, key)
 
 
+@every_page
 def test_a_tab_computes_only_when_open(path: str) -> None:
     at = visit(path)
     rows = at.get("tab_container")
+    assert rows or path == HOME
     for row in rows:
         filled = [tab.label for tab in row.children.values() if tab.children]
         assert filled == [at.session_state[row.key]]

@@ -6,7 +6,9 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from functools import cache
 from pathlib import Path
 from typing import Any
 from urllib.error import URLError
@@ -69,17 +71,30 @@ def browser_type_launch_args(
 
 
 @pytest.fixture(scope="session")
-def app_url(
-    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
-) -> Iterator[str]:
-    """Base URL of the app, served by a process of its own for the whole session.
+def serve(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str], str]]:
+    """Base URL of the app in a mode of ROTORCALC_LIVE, each started once, when first asked for."""
+    with ExitStack() as servers:
 
-    Its parameter is ROTORCALC_LIVE: "drag", or "off" for Streamlit's own charts and sliders.
-    """
-    environment = {**os.environ, "ROTORCALC_LIVE": getattr(request, "param", "drag")}
+        @cache
+        def url(live: str) -> str:
+            return servers.enter_context(_served(live, tmp_path_factory.mktemp("server")))
+
+        yield url
+
+
+@pytest.fixture
+def app_url(request: pytest.FixtureRequest, serve: Callable[[str], str]) -> str:
+    """Base URL of the app. Its parameter: "drag", or "off" for Streamlit's own charts, sliders."""
+    return serve(getattr(request, "param", "drag"))
+
+
+@contextmanager
+def _served(live: str, folder: Path) -> Iterator[str]:
+    """Serve the app by a process of its own."""
+    environment = {**os.environ, "ROTORCALC_LIVE": live}
     port = _free_port()
     url = f"http://127.0.0.1:{port}"
-    log = tmp_path_factory.mktemp("server") / "streamlit.log"
+    log = folder / "streamlit.log"
     options = ["--server.headless=true", "--server.address=127.0.0.1", f"--server.port={port}"]
     with log.open("wb") as out:
         server = subprocess.Popen(

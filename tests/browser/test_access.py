@@ -20,11 +20,13 @@ def test_page_has_no_serious_fault(app: AppPage, name: str, size: str, scheme: s
     assert app.overflow() <= 0
 
 
-@pytest.mark.parametrize("name", PATHS)
+@pytest.mark.parametrize("name", [name for name in PATHS if name != "Machine"])
 def test_tabs_have_no_serious_fault_and_fit_a_phone(app: AppPage, name: str) -> None:
     app.page.set_viewport_size(SIZES["phone"])
     app.open(name)
-    for label in app.tabs()[1:]:
+    _, *others = app.tabs()
+    assert others
+    for label in others:
         app.open_tab(label)
         assert _violations(app) == [], label
         assert app.overflow() <= 0, label

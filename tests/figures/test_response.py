@@ -158,6 +158,7 @@ def test_peaks_are_where_the_orbit_is_largest(key: str, at: str) -> None:
     machine = MACHINES[key]
     peaks = response_peaks(machine, SPEEDS, at=at)
     spacing = SPEEDS[1] - SPEEDS[0]
+    assert len(peaks.speed)
     for speed, amplitude in zip(peaks.speed, peaks.amplitude, strict=True):
         h = 1e-3 * spacing
         near = analyse(machine, speed + h * np.array([-1.0, 0.0, 1.0]))
