@@ -4,6 +4,7 @@ from rotorcalc import whirl_energy
 from rotorcalc.figures import design as what_if
 from rotorcalc.figures import stability as figures
 from ui.frame.page import Page, show
+from ui.words import design
 from ui.words import stability as ask
 
 
@@ -121,14 +122,17 @@ def onset_map(page: Page) -> None:
     computed, units = page.computed, page.units
     left, right = st.columns(2)
     with left:
-        x = ask.choose_input("Across", "C", "stability_x")
+        x = design.choose_input("Across", "C", "stability_x")
     with right:
-        y = ask.choose_input("Up", "T", "stability_y", without=x)
-    onsets = ask.onset_map(computed, x, y, units)
-    axes = ask.quantity(x, computed.machine, units), ask.quantity(y, computed.machine, units)
+        y = design.choose_input("Up", "T", "stability_y", without=x)
+    onsets = design.onset_map(computed, x, y, units)
+    axes = (
+        design.quantity(x, computed.machine, units),
+        design.quantity(y, computed.machine, units),
+    )
     page.chart(
         lambda c: what_if.onset_map(
-            onsets, axes, (ask.value(c, x), ask.value(c, y)), c.speed, units
+            onsets, axes, (design.value(c, x), design.value(c, y)), c.speed, units
         ),
         "onset_map",
         alt="Contour map of the onset speed over two inputs, with this machine and the "
@@ -141,26 +145,26 @@ def onset_map(page: Page) -> None:
 def remedies(page: Page) -> None:
     computed, units = page.computed, page.units
     page.chart(
-        lambda c: what_if.tornado(ask.sensitivities(c), ask.names(units), units),
+        lambda c: what_if.tornado(design.sensitivities(c), design.names(units), units),
         "tornado",
         alt="Movement of the onset speed for ten per cent less and more of each input.",
-        caption=ask.TORNADO,
+        caption=design.TORNADO,
     )
     left, right = st.columns(2)
     with left:
-        vary = ask.choose_input("Change", "C", "stability_vary")
+        vary = design.choose_input("Change", "C", "stability_vary")
     with right:
-        target = ask.choose_target(computed, units)
+        target = design.choose_target(computed, units)
     found, axis = (
-        ask.solution(computed, vary, target, units),
-        ask.quantity(vary, computed.machine, units),
+        design.solution(computed, vary, target, units),
+        design.quantity(vary, computed.machine, units),
     )
-    st.markdown(ask.answer(found, axis, ask.value(computed, vary), units))
+    st.markdown(design.answer(found, axis, design.value(computed, vary), units))
     page.chart(
         lambda c: what_if.solution(
-            ask.solution(c, vary, target, units),
+            design.solution(c, vary, target, units),
             axis,
-            (ask.value(c, vary), c.onset.speed),
+            (design.value(c, vary), c.onset.speed),
             units,
         ),
         "solution",

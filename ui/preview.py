@@ -8,7 +8,8 @@ from rotorcalc.figures import Chart, themed, with_baseline
 from rotorcalc.units import Units
 from ui.computed import Computed, computed_from
 from ui.inputs import Values, input_named
-from ui.results import RESULTS, row_key
+from ui.results.row import row_key
+from ui.results.table import RESULTS
 
 Draw = Callable[[Computed], Chart]
 

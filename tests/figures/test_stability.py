@@ -19,6 +19,7 @@ from tests.figures.charts import (
 )
 from ui.computed import Computed, computed_from
 from ui.inputs import INPUTS, PRESET_VALUES, Values
+from ui.words import design as moves
 from ui.words import stability as ask
 
 SHEET = PRESET_VALUES["sheet-1e8"]
@@ -52,17 +53,17 @@ def _fig_5_10(c: Computed, over_eps: bool) -> Chart:
 
 
 def _map(c: Computed, units: Units) -> Chart:
-    axes = (ask.quantity("C", c.machine, units), ask.quantity("load", c.machine, units))
+    axes = (moves.quantity("C", c.machine, units), moves.quantity("load", c.machine, units))
     xs, ys = (np.geomspace(axis.low, axis.high, 4) for axis in axes)
     onsets = design.onset_map(c.machine, x="radial_clearance", xs=xs, y="load", ys=ys)
     return what_if.onset_map(
-        onsets, axes, (ask.value(c, "C"), ask.value(c, "load")), c.speed, units
+        onsets, axes, (moves.value(c, "C"), moves.value(c, "load")), c.speed, units
     )
 
 
 def _solution(c: Computed, units: Units) -> Chart:
     found = design.solve_onset(c.machine, vary="temperature", target=1.2 * c.speed, low=0, high=150)
-    axis = ask.quantity("T", c.machine, units)
+    axis = moves.quantity("T", c.machine, units)
     return what_if.solution(found, axis, (c.machine.temperature, c.onset.speed), units)
 
 
@@ -81,7 +82,7 @@ CHARTS: dict[str, Callable[[Computed, Units], Chart]] = {
     "energy bars": lambda c, units: figures.energy_bars(ask.energies(c), units),
     "energy": lambda c, units: figures.energy(ask.energies(c), ask.crossing(c), units),
     "map": _map,
-    "tornado": lambda c, units: what_if.tornado(ask.sensitivities(c), ask.names(units), units),
+    "tornado": lambda c, units: what_if.tornado(moves.sensitivities(c), moves.names(units), units),
     "solution": _solution,
 }
 every_chart = pytest.mark.parametrize("draw", CHARTS.values(), ids=CHARTS.keys())
@@ -121,7 +122,7 @@ def test_chart_is_valid_where_there_is_no_onset(name: str, monkeypatch: pytest.M
         method="polynomial",
     )
     monkeypatch.setattr(Computed, "onset", never)
-    monkeypatch.setattr(ask, "sensitivities", lambda _: _endless())
+    monkeypatch.setattr(moves, "sensitivities", lambda _: _endless())
     _check(draw(computed_from(VALUES["damped"]), SI))
 
 
@@ -210,12 +211,12 @@ def test_the_bars_meet_at_the_onset() -> None:
 
 def test_the_tornado_has_the_largest_on_top() -> None:
     computed = computed_from(SHEET)
-    chart = what_if.tornado(ask.sensitivities(computed), ask.names(SI), SI)
+    chart = what_if.tornado(moves.sensitivities(computed), moves.names(SI), SI)
     less, more = (np.abs(trace["x"]) for trace in chart["data"][:2])
     reach = np.maximum(less, more)
     assert np.all(np.diff(reach) >= 0.0)
     assert any("Film temperature T ±5 °C" in row for row in chart["layout"]["yaxis"]["ticktext"])
-    in_us = what_if.tornado(ask.sensitivities(computed), ask.names(US), US)
+    in_us = what_if.tornado(moves.sensitivities(computed), moves.names(US), US)
     assert any("Film temperature T ±9 °F" in row for row in in_us["layout"]["yaxis"]["ticktext"])
 
 
@@ -229,20 +230,20 @@ def test_a_map_keeps_its_ladder_of_colours() -> None:
 
 
 def test_the_solutions_stand_on_the_wanted_line() -> None:
-    computed, axis = computed_from(SHEET), ask.quantity("C", computed_from(SHEET).machine, SI)
-    found = ask.solution(computed, "C", 1.2 * computed.speed, SI)
+    computed, axis = computed_from(SHEET), moves.quantity("C", computed_from(SHEET).machine, SI)
+    found = moves.solution(computed, "C", 1.2 * computed.speed, SI)
     chart = what_if.solution(found, axis, (60e-6, computed.onset.speed), SI)
     [mark] = [trace for trace in chart["data"] if trace["name"] == "meets it"]
     assert mark["x"] == pytest.approx([100.44, 459.40], rel=1e-4)
     assert mark["y"] == pytest.approx([7200.0, 7200.0])
-    assert "100.4 µm" in ask.answer(found, axis, 60e-6, SI)
-    assert "459.4 µm" in ask.answer(found, axis, 60e-6, SI)
+    assert "100.4 µm" in moves.answer(found, axis, 60e-6, SI)
+    assert "459.4 µm" in moves.answer(found, axis, 60e-6, SI)
 
 
 def test_an_answer_says_what_can_be_reached_where_there_is_no_solution() -> None:
-    computed, axis = computed_from(SHEET), ask.quantity("T", computed_from(SHEET).machine, SI)
-    found = ask.solution(computed, "T", 2.0 * computed.speed, SI)
-    words = ask.answer(found, axis, 60.0, SI)
+    computed, axis = computed_from(SHEET), moves.quantity("T", computed_from(SHEET).machine, SI)
+    found = moves.solution(computed, "T", 2.0 * computed.speed, SI)
+    words = moves.answer(found, axis, 60.0, SI)
     assert "No value" in words
     assert "8296" in words
     assert "8939" in words
@@ -251,7 +252,7 @@ def test_an_answer_says_what_can_be_reached_where_there_is_no_solution() -> None
 @pytest.mark.parametrize("key", sorted(INPUTS.keys() - {"TR", "rho", "u", "rpm", "rpm_max"}))
 def test_every_input_that_moves_an_onset_can_be_varied(key: str) -> None:
     computed = computed_from(VALUES["damped"])
-    axis = ask.quantity(key, computed.machine, SI)
+    axis = moves.quantity(key, computed.machine, SI)
     for end in (axis.low, axis.high):
-        varied = variation.varied(computed.machine, {ask.FIELDS[key]: end})
-        assert variation.value_of(varied, ask.FIELDS[key]) == end
+        varied = variation.varied(computed.machine, {moves.FIELDS[key]: end})
+        assert variation.value_of(varied, moves.FIELDS[key]) == end

@@ -18,7 +18,7 @@ from rotorcalc.onset import whirl
 from rotorcalc.units import SI, US, Units
 from ui.computed import Computed, computed_from
 from ui.inputs import INPUTS, PRESET_VALUES, Values, values_of
-from ui.results import RESULTS
+from ui.results.table import RESULTS
 from ui.sharing import export, report
 from ui.sharing.report_charts import sections
 

@@ -11,7 +11,7 @@ from rotorcalc.units import Units
 from ui.computed import Computed, computed_from
 from ui.frame import baseline, sidebar
 from ui.preview import Draw, Preview, compared
-from ui.results import show_results
+from ui.results.row import show_results
 from ui.serving import one_at_a_time, version
 from ui.session import session, write_address_bar
 from ui.sharing import popover

@@ -6,6 +6,7 @@ from itertools import groupby
 from pathlib import Path
 
 from rotorcalc.validation import Case, validate
+from ui.format import minus
 from ui.notes.equations import EQUATIONS, Equation
 
 CONVENTIONS_ALT = (
@@ -81,8 +82,8 @@ def _number(value: float) -> str:
     if value == 0.0:
         return "0"
     shown = f"{value:.2e}" if abs(value) < 1e-4 else f"{value:.9g}"
-    return shown.replace("-", "−")
+    return minus(shown)
 
 
 def _small(value: float) -> str:
-    return "0" if value == 0.0 else f"{value:.1e}".replace("-", "−")
+    return "0" if value == 0.0 else minus(f"{value:.1e}")

@@ -23,8 +23,9 @@ from ui.serving import health, log, settings, version
 _HEADER = b"x-rotorcalc-replica"
 # What the pages import, for the first visitor not to wait for it.
 _WARM = (
-    "ui.frame.page", "ui.words.stability", "ui.words.root_locus", "ui.words.response",
-    "ui.words.orbits", "ui.notes", "ui.live", "ui.sharing.export", "ui.sharing.report",
+    "ui.frame.page", "ui.words.design", "ui.words.stability", "ui.words.root_locus",
+    "ui.words.response", "ui.words.orbits", "ui.notes", "ui.live",
+    "ui.sharing.export", "ui.sharing.report",
 )  # fmt: skip
 # New objects until Python looks for lost ones, its own 700 cost a page a seventh of its time; and
 # how often it looks at older ones: 320,000 objects of closed sessions are some 30 MB.

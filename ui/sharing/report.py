@@ -20,16 +20,16 @@ from rotorcalc.arrays import Array
 from rotorcalc.units import Unit, Units
 from rotorcalc.validity import validity
 from ui.computed import Computed
+from ui.format import amount, digits, minus
 from ui.inputs import GROUPS, INPUTS, Values, values_of
-from ui.results import RESULTS, digits
+from ui.results.table import RESULTS
 from ui.sharing import report_charts
 from ui.sharing.report_charts import Figure
+from ui.words import validity as validity_words
 from ui.words.verdict import verdict
 
 # Text, and the class of its cell.
 Cell: TypeAlias = tuple[str, str]
-
-_WORDS = {"good": "holds", "caution": "strained", "outside": "outside"}
 
 
 def report(
@@ -86,11 +86,11 @@ def _anchor(link: str) -> str:
 def _subtitle(computed: Computed, baseline: Computed | None, units: Units) -> str:
     speed, bearing = units.speed, computed.machine.bearing
     size = " × ".join(digits(float(units.length.of(x))) for x in (bearing.diameter, bearing.length))
-    rotor = _shown(computed.machine.rotor.mass, units.mass)
+    rotor = amount(units.mass, computed.machine.rotor.mass)
     beside = "" if baseline is None else " A is the pinned machine that it is compared with."
     return (
         f"A rotor of {rotor} on bearings of {size} {units.length.name}, at "
-        f"{_shown(computed.speed, speed)}; charts run to {_shown(computed.top_speed, speed)}."
+        f"{amount(speed, computed.speed)}; charts run to {amount(speed, computed.top_speed)}."
         f"{beside}"
     )
 
@@ -125,7 +125,7 @@ def _value(key: str, values: Values, units: Units) -> str:
     if value is None:
         return "half the weight"
     item = INPUTS[key]
-    return item.infinite if math.isinf(value) else _minus(f"{item.shown(value, units):.6g}")
+    return item.infinite if math.isinf(value) else minus(f"{item.shown(value, units):.6g}")
 
 
 def _results(computed: Computed, baseline: Computed | None, units: Units) -> str:
@@ -137,11 +137,11 @@ def _results(computed: Computed, baseline: Computed | None, units: Units) -> str
 
 def _result(key: str, computed: Computed, baseline: Computed | None, units: Units) -> str:
     result = RESULTS[key]
-    cells = [(result.label, ""), (_minus(result.shown(computed, units)), "n")]
+    cells = [(result.label, ""), (minus(result.shown(computed, units)), "n")]
     if baseline is not None:
         change = (result.change(computed, baseline) or "").removesuffix(" vs A")
-        cells.append((_minus(result.shown(baseline, units)), "n"))
-        cells.append(("" if change == "+0 %" else _minus(change), "n"))
+        cells.append((minus(result.shown(baseline, units)), "n"))
+        cells.append(("" if change == "+0 %" else minus(change), "n"))
     return _row([*cells, (result.number, "")])
 
 
@@ -157,7 +157,7 @@ def _matrices(computed: Computed, units: Units) -> str:
 def _matrix(name: str, matrix: Array, unit: Unit) -> str:
     shown = unit.of(matrix)
     rows = (
-        _row([(f"on {axis}", ""), *((_minus(digits(float(value))), "n") for value in row)])
+        _row([(f"on {axis}", ""), *((minus(digits(float(value))), "n") for value in row)])
         for axis, row in zip("XY", shown, strict=True)
     )
     head = _head(f"{name} [{unit.name}], force", ("by X", "n"), ("by Y", "n"))
@@ -190,14 +190,14 @@ def _mode(number: int, value: complex, speed: float, units: Units) -> str:
             f"{float(modes.damping_ratio(value)):.4f}",
             f"{float(modes.logarithmic_decrement(value)):.3f}",
         ]
-    return _row([(str(number), ""), *((_minus(text), "n") for text in texts)])
+    return _row([(str(number), ""), *((minus(text), "n") for text in texts)])
 
 
 def _validity(computed: Computed) -> str:
     rows = (
         _row([
             (check.name, ""), (digits(check.value), "n"), (digits(check.caution), "n"),
-            (digits(check.limit), "n"), (_WORDS[check.level], check.level),
+            (digits(check.limit), "n"), (validity_words.WORDS[check.level], check.level),
             ("" if check.level == "good" else f"{check.reason}.", ""),
         ])
         for check in validity(computed.point)
@@ -264,12 +264,3 @@ def _row(cells: Iterable[Cell], style: str = "", *, tag: str = "td") -> str:
 
 def _class(style: str) -> str:
     return f' class="{style}"' if style else ""
-
-
-def _shown(value: float, unit: Unit) -> str:
-    return f"{digits(float(unit.of(value)))} {unit.name}"
-
-
-def _minus(text: str) -> str:
-    """Return a number with a proper minus sign."""
-    return text.replace("-", "−") if any(c.isdigit() for c in text) else text

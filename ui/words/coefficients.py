@@ -7,7 +7,7 @@ from rotorcalc.analysis import Axes, ForceCoefficients
 from rotorcalc.coefficients import BULK_FLOW, LAMINAR
 from rotorcalc.units import Unit, Units
 from ui.computed import Computed
-from ui.results import digits, tex
+from ui.format import amount, digits, tex
 
 FRAMES: dict[Axes, str] = {"XY": "X, Y: along the load", "rt": "r, t: line of centres"}
 # From these shares of the rotor's mass on, the film's added mass is small, or worth counting.
@@ -103,7 +103,7 @@ def show_added_mass(computed: Computed, units: Units) -> None:
     share = float(laminar.to_rotor)
     st.latex(matrix("M", laminar.mass, units.mass))
     st.latex(r"M_{ij} = \alpha_m\frac{\rho R L^3}{12\,C}\,I_{ij}(\varepsilon)")
-    density = digits(float(units.density.of(computed.machine.oil.density)))
+    density = amount(units.density, computed.machine.oil.density)
     st.markdown(
         f"**{_percent(share)} of half the rotor's mass**: {_verdict(share)} With a flat profile of "
         f"velocity (bulk flow, α_m = 1) it is {_percent(float(bulk.to_rotor))}. At running speed "
@@ -112,7 +112,7 @@ def show_added_mass(computed: Computed, units: Units) -> None:
     )
     st.caption(
         "Assumes laminar flow, α_m = 6/5, temporal inertia only, the film over half the "
-        f"circumference, and the oil's density of {density} {units.density.name} (sidebar, Oil). "
+        f"circumference, and the oil's density of {density} (sidebar, Oil). "
         "Definition: Eq. 5.14. The rest of the program leaves added mass out, as the notes do."
     )
 

@@ -12,15 +12,15 @@ from rotorcalc import Bifurcation, BifurcationError, Machine, Onsets, TransientE
 from rotorcalc.arrays import Array
 from rotorcalc.figures import Units
 from rotorcalc.figures.orbits import GrowthCurve, RunUp
-from rotorcalc.figures.text import amount
 from rotorcalc.nonlinear.limit_cycles import sweep
 from rotorcalc.nonlinear.release import Release
 from ui.computed import Computed, computed_from
+from ui.format import amount, digits
 from ui.frame.page import Page
 from ui.inputs import INPUTS, PRESET_VALUES
 from ui.jobs import cache, queue, work
 from ui.jobs.work import Progress
-from ui.results import digits, leading
+from ui.results.stability import leading
 from ui.session import session
 
 T = TypeVar("T")
@@ -316,10 +316,10 @@ def say_cycles(branch: Bifurcation, units: Units) -> None:
     elif found.subcritical:
         where = ""
         if len(branch.folds):
-            fold = digits(float(units.speed.of(branch.folds.min())))
+            fold = amount(units.speed, branch.folds.min())
             share = digits((1.0 - branch.folds.min() / found.speed) * 100.0)
             where = (
-                f" From {fold} {units.speed.name}, {share} % below the onset, a large enough kick "
+                f" From {fold}, {share} % below the onset, a large enough kick "
                 "makes the machine whirl for good, and creeping down it whirls as far."
             )
         st.warning(f"Subcritical at {at}: {rate} ({error}).{where}")

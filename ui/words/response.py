@@ -9,7 +9,7 @@ from rotorcalc import Machine, Rotor
 from rotorcalc.unbalance_curves import damping_variants, journal_mass_variants
 from rotorcalc.units import Units
 from ui.computed import Computed
-from ui.results import digits
+from ui.format import digits
 
 SHOWN: dict[Literal["axes", "XY"], str] = {"axes": "Orbit's axes", "XY": "X and Y"}
 VARIED: dict[Literal["damping", "mass"], str] = {

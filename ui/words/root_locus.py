@@ -11,6 +11,7 @@ from rotorcalc.onset import Onset
 from rotorcalc.unbalance_response import orbit_ellipse
 from rotorcalc.units import Units
 from ui.computed import Computed
+from ui.format import minus
 
 ALTS = {
     "locus": "Eigenvalues in the complex plane as the speed rises: left of the imaginary axis a "
@@ -117,7 +118,7 @@ def table(here: ModeShapes, speed: float, units: Units) -> str:
 
 def _column(here: ModeShapes, i: int, speed: float, units: Units) -> tuple[str, ...]:
     value = complex(here.eigenvalues[i])
-    rate = f"{value.real:.4g}".replace("-", "−")
+    rate = minus(f"{value.real:.4g}")
     if value.imag <= 0.0:
         words = "does not oscillate" if value.imag == 0.0 else "mirror image of another mode"
         return f"{i + 1}", words, "", rate, "", "", "–", "–"
@@ -127,8 +128,8 @@ def _column(here: ModeShapes, i: int, speed: float, units: Units) -> tuple[str, 
         f"{float(units.speed.of(value.imag)):.0f}",
         f"{value.imag / speed:.3f}",
         rate,
-        f"{ratio:.4f}".replace("-", "−"),
-        f"{decrement:.3f}".replace("-", "−"),
+        minus(f"{ratio:.4f}"),
+        minus(f"{decrement:.3f}"),
         _direction(here.disk[i]),
         _direction(here.journal[i]),
     )

@@ -4,11 +4,11 @@ import streamlit as st
 
 from rotorcalc.validity import Check, validity
 from ui.computed import Computed
-from ui.results import digits
+from ui.format import digits
 
 _BADGES = {"good": "green", "caution": "orange", "outside": "red"}
 _FILM = ":small[Film: short, laminar, isoviscous, aligned, rigid walls. Orbits: small.]"
-_WORDS = {"good": "holds", "caution": "strained", "outside": "outside"}
+WORDS = {"good": "holds", "caution": "strained", "outside": "outside"}
 
 
 def draw(computed: Computed) -> None:
@@ -17,7 +17,7 @@ def draw(computed: Computed) -> None:
     worst = max(checks, key=lambda check: list(_BADGES).index(check.level))
     strained = [check for check in checks if check.level != "good"]
     headline = (
-        "The model holds" if not strained else f"The model is {_WORDS[worst.level]}: {worst.name}"
+        "The model holds" if not strained else f"The model is {WORDS[worst.level]}: {worst.name}"
     )
     with st.expander(headline, expanded=False, key="validity", icon=_icon(worst)):
         st.markdown("\n\n".join([*map(_line, checks), _FILM]))
@@ -29,7 +29,7 @@ def _icon(worst: Check) -> str:
 
 
 def _line(check: Check) -> str:
-    badge = f":{_BADGES[check.level]}-badge[{_WORDS[check.level]}]"
+    badge = f":{_BADGES[check.level]}-badge[{WORDS[check.level]}]"
     limits = f"limits {digits(check.caution)} and {digits(check.limit)}"
     text = f"{badge} {check.name}: **{digits(check.value)}** ({limits})"
     return text if check.level == "good" else f"{text}: {check.reason}."

@@ -6,7 +6,7 @@ from typing import Literal
 
 from rotorcalc.units import Units
 from ui.computed import Computed
-from ui.results import digits
+from ui.format import amount, digits
 
 
 @dataclass(frozen=True)
@@ -19,7 +19,7 @@ class Verdict:
 
 def verdict(computed: Computed, units: Units) -> Verdict:
     """Return the verdict on a machine at its running speed."""
-    running = _speed(computed.speed, units)
+    running = amount(units.speed, computed.speed)
     if computed.is_stable:
         return Verdict("stable", f"Stable at {running}: {_outlook(computed, units)}")
     if computed.unloaded:
@@ -37,10 +37,10 @@ def _outlook(computed: Computed, units: Units) -> str:
         return "no speed makes this machine whirl."
     if onset.speed > computed.speed:
         margin = (onset.speed / computed.speed - 1.0) * 100.0
-        where = f"{_speed(onset.speed, units)}, {digits(margin)} % above"
+        where = f"{amount(units.speed, onset.speed)}, {digits(margin)} % above"
         return f"it goes unstable at {where}, {_whirl(computed, units)}."
     return (
-        f"it is past its range of whirl, which begins at {_speed(onset.speed, units)}, "
+        f"it is past its range of whirl, which begins at {amount(units.speed, onset.speed)}, "
         f"{_whirl(computed, units)}."
     )
 
@@ -48,19 +48,15 @@ def _outlook(computed: Computed, units: Units) -> str:
 def _past(computed: Computed, units: Units) -> str:
     onset = computed.onset
     excess = (1.0 - onset.speed / computed.speed) * 100.0
-    where = f"{_speed(onset.speed, units)}, {digits(excess)} % below"
+    where = f"{amount(units.speed, onset.speed)}, {digits(excess)} % below"
     return f"it went unstable at {where}, {_whirl(computed, units)}."
 
 
 def _whirl(computed: Computed, units: Units) -> str:
     onset = computed.onset
-    frequency = digits(float(units.frequency.of(onset.whirl_frequency)))
+    frequency = amount(units.frequency, onset.whirl_frequency)
     ratio = onset.whirl_frequency / onset.speed if onset.speed > 0.0 else math.nan
     return (
-        f"and then whirls at {_speed(onset.whirl_frequency, units)} "
-        f"({frequency} {units.frequency.name}), {ratio:.3f} of that speed"
+        f"and then whirls at {amount(units.speed, onset.whirl_frequency)} "
+        f"({frequency}), {ratio:.3f} of that speed"
     )
-
-
-def _speed(speed: float, units: Units) -> str:
-    return f"{digits(float(units.speed.of(speed)))} {units.speed.name}"

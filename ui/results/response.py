@@ -1,0 +1,52 @@
+"""Results of the imbalance response: the orbits at the running speed, and where they peak."""
+
+import math
+
+import numpy as np
+
+from rotorcalc.unbalance_peaks import ResponsePeaks
+from rotorcalc.unbalance_response import orbit_ellipse
+from ui.format import tex
+from ui.results.record import Result
+
+
+def _highest(peaks: ResponsePeaks) -> float:
+    """Return the speed of the highest peak [rad/s], not a number where there is none."""
+    return float(peaks.speed[np.argmax(peaks.amplitude)]) if len(peaks.speed) else math.nan
+
+
+def _orbit(response: np.ndarray) -> tuple[complex, complex, float]:
+    orbit = orbit_ellipse(response)
+    return complex(orbit.forward), complex(orbit.backward), float(orbit.semi_major)
+
+
+def _circles(response: np.ndarray) -> str:
+    forward, backward, size = _orbit(response)
+    return f"{tex(abs(forward))} + {tex(abs(backward))} = {tex(size, 'm')}"
+
+
+RESPONSE: tuple[Result, ...] = (
+    Result(
+        "disk_amplitude", "Disk orbit", "film",
+        lambda c: _orbit(c.point.disk_response)[2], "Eq. 5.38", r"a = |f| + |b|",
+        lambda c: _circles(c.point.disk_response),
+        "Semi-major axis; f and b are the orbit's forward and backward circles, (X ± jY)/2.",
+    ),
+    Result(
+        "journal_amplitude", "Journal orbit", "film",
+        lambda c: _orbit(c.point.journal_response)[2], "Eq. 5.38", r"a = |f| + |b|",
+        lambda c: _circles(c.point.journal_response),
+        "Semi-major axis; f and b are the orbit's forward and backward circles, (X ± jY)/2.",
+    ),
+    Result(
+        "disk_peak", "Disk peaks at", "speed", lambda c: _highest(c.disk_peaks),
+        "Eq. 5.38", r"\frac{da}{d\Omega} = 0", lambda c: tex(_highest(c.disk_peaks), "rad/s"),
+        "Up to the top speed.",
+    ),
+    Result(
+        "journal_peak", "Journal peaks at", "speed",
+        lambda c: _highest(c.journal_peaks), "Eq. 5.38", r"\frac{da}{d\Omega} = 0",
+        lambda c: tex(_highest(c.journal_peaks), "rad/s"),
+        "Its highest peak up to the top speed.",
+    ),
+)  # fmt: skip

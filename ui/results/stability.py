@@ -1,0 +1,156 @@
+"""Results of stability: equivalent stiffness, thresholds, the onset, the least damped mode."""
+
+import math
+
+import numpy as np
+
+from rotorcalc import analyse, modes
+from rotorcalc.onset import closed_form
+from ui.computed import Computed
+from ui.format import tex
+from ui.results.record import Result
+
+
+def leading(computed: Computed) -> complex:
+    """Return the eigenvalue of the oscillating mode nearest to growth at running speed [1/s]."""
+    values = computed.point.flexible_eigenvalues
+    waves = values[values.imag > 0.0]
+    return complex(waves[np.argmax(waves.real)]) if len(waves) else complex(math.nan)
+
+
+def _stiffness(computed: Computed) -> str:
+    p = computed.point
+    return (
+        rf"{tex(float(p.equivalent_stiffness), 'N/m')}\quad\text{{of}}\quad "
+        rf"K={_matrix(p.stiffness)},\ C={_matrix(p.damping)}"
+    )
+
+
+def _matrix(matrix: np.ndarray) -> str:
+    rows = (" & ".join(tex(float(value)) for value in row) for row in matrix)
+    return r"\begin{bmatrix}" + r" \\ ".join(rows) + r"\end{bmatrix}"
+
+
+def _ratio(computed: Computed) -> str:
+    p = computed.point
+    ratio = tex(float(p.whirl_ratio))
+    return rf"{ratio}\quad\text{{with}}\quad K_{{eq}} = {tex(float(p.equivalent_stiffness), 'N/m')}"
+
+
+def _critical_mass(computed: Computed) -> str:
+    p = computed.point
+    if not math.isfinite(float(p.critical_mass)):
+        return r"\infty\ \text{(no whirl at this eccentricity)}"
+    product = rf"({tex(float(p.whirl_ratio))}\cdot {tex(computed.speed)})^2"
+    top = tex(float(p.equivalent_stiffness))
+    return rf"\frac{{{top}}}{{{product}}} = {tex(float(p.critical_mass), 'kg')}"
+
+
+def _threshold(computed: Computed) -> str:
+    K_eq, ratio = float(computed.point.equivalent_stiffness), float(computed.point.whirl_ratio)
+    M, omega = computed.machine.rotor.half_mass, float(computed.point.rigid_threshold)
+    if ratio == 0.0:
+        return r"\infty\ \text{(no whirl at this eccentricity)}"
+    root = rf"\sqrt{{\frac{{{tex(K_eq)}}}{{{tex(M)}}}}}"
+    return rf"\frac{{1}}{{{tex(ratio)}}}{root} = {tex(omega, 'rad/s')}"
+
+
+def _flexible(computed: Computed) -> str:
+    p, k = computed.point, computed.machine.rotor.shaft_stiffness
+    series = rf"1+{tex(float(p.equivalent_stiffness))}/{tex(k)}"
+    top = tex(float(p.rigid_threshold))
+    return rf"\frac{{{top}}}{{\sqrt{{{series}}}}} = {tex(float(p.flexible_threshold), 'rad/s')}"
+
+
+def _margin(computed: Computed) -> float:
+    return computed.onset.speed / computed.speed - 1.0
+
+
+def _onset(computed: Computed, flexible: bool) -> str:
+    """Return Eq. 5.50 with the numbers at the onset, or what holds there where it does not."""
+    onset = computed.onset if flexible else computed.rigid_onset
+    speed = tex(onset.speed, "rad/s")
+    if not math.isfinite(onset.speed) or not closed_form.has_closed_form(computed.machine):
+        return speed
+    there = analyse(computed.machine, onset.speed)
+    K_eq, ratio = tex(float(there.equivalent_stiffness)), tex(float(there.whirl_ratio))
+    M, K_rot = tex(computed.machine.rotor.half_mass), tex(computed.machine.rotor.shaft_stiffness)
+    root = rf"\frac{{1}}{{{ratio}}}\sqrt{{\frac{{{K_eq}}}{{{M}}}}}"
+    series = rf"\frac{{1}}{{\sqrt{{1+{K_eq}/{K_rot}}}}}\," if flexible else ""
+    return rf"{series}{root} = {speed}"
+
+
+_ONSET_REMARK = (
+    "With the equilibrium at that very speed. With midspan damping or journal mass, for which the "
+    "equation does not hold, it is found on the machine's eigenvalues: max Re λ = 0."
+)
+
+STABILITY: tuple[Result, ...] = (
+    Result(
+        "equivalent_stiffness", "Equivalent stiffness", "stiffness",
+        lambda c: float(c.point.equivalent_stiffness), "Eq. 5.45",
+        r"K_{eq} = \frac{K_{XX}C_{YY}+K_{YY}C_{XX}-C_{YX}K_{XY}-C_{XY}K_{YX}}{C_{XX}+C_{YY}}",
+        _stiffness,
+    ),
+    Result(
+        "whirl_ratio", "Whirl ratio ω̄", "number", lambda c: float(c.point.whirl_ratio),
+        "Eq. 5.46", r"\bar\omega^2 = \frac{(K_{eq}-K_{XX})(K_{eq}-K_{YY})-K_{XY}K_{YX}}"
+        r"{\Omega^2(C_{XX}C_{YY}-C_{XY}C_{YX})}", _ratio,
+        "At this speed's equilibrium; 0 where the film cannot whirl.",
+    ),
+    Result(
+        "critical_mass", "Critical mass per bearing", "mass",
+        lambda c: float(c.point.critical_mass), "Eq. 5.45",
+        r"M_c = \frac{K_{eq}}{(\bar\omega\,\Omega)^2}", _critical_mass,
+        "With more mass per bearing a rigid rotor is unstable at this speed.",
+    ),
+    Result(
+        "rigid_threshold", "Threshold, rigid shaft", "speed",
+        lambda c: float(c.point.rigid_threshold), "Eq. 5.47",
+        r"\Omega_s = \frac{1}{\bar\omega}\sqrt{\frac{K_{eq}}{M}}", _threshold,
+        "At this speed's equilibrium.",
+    ),
+    Result(
+        "flexible_threshold", "Threshold, flexible shaft", "speed",
+        lambda c: float(c.point.flexible_threshold), "Eq. 5.50",
+        r"\Omega_{sf} = \frac{\Omega_s}{\sqrt{1+K_{eq}/K_{rot}}}", _flexible,
+        "At this speed's equilibrium; without midspan damping and journal mass.",
+    ),
+    Result(
+        "onset_speed", "Onset of whirl Ωₛ", "speed", lambda c: c.onset.speed, "Eq. 5.50",
+        r"\Omega = \Omega_{sf}(\varepsilon(\Omega)) \;\Leftrightarrow\; "
+        r"\max\mathrm{Re}\,\lambda = 0",
+        lambda c: _onset(c, flexible=True), _ONSET_REMARK, nought="any speed",
+    ),
+    Result(
+        "rigid_onset", "Onset if the shaft were rigid", "speed", lambda c: c.rigid_onset.speed,
+        "Eq. 5.47", r"\Omega = \Omega_s(\varepsilon(\Omega)) \;\Leftrightarrow\; "
+        r"\max\mathrm{Re}\,\lambda = 0",
+        lambda c: _onset(c, flexible=False), _ONSET_REMARK, nought="any speed",
+    ),
+    Result(
+        "whirl_frequency", "Whirl frequency", "speed",
+        lambda c: c.onset.whirl_frequency, "Eq. 5.47", r"\omega_s = |\mathrm{Im}\,\lambda|",
+        lambda c: tex(c.onset.whirl_frequency, "rad/s"), "At the onset. " + _ONSET_REMARK,
+        nought="half of any",
+    ),
+    Result(
+        "margin", "Margin to onset", "percent", _margin, "Ωₛ/Ω − 1",
+        r"\frac{\Omega_s}{\Omega}-1",
+        lambda c: rf"\frac{{{tex(c.onset.speed)}}}{{{tex(c.speed)}}}-1 = {tex(_margin(c))}",
+    ),
+    Result(
+        "damping_ratio", "Damping ratio ζ", "number",
+        lambda c: float(modes.damping_ratio(leading(c))), "Re λ, Im λ",
+        r"\zeta = -\frac{\mathrm{Re}\,\lambda}{|\lambda|}",
+        lambda c: rf"{tex(float(modes.damping_ratio(leading(c))))},\quad \lambda = "
+        rf"{tex(leading(c).real)} \pm {tex(abs(leading(c).imag))}\,j",
+        "Of the oscillating mode that decays slowest, or grows fastest, at the running speed.",
+    ),
+    Result(
+        "natural_frequency", "Mode's frequency", "speed",
+        lambda c: abs(leading(c).imag), "Im λ", r"\omega_d = |\mathrm{Im}\,\lambda|",
+        lambda c: tex(abs(leading(c).imag), "rad/s"),
+        "Frequency of the oscillating mode that decays slowest at the running speed.",
+    ),
+)  # fmt: skip

@@ -1,0 +1,10 @@
+"""All results, by their keys, in the order of the report."""
+
+from ui.results.equilibrium import EQUILIBRIUM
+from ui.results.record import Result
+from ui.results.response import RESPONSE
+from ui.results.stability import STABILITY
+
+RESULTS: dict[str, Result] = {
+    result.key: result for result in (*EQUILIBRIUM, *STABILITY, *RESPONSE)
+}

@@ -1,0 +1,146 @@
+"""What moves an onset: the inputs to choose from, the map, the sensitivities, the solved values.
+
+Inputs go here by their keys in `ui.inputs`; the core names them by the fields of its records.
+"""
+
+import math
+
+import streamlit as st
+
+from rotorcalc import Machine, design, variation
+from rotorcalc.figures.design import Quantity
+from rotorcalc.units import SI, Units
+from ui.computed import Computed
+from ui.format import amount, digits
+from ui.inputs import INPUTS
+from ui.jobs import cache, work
+
+# The core's names for the inputs that move an onset.
+FIELDS = {
+    "mass": "rotor.mass", "load": "load", "T": "temperature", "mu": "oil.reference_viscosity",
+    "alpha": "oil.temperature_coefficient", "C": "bearing.radial_clearance",
+    "D": "bearing.diameter", "L": "bearing.length", "k": "rotor.shaft_stiffness",
+    "cs": "rotor.disk_damping", "mj": "rotor.journal_mass",
+}  # fmt: skip
+_KEYS = {name: key for key, name in FIELDS.items()}
+# Whose effect goes by ratios: drawn and searched over a logarithmic axis.
+_BY_RATIO = {"mass", "load", "mu", "C", "D", "L", "k"}
+_SMALLEST_LOAD = 10.0  # N, the end of a logarithmic axis
+# Cells a side of a map: where the onset has a closed form, and where it has none.
+_FINE, _COARSE = 60, 11
+_onset_map = cache.Cached(work.onset_map, entries=32, megabytes=8)
+_sensitivities = cache.Cached(design.sensitivities, entries=64, megabytes=4)
+_solution = cache.Cached(work.solution, entries=64, megabytes=4)
+TORNADO = (
+    "One input 10 % less or more, all others kept; a temperature, whose zero means nothing, moves "
+    "by the degrees shown. Beside each input: the onset's movement for less / more. Rotor mass "
+    "takes the load with it where that is half the weight. Inputs at zero or infinite are left out."
+)
+
+
+def quantity(key: str, machine: Machine, units: Units) -> Quantity:
+    """Return an input as an axis over its slider's range, as far as that makes machines."""
+    item, in_si = INPUTS[key], INPUTS[key].unit(SI)
+    low, high = in_si.to_si(item.low), in_si.to_si(item.high)
+    if key == "load":
+        low = _SMALLEST_LOAD
+    if key == "mj":
+        high = min(high, 0.95 * machine.rotor.half_mass)
+    if key == "mass":
+        low = max(low, 2.1 * machine.rotor.journal_mass)
+    return Quantity(item.label, item.symbol, item.unit(units), low, high, log=key in _BY_RATIO)
+
+
+def choose_input(label: str, default: str, key: str, without: str = "") -> str:
+    """Show a choice among the inputs that move the onset; return the chosen one's key."""
+    options = [name for name in FIELDS if name != without]
+    chosen = st.selectbox(
+        label,
+        options,
+        index=options.index(default if default in options else options[0]),
+        format_func=lambda name: f"{INPUTS[name].label} {INPUTS[name].symbol}",
+        key=key,
+        persist_state="session",
+    )
+    return chosen or default
+
+
+def choose_target(computed: Computed, units: Units) -> float:
+    """Show a field for the onset wanted; return it [rad/s]."""
+    key = "stability_target"
+    if not st.session_state.get("stability_target_typed"):
+        st.session_state[key] = float(round(1.2 * float(units.speed.of(computed.speed)), -1))
+    rpm = st.number_input(
+        f"Onset wanted [{units.speed.name}]",
+        min_value=10.0,
+        max_value=1e6,
+        step=100.0,
+        format="%.0f",
+        key=key,
+        persist_state="session",
+        on_change=lambda: st.session_state.update(stability_target_typed=True),
+        help="Until you type one, 1.2 times the running speed.",
+    )
+    return units.speed.to_si(rpm)
+
+
+def value(computed: Computed, key: str) -> float:
+    """Return a machine's value of an input in SI."""
+    return variation.value_of(computed.machine, FIELDS[key])
+
+
+def names(units: Units) -> dict[str, str]:
+    """Return the words for the core's inputs, as the tornado lists them."""
+    step = f"{design.TEMPERATURE_STEP * units.temperature.per_si:g} {units.temperature.name}"
+    return {name: f"{INPUTS[key].label} {INPUTS[key].symbol}" for name, key in _KEYS.items()} | {
+        "temperature": f"{INPUTS['T'].label} {INPUTS['T'].symbol} ±{step}"
+    }
+
+
+def onset_map(computed: Computed, x: str, y: str, units: Units) -> design.OnsetMap:
+    """Return the onset over two inputs, with its progress shown where each cell takes long."""
+    machine = computed.machine
+    axes = [(FIELDS[key], q.low, q.high, q.log)
+            for key in (x, y) for q in [quantity(key, machine, units)]]  # fmt: skip
+    if computed.onset.method == "closed form" and "cs" not in {x, y}:
+        return _onset_map(machine, *axes, _FINE)
+    bar = st.progress(0.0, "The onset at every point of the map …")
+    found = _onset_map(machine, *axes, _COARSE, tell=bar.progress)
+    bar.empty()
+    return found
+
+
+def sensitivities(computed: Computed) -> design.Sensitivities:
+    """Return how far the onset moves with each input."""
+    return _sensitivities(computed.machine)
+
+
+def solution(computed: Computed, key: str, target: float, units: Units) -> design.OnsetSolution:
+    """Return the values of an input that put the onset at a speed."""
+    axis = quantity(key, computed.machine, units)
+    return _solution(computed.machine, FIELDS[key], target, axis.low, axis.high)
+
+
+def answer(found: design.OnsetSolution, axis: Quantity, now: float, units: Units) -> str:
+    """Return in words which values meet the target, or that none does and what can be reached."""
+    speed = amount(units.speed, found.target)
+    if len(found.solutions):
+        values = " or ".join(f"**{axis.text(value)}**" for value in found.solutions)
+        return f"{axis.words} {values} puts the onset at {speed}; now it is {_now(axis, now)}."
+    low, high = (float(units.speed.of(end)) for end in found.reachable)
+    ends = f"{axis.text(axis.low)} and {axis.text(axis.high)}"
+    if low == high:
+        return f"{axis.words} does not move the onset of this machine."
+    reached = f"{digits(low)} and {_speed_word(high)} {units.speed.name}"
+    return (
+        f"No value of the {axis.words.lower()} between {ends} puts the onset at {speed}: it stays "
+        f"between {reached}."
+    )
+
+
+def _now(axis: Quantity, value: float) -> str:
+    return "infinite" if math.isinf(value) else axis.text(value)
+
+
+def _speed_word(rpm: float) -> str:
+    return "infinity," if math.isinf(rpm) else digits(rpm)
