@@ -21,6 +21,9 @@ from rotorcalc.machine import JournalBearing, Machine
 from rotorcalc.onset.whirl import WhirlOnset, flexible_threshold, whirl_onset
 from rotorcalc.unbalance_response import synchronous_response
 
+# The film of a σ at which what the load changes of it is below rounding.
+_LIGHTEST = 1e10
+
 Axes: TypeAlias = Literal["XY", "rt"]
 
 
@@ -186,7 +189,8 @@ def film_curves(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmCurves:
     bearing : JournalBearing
         The bearing.
     sommerfeld : array_like, (...)
-        σ [-], positive and finite.
+        σ [-], positive; infinite without load, where the threshold is the limit for a vanishing
+        one: for a circular bore k_eq = 6/π, whirl ratio ½ and p_s² = 24/π.
 
     Returns
     -------
@@ -199,7 +203,11 @@ def film_curves(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmCurves:
         Where σ is not positive.
     """
     film = film_state(bearing, sommerfeld)
-    return FilmCurves(film=film, onset=whirl_onset(film.k, film.c))
+    loaded = film
+    if np.any(np.isinf(film.sommerfeld)):
+        # In units of the load nothing is finite without it: the limit is that of a light load.
+        loaded = film_state(bearing, np.minimum(film.sommerfeld, _LIGHTEST))
+    return FilmCurves(film=film, onset=whirl_onset(loaded.k, loaded.c))
 
 
 @dataclass(frozen=True, eq=False)

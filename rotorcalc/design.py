@@ -107,10 +107,14 @@ class Sensitivities:
         Onset speed of the machine as it is, Ω_s [rad/s].
     inputs : tuple of Sensitivity
         The input that moves the onset most comes first.
+    left_out : tuple of str
+        Inputs that could not be moved: at zero or infinite they have no share of their value, or
+        one of the values moved to makes no machine.
     """
 
     onset: float
     inputs: tuple[Sensitivity, ...]
+    left_out: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -207,7 +211,8 @@ def sensitivities(
         By how much of its value each input is moved, down and up [-]. A temperature in °C has no
         natural zero and is moved by `TEMPERATURE_STEP` instead.
     inputs : iterable of str
-        The inputs. One at zero or infinite has no share of its value and is left out.
+        The inputs. One at zero or infinite has no share of its value and is left out; so is one
+        whose value up or down makes no machine, such as a journal's mass near half the rotor's.
 
     Returns
     -------
@@ -221,11 +226,15 @@ def sensitivities(
         Where there is no such input.
     """
     moved = [_moved(machine, field, share) for field in inputs]
-    steps = [step for step in moved if step[1] < step[2] < np.inf]
-    machines = [
-        varied(machine, {field: value}) for field, low, high in steps for value in (low, high)
+    pairs = [
+        (step, [_machine_or_none(machine, {step[0]: value}) for value in step[1:]])
+        for step in moved
+        if step[1] < step[2] < np.inf
     ]
+    steps = [step for step, pair in pairs if None not in pair]
+    machines = [one for _, pair in pairs if None not in pair for one in pair if one is not None]
     onset, *onsets = onset_speeds([machine, *machines])
+    known = {step[0] for step in steps}
     found = [
         Sensitivity(field, low, high, float(onset_low), float(onset_high))
         for (field, low, high), onset_low, onset_high in zip(
@@ -235,6 +244,7 @@ def sensitivities(
     return Sensitivities(
         onset=float(onset),
         inputs=tuple(sorted(found, key=lambda one: _movement(one, float(onset)), reverse=True)),
+        left_out=tuple(step[0] for step in moved if step[0] not in known),
     )
 
 
@@ -271,8 +281,11 @@ def solve_onset(
     """
     if not 0.0 < target < np.inf:
         raise ValueError(f"target = {target} rad/s: must be positive and finite")
-    if not low < high:
-        raise ValueError(f"high = {high}: must be greater than low, {low}")
+    if not -np.inf < low < high < np.inf:
+        raise ValueError(
+            f"low = {low}, high = {high}: must both be finite, and high the greater; a range to "
+            "infinity cannot be searched"
+        )
 
     def onset(value: float) -> float:
         return float(onset_speeds([varied(machine, {vary: value})])[0])

@@ -206,3 +206,22 @@ def test_radial_coefficients_of_a_film_are_those_of_equation_5_34():
     eps, unit = float(curves.film.eccentricity_ratio), 4 * 0.4
     assert turning.stiffness == pytest.approx(unit * short.radial_stiffness(eps), rel=1e-12)
     assert turning.damping == pytest.approx(unit * short.radial_damping(eps), rel=1e-12)
+
+
+@pytest.mark.parametrize("sommerfeld", [math.inf, [1.0, math.inf], [[math.inf], [math.inf]]])
+def test_without_load_the_threshold_is_its_limit(sommerfeld):
+    """ε → 0: k_eq → 6/π, whirl ratio → ½, p_s² → 24/π, with no warning of a division."""
+    onset = film_curves(SHEET.bearing, sommerfeld).onset
+    unloaded = np.isinf(sommerfeld)
+    assert onset.equivalent_stiffness[unloaded] == pytest.approx(6 / math.pi, rel=1e-9)
+    assert onset.whirl_ratio[unloaded] == pytest.approx(0.5, rel=1e-9)
+    assert onset.critical_mass[unloaded] == pytest.approx(24 / math.pi, rel=1e-9)
+    assert onset.threshold_speed[unloaded] == pytest.approx(math.sqrt(24 / math.pi), rel=1e-9)
+
+
+def test_in_units_of_the_load_the_centred_film_has_the_same_threshold():
+    onset = whirl_onset(short.stiffness([0.0, 0.5]), short.damping([0.0, 0.5]))
+    assert onset.equivalent_stiffness[0] == pytest.approx(6 / math.pi)
+    assert onset.critical_mass[0] == pytest.approx(24 / math.pi)
+    assert onset.whirl_ratio[0] == 0.5
+    assert onset.whirl_ratio[1] == whirl_onset(short.stiffness(0.5), short.damping(0.5)).whirl_ratio

@@ -261,6 +261,16 @@ def test_inputs_without_a_share_of_their_value_are_left_out() -> None:
     assert "rotor.mass" in fields
 
 
+@pytest.mark.parametrize("share", [0.91, 0.95, 0.999])
+def test_inputs_that_make_no_machine_when_moved_are_left_out(share: float) -> None:
+    """A tenth more of the journals' mass, or less of the rotor's, leaves no disk."""
+    heavy = replace(SHEET.rotor, journal_mass=share * SHEET.rotor.half_mass)
+    found = design.sensitivities(replace(SHEET, rotor=heavy))
+    assert {"rotor.journal_mass", "rotor.mass", "rotor.disk_damping"} == set(found.left_out)
+    moved = {one.field for one in found.inputs}
+    assert moved | set(found.left_out) == set(design.INPUTS)
+
+
 def test_the_small_clearance_and_the_large_load_raise_the_onset() -> None:
     """Ω_s ∝ √(F_o/MC) at a fixed film: half a tenth of a rigid rotor's onset."""
     rigid = variation.varied(PRESETS["fig-5-2"].machine, {"length": 0.15})  # nearly centred
@@ -371,6 +381,9 @@ def test_an_onset_at_infinity_is_bracketed_too(monkeypatch: pytest.MonkeyPatch) 
         ({"target": math.nan}, "target"),
         ({"target": math.inf}, "target"),
         ({"low": 2e-4, "high": 1e-4}, "high"),
+        ({"vary": "shaft_stiffness", "low": 1e6, "high": math.inf}, "must both be finite"),
+        ({"high": math.nan}, "must both be finite"),
+        ({"low": -math.inf}, "must both be finite"),
         ({"low": -1e-4}, "radial_clearance"),
         ({"vary": "clearance"}, "no input"),
     ],

@@ -110,7 +110,10 @@ def _in_floats(
     def polynomials(speed: Array | float) -> Array:
         return polynomial(machine, speed, flexible)
 
-    if stable == 0.0 or not routh.surely_crossed(polynomials(unstable)):
+    if stable == 0.0:
+        return None
+    decays, grows = polynomials(np.array([stable, unstable]))
+    if routh.determinant(decays) <= 0.0 or not routh.surely_crossed(grows):
         return None
     low, high = sorted((stable, unstable))
     root = narrow_root(lambda speed: routh.determinant(polynomials(speed)), low, high)
