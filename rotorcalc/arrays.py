@@ -41,14 +41,6 @@ def _numbers(name: str, values: ArrayLike, kinds: str, ends: tuple[int, ...]) ->
     return array
 
 
-def real_number(name: str, value: ArrayLike) -> float:
-    """Return `value` as a float, or raise ValueError naming what it is instead of one number."""
-    array = real_array(name, value)
-    if array.ndim > 0:
-        raise ValueError(f"{name} = {shown(value)}: must be one number, not an array")
-    return float(array)
-
-
 def shown(value: object) -> str:
     """Return a value as an error shows it: short, and whatever it is."""
     try:

@@ -138,6 +138,7 @@ def _states(machine: Machine, motion: Transient) -> Start:
         disk=motion.disk,
         journal_velocity=motion.disk_velocity if massless else motion.journal_velocity,
         disk_velocity=motion.disk_velocity,
+        inner=motion.inner,
     )
 
 

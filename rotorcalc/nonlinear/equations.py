@@ -20,9 +20,10 @@ from numpy.typing import ArrayLike
 from scipy.integrate import ODEintWarning, odeint
 
 from rotorcalc.arguments import checked
-from rotorcalc.arrays import Array
+from rotorcalc.arrays import Array, real_array, shown
+from rotorcalc.coefficients import operating_points
 from rotorcalc.display import Result
-from rotorcalc.films import FilmUnits, journal_motion
+from rotorcalc.films import FilmUnits, InnerMotion, film_of
 from rotorcalc.machine import Machine
 
 # The rates of a state at an angle of rotation.
@@ -38,19 +39,54 @@ _LONGEST_STEP = 0.25
 
 @dataclass(frozen=True, eq=False)
 class Start(Result):
-    """A state to start from, each of shape (2,), in X, Y from the bearing's centre [m], [m/s]."""
+    """A state to start from, each of shape (2,), in X, Y from the bearing's centre [m], [m/s].
+
+    `inner` holds the film's own states (states,): the places of its inner coordinates [m], then the
+    velocities of those with a mass [m/s]; None where it has none, or where they rest.
+    """
 
     journal: Array
     disk: Array
     journal_velocity: Array
     disk_velocity: Array
+    inner: Array | None = None
+
+
+class _Inner:
+    """A film with inner coordinates in the place of one without, whose states it keeps aside.
+
+    Between setting `states` and `speed` and reading `rates` its force or velocity is asked once.
+    """
+
+    def __init__(self, film: InnerMotion, places: int, viscosity: float) -> None:
+        self.film, self.places, self.viscosity = film, places, viscosity
+        self.states: list[float] = []
+        self.rates: list[float] = []
+        self.speed = math.nan
+
+    def force(self, x: float, y: float, dx: float, dy: float) -> tuple[float, float]:
+        """Return the force on the journal, as `FilmMotion.force`."""
+        f_x, f_y, self.rates = self.film.force(
+            (x, y, dx, dy), self.states, self.viscosity, self.speed
+        )
+        return f_x, f_y
+
+    def velocity(
+        self, x: float, y: float, f_x: float, f_y: float, _near: list[float] | None = None
+    ) -> tuple[float, float]:
+        """Return the journal's velocity, as `FilmMotion.velocity`."""
+        dx, dy, self.rates = self.film.velocity(
+            (x, y, f_x, f_y), self.states, self.viscosity, self.speed
+        )
+        return dx, dy
 
 
 class Equations:
     """The equations of motion over the angle of rotation θ, in clearances.
 
     dq/dθ = (dq/dt)/Ω. The state holds disk position and velocity, then the journal's position where
-    the shaft bends, then its velocity where it has mass; velocities are by time, in CΩ_0.
+    the shaft bends, then its velocity where it has mass, then the film's inner states; velocities
+    are by time, in CΩ_0.
     """
 
     def __init__(self, machine: Machine, first: float, last: float, *, turned: float) -> None:
@@ -70,7 +106,11 @@ class Equations:
         self.load = machine.static_load / (self.mass * unit)
         self.imbalance = rotor.disk_mass * rotor.imbalance / (self.mass * C)
         self.journal_ratio = self.mass / rotor.journal_mass if rotor.journal_mass > 0.0 else 0.0
-        film = journal_motion(bearing)
+        model = film_of(bearing)
+        film = model.motion()
+        self.inner: _Inner | None = None
+        if isinstance(film, InnerMotion):
+            film = self.inner = _Inner(film, model.inner, machine.viscosity)
         self.force, self.velocity = film.force, film.velocity
 
     def speed(self, angle: ArrayLike) -> Array:
@@ -89,13 +129,61 @@ class Equations:
             parts.append(start.journal / C)
         if self.flexible and not self.massless:
             parts.append(start.journal_velocity / unit)
+        if self.inner is not None:
+            parts.append(self._inner_start(self.inner, start))
         return np.concatenate(parts, axis=-1)
+
+    def _inner_start(self, inner: _Inner, start: Start) -> Array:
+        """Return the film's own states at a start; where that tells none they rest."""
+        if start.inner is None:
+            return inner.film.rest(operating_points(self.machine, self.first))
+        found = real_array("start.inner", start.inner)
+        if found.shape[-1:] != (inner.film.states,) or not np.all(np.isfinite(found)):
+            raise ValueError(
+                f"start.inner = {shown(start.inner)}: must be {inner.film.states} numbers, the "
+                "film's own states, or None"
+            )
+        return found / self._inner_units(inner)
+
+    def _inner_units(self, inner: _Inner) -> Array:
+        """Return the units of the film's own states, C and CΩ_0."""
+        is_place = np.arange(inner.film.states) < inner.places
+        return self.C * np.where(is_place, 1.0, self.first)
 
     def motion(self) -> Motion:
         """Return the function of state and angle that LSODA integrates."""
         if not self.flexible:
-            return self._rigid()
-        return self._massless() if self.massless else self._with_journal_mass()
+            plain = self._rigid()
+        else:
+            plain = self._massless() if self.massless else self._with_journal_mass()
+        return plain if self.inner is None else self._with_inner(plain, self.inner)
+
+    def _with_inner(self, plain: Motion, inner: _Inner) -> Motion:
+        """Return the motion of rotor and inner coordinates from that of the rotor alone.
+
+        The film takes velocities in CΩ of the moment, and gives rates by the angle.
+        """
+        first, drive, own, places = self.first, self._drive(), self.own_states, inner.places
+
+        def motion(state: Array, angle: float) -> list[float]:
+            _, _, nu = drive(angle)
+            inner.speed, states = first * nu, state[own:].tolist()
+            inner.states = states[:places] + [velocity / nu for velocity in states[places:]]
+            rates = plain(state[:own], angle)
+            return [*rates, *inner.rates[:places], *(rate * nu for rate in inner.rates[places:])]
+
+        return motion
+
+    @property
+    def own_states(self) -> int:
+        """Number of the rotor's states, before the film's."""
+        return 4 if not self.flexible else 6 if self.massless else 8
+
+    def inner_states(self, states: Array) -> Array | None:
+        """Return the film's own states [m], [m/s] of states, or None where it has none."""
+        if self.inner is None:
+            return None
+        return states[..., self.own_states :] * self._inner_units(self.inner)
 
     def _drive(self) -> Callable[[float], tuple[float, float, float]]:
         """Return imbalance force and speed ratio ν = Ω/Ω_0 over the angle."""

@@ -19,7 +19,7 @@ from rotorcalc.arrays import Array
 from rotorcalc.coefficients import Equilibrium, equilibrium
 from rotorcalc.display import Result
 from rotorcalc.films import film_of
-from rotorcalc.machine import Machine
+from rotorcalc.machine import JournalBearing, Machine
 from rotorcalc.nonlinear.equations import Start, resting
 from rotorcalc.nonlinear.signals import Spectrum, poincare_points, spectrum
 from rotorcalc.nonlinear.transient import TOLERANCE, Transient, TransientError, simulate
@@ -27,8 +27,8 @@ from rotorcalc.unbalance_response import orbit_points, synchronous_response
 
 # The share of a motion at its end that is taken for what it came to.
 _SETTLED = 0.25
-# Beyond this, in clearances from the bearing's centre, a linear orbit is drawn no further.
-_FAR = 1.5
+# So many clearances beyond the wall a linear orbit is drawn no further.
+_FAR = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,7 +167,7 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
         motion=motion,
         clearance=C,
         rest=rest,
-        linear=rest + _drawn(linear, rest, C),
+        linear=rest + _drawn(linear, rest, machine.bearing),
         ellipse=rest + ellipse,
         whirl=whirl,
         film=C * film_of(machine.bearing).gap(motion.journal / C),
@@ -230,8 +230,9 @@ def _linear(
     return motion, orbit_points(*journal), complex(modes.leading(values))
 
 
-def _drawn(linear: Array, rest: Array, C: float) -> Array:
+def _drawn(linear: Array, rest: Array, bearing: JournalBearing) -> Array:
     """Return a linear motion up to where it first is far outside the clearance."""
-    far = ~(np.hypot(*(linear + rest).T) < _FAR * C)
+    C = bearing.radial_clearance
+    far = ~(film_of(bearing).gap((linear + rest) / C) > -_FAR)
     end = int(np.argmax(far)) if far.any() else len(linear)
     return np.where(np.arange(len(linear))[:, None] < end, linear, np.nan)

@@ -23,9 +23,10 @@ from numpy.typing import ArrayLike
 
 from rotorcalc import modes
 from rotorcalc.arguments import checked
-from rotorcalc.arrays import Array, real_array, real_number, shown
+from rotorcalc.arrays import Array, real_array, shown
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.display import Result
+from rotorcalc.films import film_of
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.equations import Equations, Motion, Start, integrated, resting
 from rotorcalc.nonlinear.limit_cycles import bifurcation
@@ -69,6 +70,9 @@ class Transient(Result):
         Running speed, Ω [rad/s].
     angle : array, (n,)
         Angle through which the imbalance has turned [rad].
+    inner : array, (n, states), or None
+        The film's own states: places of its inner coordinates [m], then velocities of those with
+        a mass [m/s]; None where it has none.
     """
 
     time: Array
@@ -78,6 +82,7 @@ class Transient(Result):
     speed: Array
     angle: Array
     _journal_velocity: Callable[[], Array]
+    inner: Array | None = None
 
     @cached_property
     def journal_velocity(self) -> Array:
@@ -182,7 +187,7 @@ def start_on_mode(machine: Machine, speed: float, amplitude: float) -> Start:
         Where the speed is not positive, the amplitude is not positive and finite, or no mode
         oscillates.
     """
-    if not 0.0 < real_number("amplitude", amplitude) < math.inf:
+    if not 0.0 < amplitude < math.inf:
         raise ValueError(f"amplitude = {amplitude} m: must be positive and finite")
     state = equilibrium(machine, _checked_speed("speed", speed))
     shapes = modes.mode_shapes(machine.rotor, state.stiffness, state.damping)
@@ -210,6 +215,7 @@ def last_state(motion: Transient) -> Start:
         disk=motion.disk[-1],
         journal_velocity=motion.journal_velocity[-1],
         disk_velocity=motion.disk_velocity[-1],
+        inner=None if motion.inner is None else motion.inner[-1],
     )
 
 
@@ -258,6 +264,7 @@ def _transient(model: Equations, angles: Array, states: Array) -> Transient:
         speed=model.speed(angles),
         angle=angles,
         _journal_velocity=partial(model.journal_velocity, angles, states),
+        inner=model.inner_states(states),
     )
 
 
@@ -279,8 +286,8 @@ def _stretch(
         return np.concatenate([before, after[1:]]), message
     if message:
         return state[None, :], message
-    journal = model.journal(states)
-    good = np.isfinite(states).all(axis=1) & (np.hypot(journal[:, 0], journal[:, 1]) < 1.0)
+    film = film_of(model.machine.bearing)
+    good = np.isfinite(states).all(axis=1) & (film.gap(model.journal(states)) > 0.0)
     reached = int(np.argmin(good)) if not good.all() else len(states)
     if reached < len(states):
         return states[: max(reached, 1)], "the journal came too close to the wall"
@@ -301,10 +308,9 @@ def _checked_speeds(speed: float, final_speed: float | None) -> tuple[float, flo
 
 
 def _checked_speed(name: str, value: float) -> float:
-    speed = real_number(name, value)
-    if not 0.0 < speed < math.inf:
-        raise ValueError(f"{name} = {speed} rad/s: must be positive and finite")
-    return speed
+    if not 0.0 < value < math.inf:
+        raise ValueError(f"{name} = {value} rad/s: must be positive and finite")
+    return float(value)
 
 
 def _check_length(revolutions: int, samples: int) -> None:
@@ -323,7 +329,7 @@ def _check_length(revolutions: int, samples: int) -> None:
 
 def _check_tolerance(tolerance: float) -> None:
     low, high = _TOLERANCES
-    if not low <= real_number("tolerance", tolerance) <= high:
+    if not low <= tolerance <= high:
         raise ValueError(f"tolerance = {tolerance}: must lie within {low:g} and {high:g}")
 
 
@@ -335,11 +341,11 @@ def _checked_start(machine: Machine, speed: float, start: ArrayLike | Start | No
         start = resting(machine, _checked_vector("start", start))
     for name in ("journal", "disk", "journal_velocity", "disk_velocity"):
         _checked_vector(f"start.{name}", getattr(start, name))
-    distance = float(np.hypot(*start.journal))
-    if distance >= C:
+    if float(film_of(machine.bearing).gap(start.journal / C)) <= 0.0:
+        distance = float(np.hypot(*start.journal))
         raise ValueError(
-            f"start: the journal lies {distance:.6g} m from the bearing's centre, must be less "
-            f"than the radial clearance, {C:.6g} m"
+            f"start: the journal lies {distance:.6g} m from the bearing's centre, where its film "
+            f"has no thickness left; the radial clearance is {C:.6g} m"
         )
     return start
 
