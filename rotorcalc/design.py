@@ -180,7 +180,7 @@ def onset_map(  # noqa: PLR0913 - two axes, each a name and its values
     ValueError
         Where there is no such input, or both are the same.
     """
-    if address(x) == address(y):
+    if address(machine, x) == address(machine, y):
         raise ValueError(f"y = {y!r}: must differ from x")
     xs, ys = np.asarray(xs, dtype=float), np.asarray(ys, dtype=float)
     rows = [[_machine_or_none(machine, {x: a, y: b}) for a in xs] for b in ys]
@@ -315,7 +315,8 @@ def _machine_or_none(machine: Machine, values: Mapping[str, float]) -> Machine |
         return varied(machine, values)
     except ValueError:
         for field in values:
-            address(field)  # an unknown input is an error, values that make no machine are not
+            # An unknown input is an error; values that make no machine are not.
+            address(machine, field)
         return None
 
 
@@ -329,7 +330,7 @@ def _onsets_where_made(rows: Sequence[Sequence[Machine | None]]) -> Array:
 def _moved(machine: Machine, field: str, share: float) -> tuple[str, float, float]:
     """Return an input with the values to which it is moved, down and up."""
     value = value_of(machine, field)
-    if address(field)[1] in ("temperature", "reference_temperature"):
+    if address(machine, field)[-1] in ("temperature", "reference_temperature"):
         return field, value - TEMPERATURE_STEP, value + TEMPERATURE_STEP
     return field, value * (1.0 - share), value * (1.0 + share)
 

@@ -4,7 +4,7 @@ import functools
 import json
 import math
 import numbers
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, dataclass, fields
 from types import NoneType
 from typing import (
@@ -121,6 +121,16 @@ class Kind(Record):
         for below in cls.__subclasses__():
             found |= below.kinds()
         return found
+
+
+def number_paths(record: Record) -> Iterator[tuple[str, ...]]:
+    """Yield where each number of a record stands: its field's name, below those of its records."""
+    for name, rule in _rules(type(record)).items():
+        value = getattr(record, name)
+        if isinstance(value, Record):
+            yield from ((name, *path) for path in number_paths(value))
+        elif isinstance(rule.check, Bound):
+            yield (name,)
 
 
 def to_tree(record: Record) -> dict[str, object]:

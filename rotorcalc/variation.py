@@ -1,14 +1,17 @@
 """A machine with other values: its inputs by name, read and changed.
 
-Inputs are named by the fields of the records, "bearing.radial_clearance" or "radial_clearance".
+Inputs are named by the fields of the records, "bearing.radial_clearance" or "radial_clearance"; a
+bearing's geometry has its own, "bearing.geometry.preload".
 """
 
 import functools
 from collections.abc import Mapping
-from dataclasses import fields, replace
+from dataclasses import replace
+from typing import Any, cast
 
 from rotorcalc.arguments import checked
-from rotorcalc.machine import JournalBearing, Machine, Oil, Rotor
+from rotorcalc.machine import Machine
+from rotorcalc.records import R, number_paths
 
 
 @checked
@@ -32,10 +35,10 @@ def value_of(machine: Machine, field: str) -> float:
     ValueError
         Where there is no such input.
     """
-    record, name = address(field)
-    if name == "load":
+    path = address(machine, field)
+    if path == ("load",):
         return machine.static_load
-    return float(getattr(getattr(machine, record) if record else machine, name))
+    return float(functools.reduce(getattr, path, cast("Any", machine)))
 
 
 @checked
@@ -65,32 +68,46 @@ def varied(machine: Machine, values: Mapping[str, float]) -> Machine:
     >>> varied(PRESETS["sheet-1e8"].machine, {"radial_clearance": 80e-6}).bearing.radial_clearance
     8e-05
     """
-    changes: dict[str, dict[str, float]] = {}
-    for field, value in values.items():
-        record, name = address(field)
-        changes.setdefault(record, {})[name] = value
-    own = changes.pop("", {})
-    records = {record: replace(getattr(machine, record), **new) for record, new in changes.items()}
-    return replace(machine, **own, **records)
+    return _changed(machine, {address(machine, field): value for field, value in values.items()})
 
 
-@functools.cache
-def address(field: str) -> tuple[str, str]:
-    """Return the record and the name of an input; the machine's own record is ""."""
-    known = {
-        (record, item.name)
-        for record, cls in (
-            ("", Machine),
-            ("oil", Oil),
-            ("bearing", JournalBearing),
-            ("rotor", Rotor),
-        )
-        for item in fields(cls)
-        if item.name not in ("oil", "bearing", "rotor", "film")
-    }
-    record, _, name = field.rpartition(".")
-    for address in known:
-        if address == (record, name) or (not record and address[1] == name):
-            return address
-    names = ", ".join(sorted(".".join(filter(None, address)) for address in known))
+@functools.lru_cache(maxsize=256)
+def address(machine: Machine, field: str) -> tuple[str, ...]:
+    """Return where an input stands in a machine's records, the record's names first.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; the inputs of its bearing's geometry are among its own.
+    field : str
+        The input, "bearing.radial_clearance" or "radial_clearance".
+
+    Returns
+    -------
+    tuple of str
+        ("bearing", "radial_clearance").
+
+    Raises
+    ------
+    ValueError
+        Where there is no such input, or more than one of that name.
+    """
+    known = list(number_paths(machine))
+    wanted = tuple(field.split("."))
+    found = [path for path in known if path == wanted]
+    found = found or [path for path in known if path[-len(wanted) :] == wanted]
+    if len(found) == 1:
+        return found[0]
+    if found:
+        raise ValueError(f"{field!r}: may be {' or '.join(map('.'.join, found))}")
+    names = ", ".join(sorted(map(".".join, known)))
     raise ValueError(f"{field[:80]!r}: no input of a machine; known are {names}")
+
+
+def _changed(record: R, changes: Mapping[tuple[str, ...], float]) -> R:
+    """Return a record with the values at some paths changed, all at once."""
+    own: dict[str, Any] = {path[0]: value for path, value in changes.items() if len(path) == 1}
+    for name in {path[0] for path in changes if len(path) > 1}:
+        below = {path[1:]: value for path, value in changes.items() if path[0] == name}
+        own[name] = _changed(getattr(record, name), below)
+    return replace(record, **own)

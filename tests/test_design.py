@@ -156,6 +156,18 @@ def test_an_unknown_input_is_named(field: str) -> None:
         design.onset_map(SHEET, x=field, xs=[1.0], y="load", ys=[1.0])
 
 
+def test_a_geometrys_inputs_are_among_its_machines() -> None:
+    sprung = replace(SHEET, bearing=BEARINGS["sprung"])
+    for field in ("bearing.geometry.ratio", "geometry.ratio", "ratio"):
+        assert variation.value_of(sprung, field) == 0.5
+        changed = variation.varied(sprung, {field: 0.7, "radial_clearance": 80e-6})
+        assert changed.bearing.geometry == Sprung(ratio=0.7)
+        assert changed.bearing.radial_clearance == 80e-6
+        with pytest.raises(ValueError, match="no input of a machine"):
+            variation.value_of(SHEET, field)
+    assert variation.value_of(sprung, "mass") == SHEET.rotor.mass
+
+
 # --- The map --------------------------------------------------------------------------------
 
 
