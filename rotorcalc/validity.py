@@ -10,6 +10,7 @@ import numpy as np
 
 from rotorcalc.analysis import Sweep
 from rotorcalc.arguments import checked
+from rotorcalc.films import film_of
 from rotorcalc.unbalance_response import orbit_ellipse
 
 Level: TypeAlias = Literal["good", "caution", "outside"]
@@ -57,30 +58,30 @@ def validity(point: Sweep) -> tuple[Check, ...]:
     Returns
     -------
     tuple of Check
-        Length over diameter; Reynolds number of the film, ρΩRC/μ, against that at which Taylor's
-        vortices appear, 41.1√(R/C) (Taylor 1923), with turbulence at 2000; smallest film against
-        an assumed roughness of 1 µm, full film above 3 of it; eccentricity ratio; the journal's
-        imbalance orbit against the clearance; the rotor's static sag against the clearance.
+        What the film model assumes of the bearing, for the short one length over diameter;
+        Reynolds number of the film, ρΩRC/μ, against that at which Taylor's vortices appear,
+        41.1√(R/C) (Taylor 1923), with turbulence at 2000; smallest film against an assumed
+        roughness of 1 µm, full film above 3 of it, and against the clearance; the journal's
+        imbalance orbit and the rotor's static sag against the clearance.
     """
     machine = point.machine
     bearing = machine.bearing
-    R, L, C = bearing.radius, bearing.length, bearing.radial_clearance
-    eps, film = float(point.eccentricity_ratio), float(point.minimum_film_thickness)
+    R, C = bearing.radius, bearing.radial_clearance
+    film = float(point.minimum_film_thickness)
     reynolds = machine.oil.density * float(point.speed) * R * C / machine.viscosity
     vortices = min(41.1 * float(np.sqrt(R / C)), 2000.0)
     orbit = orbit_ellipse(point.journal_response)
     swing = float(orbit.semi_major) / C
     return (
-        _above("Length over diameter, L/D", L / bearing.diameter, 0.5, 1.0,
-               "the short bearing leaves out the pressure flow around the journal; it overrates "
-               "the force of longer ones"),
+        *(_above(one.name, one.value, one.caution, one.outside, one.reason)
+          for one in film_of(bearing).limits),
         _above("Reynolds number of the film, ρΩRC/μ", reynolds, vortices, 2000.0,
                "vortices, and then turbulence, replace the laminar flow"),
         _below("Smallest film over roughness of 1 µm", film / ROUGHNESS, 10.0, 3.0,
                "the surfaces' roughness reaches through the film"),
-        _above("Eccentricity ratio, ε", eps, 0.9, 0.97,
+        _below("Smallest film over clearance, h_min/C", film / C, 0.1, 0.03,
                "so thin a film heats up and bends its walls, which the model leaves out"),
-        _above("Imbalance orbit over clearance", swing, 0.1, max(1.0 - eps, 0.1),
+        _above("Imbalance orbit over clearance", swing, 0.1, max(film / C, 0.1),
                "linear coefficients hold for small orbits; at the limit it reaches the wall"),
         _above("Static sag over clearance, Γ/C", machine.static_sag / C, 1.0, 10.0,
                "so flexible a shaft slopes in its bearings, which the model takes as aligned"),

@@ -13,6 +13,7 @@ from rotorcalc import PRESETS, Machine, analyse, design, onset_speed, variation
 from rotorcalc.machine import JournalBearing, Oil, Rotor
 from rotorcalc.onset import closed_form
 from rotorcalc.onset.many import onset_speeds
+from tests.films.models import BEARINGS, Sprung
 
 SHEET = PRESETS["sheet-1e8"].machine
 RPM = math.pi / 30

@@ -7,6 +7,7 @@ import pytest
 
 from rotorcalc import PRESETS, analyse
 from rotorcalc.validity import ROUGHNESS, validity
+from tests.films.models import BEARINGS
 
 SHEET = PRESETS["sheet-1e8"]
 
@@ -42,7 +43,7 @@ def test_a_thin_film_is_outside_when_it_reaches_the_roughness():
         float(analyse(heavy, SHEET.speed).minimum_film_thickness) / ROUGHNESS
     )
     assert film.level == "outside"
-    assert judged(heavy)["Eccentricity ratio"].level == "outside"
+    assert judged(heavy)["Smallest film over clearance"].level == "outside"
 
 
 def test_an_orbit_that_reaches_the_wall_is_outside():
@@ -62,3 +63,10 @@ def test_a_fast_thin_oil_leaves_the_laminar_range():
 
 def test_a_flexible_rotor_sags_past_the_clearance():
     assert judged(PRESETS["sheet-1e7"].machine)["Static sag over clearance"].level == "caution"
+
+
+def test_a_film_models_own_assumptions_are_judged_where_it_has_some():
+    assert "Length over diameter" in judged(SHEET.machine)
+    sprung = replace(SHEET.machine, bearing=BEARINGS["sprung"])
+    assert "Length over diameter" not in judged(sprung)
+    assert judged(sprung)["Reynolds number of the film"].level == "good"
