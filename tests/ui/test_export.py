@@ -132,7 +132,7 @@ def test_csv_writes_what_is_no_number_in_words_that_python_reads() -> None:
 def test_json_loads_back_equal(case: str) -> None:
     text = export.machine_json(computed(case)).decode()
     assert Machine.from_json(text) == computed(case).machine
-    assert json.loads(text)["version"] == 1
+    assert json.loads(text)["version"] == 2
 
 
 # ROSS
