@@ -56,7 +56,13 @@ class Cycle(NamedTuple):
 
 
 class Balance:
-    """The balance of film, rotor and load around a cycle, in the film's unit of force."""
+    """The balance of film, rotor and load around a cycle, in the film's unit of force.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; its imbalance plays no part.
+    """
 
     def __init__(self, machine: Machine) -> None:
         bearing = machine.bearing
@@ -65,7 +71,7 @@ class Balance:
         self.force, self.wall = journal_motion(bearing).force, film_of(bearing).gap
 
     def residual(self, cycle: Cycle) -> tuple[Array, Array]:
-        """Return the residual, (2m,), and its derivatives by all unknowns, (2m, 2m + 2)."""
+        """Return the residual, (2m,), and its derivatives by `Cycle.vector()`, (2m, 2m + 2)."""
         m, unit = len(cycle.path), self.film_per_speed * cycle.speed
         D = differentiation(m)
         velocity = cycle.ratio * (D @ cycle.path)

@@ -1,11 +1,11 @@
 """Second and third derivatives of a film's force about a journal at rest.
 
 They come from polynomials through the force at Chebyshev's points on lines through the state of
-rest (x, x') = (x_0, 0), so for every film model that gives the force of a moving journal. How far
-such a line may reach differs by its direction: the force is singular at the wall, and not smooth
-where the journal's motion squeezes out all wedge, as in a plain bearing at half speed whirl. So
-each line is tried at shorter and shorter reach. Too long a line is not resolved by its polynomial,
-too short a one drowns in rounding: the reach is taken at which the answer changes least.
+rest (x, x') = (x_0, 0), so for every film model that gives the force on a moving journal. How far
+such a line may reach differs with its direction: the force is singular at the wall, and not smooth
+where squeeze and wedge cancel, as in a plain bearing at half speed whirl. So each line is tried at
+shorter and shorter reach. The polynomial does not resolve too long a line, and on too short a one
+the derivatives drown in rounding: the reach is taken at which the answer changes least.
 """
 
 from typing import NamedTuple

@@ -1,4 +1,4 @@
-"""Which way whirl sets in: the Hopf bifurcation of a balanced machine at its onset.
+"""Whether whirl sets in gently: the Hopf bifurcation of a balanced machine at its onset.
 
 Near the onset the whirl's amplitude a, the journal's largest distance from rest, obeys
 
@@ -52,7 +52,7 @@ _SPEED_STEP = 1e-4
 
 @dataclass(frozen=True)
 class Hopf:
-    """The onset of whirl of a balanced machine, and which way the whirl goes from there.
+    """The onset of whirl of a balanced machine, and the direction of the bifurcation there.
 
     Attributes
     ----------
@@ -104,7 +104,7 @@ class Hopf:
 
 @checked
 def hopf(machine: Machine) -> Hopf:
-    """Return the onset of whirl of a machine without its imbalance, and which way it goes.
+    """Return the Hopf bifurcation of a machine without its imbalance: onset and direction.
 
     Parameters
     ----------

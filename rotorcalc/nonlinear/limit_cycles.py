@@ -1,4 +1,4 @@
-"""What whirl becomes: the limit cycles of a balanced machine over speed, stable and unstable.
+"""What whirl grows into: the limit cycles of a balanced machine over speed, stable and unstable.
 
 The cycles are found by collocation, followed from the onset by continuation, and judged by their
 Floquet multipliers.
@@ -84,7 +84,20 @@ class Bifurcation(Result):
         )
 
     def at(self, speed: float) -> tuple[Array, BoolArray]:
-        """Return the amplitudes of all cycles at a speed [m], and which of them are stable."""
+        """Return the cycles at a speed, interpolated between those found.
+
+        Parameters
+        ----------
+        speed : float
+            Running speed, Ω [rad/s].
+
+        Returns
+        -------
+        amplitude : array, (m,)
+            Largest distance of the journal from rest in each [m]; empty where there is no cycle.
+        stable : boolean array, (m,)
+            Whether each is stable.
+        """
         low, high = self.speed[:-1], self.speed[1:]
         inside = np.flatnonzero((low - speed) * (high - speed) <= 0.0)
         share = (speed - low[inside]) / np.where(high == low, 1.0, high - low)[inside]
@@ -106,11 +119,12 @@ def bifurcation(
     Parameters
     ----------
     machine : Machine
-        The machine, of whatever rotor.
+        The machine, with any rotor.
     lowest, highest : float
         Between which speeds, over the onset's [-]; the onset lies between them.
     progress : callable or None
-        Called now and then with the share done, 0 to 1. What it raises ends the work.
+        Called after each cycle with the share of the work done, 0 to 1. An exception that it
+        raises ends the work.
 
     Returns
     -------
@@ -158,10 +172,10 @@ def bifurcation(
 
 @checked
 def sweep(branch: Bifurcation, speed: ArrayLike, *, down: bool = False) -> Array:
-    """Return the amplitude that a machine reaches as its speed creeps up, or down.
+    """Return the amplitude that a machine reaches as its speed rises slowly, or falls.
 
     It rests up to the onset and follows a stable cycle as long as there is one; where its cycle
-    ends it goes to the next one that is stable there, or comes to rest.
+    ends it goes to the nearest one that is stable there, or comes to rest.
 
     Parameters
     ----------
@@ -170,13 +184,13 @@ def sweep(branch: Bifurcation, speed: ArrayLike, *, down: bool = False) -> Array
     speed : array_like, (n,)
         Rising speeds, Ω [rad/s], within those of the branch.
     down : bool
-        Whether it comes down from the highest.
+        Whether the speed falls from the last of them instead.
 
     Returns
     -------
     array, (n,)
-        Largest distance of the journal from rest [m], 0 at rest; not a number where the machine
-        cannot rest and the branch has no stable cycle.
+        Largest distance of the journal from rest [m], 0 at rest; NaN above the onset where the
+        branch has no stable cycle.
     """
     speed = np.asarray(speed, dtype=float)
     reached = np.full(len(speed), np.nan)
@@ -200,12 +214,12 @@ def start_on_cycle(machine: Machine, branch: Bifurcation, place: int) -> Start:
     branch : Bifurcation
         Its limit cycles.
     place : int
-        Which of them.
+        Index of the cycle.
 
     Returns
     -------
     Start
-        Where the path of that cycle begins.
+        The state where the path of that cycle begins.
     """
     path, omega = branch.paths[place], float(branch.whirl_frequency[place])
     m = len(path)

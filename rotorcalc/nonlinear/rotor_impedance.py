@@ -11,6 +11,18 @@ def impedance(rotor: Rotor, omega: Array) -> tuple[ComplexArray, ComplexArray]:
     """Return the rotor's impedance to a journal that swings at ω, and its derivative by ω.
 
     Z = z/(1 + s z) − ω²M_j with z = −ω²m_d + jωC_s of the disk and s = 1/K_rot of the shaft.
+
+    Parameters
+    ----------
+    rotor : Rotor
+        The rotor.
+    omega : array, (n,)
+        Frequencies of the journal's motion, ω [rad/s].
+
+    Returns
+    -------
+    impedance, slope : complex array, (n,)
+        Z [N/m], and dZ/dω [N·s/m].
     """
     s = 1.0 / rotor.shaft_stiffness
     z = disk_impedance(rotor, omega)
