@@ -186,7 +186,9 @@ def _at_speed(balance: Balance, before: Cycle, after: Cycle, speed: float) -> Cy
     along = np.zeros(2 * m + 2)
     along[-1] = 1.0
     found, _ = _newton(balance, start, chord / chord[-1], math.log(speed / start.speed), along)
-    return found
+    return (
+        None if found is None else found._replace(speed=speed)
+    )  # without the logarithm's rounding
 
 
 def _newton(

@@ -151,7 +151,7 @@ def bifurcation(
         if progress is not None:
             ratio = cycle.speed / onset.speed
             nearest_wall = (1.0 - found[-1].gap) ** 2
-            share = max(share, nearest_wall, (ratio - 1.0) / (highest - 1.0))
+            share = min(max(share, nearest_wall, (ratio - 1.0) / (highest - 1.0)), 1.0)
             progress(share)
     if not found:
         raise BifurcationError("no limit cycle found next to the onset")
