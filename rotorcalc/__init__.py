@@ -4,22 +4,29 @@ SI units throughout, temperature in °C. X points along the static load, Y at +9
 rotation. `analyse(machine, speed)` computes the whole chain; the modules hold its links.
 """
 
-from rotorcalc import coefficients, films, frames, modes, stability, unbalance_response
+from rotorcalc import coefficients, films, frames, modes, oils, stability, unbalance_response
 from rotorcalc.analysis import FilmCurves, Sweep, analyse, film_curves
+from rotorcalc.design import onset_map, sensitivities, solve_onset
 from rotorcalc.machine import JournalBearing, Machine, Oil, Rotor
 from rotorcalc.nonlinear import signals
 from rotorcalc.nonlinear.continuation import BifurcationError
 from rotorcalc.nonlinear.energy import EnergyBalance, energy_balance
 from rotorcalc.nonlinear.hopf import Hopf, hopf
 from rotorcalc.nonlinear.limit_cycles import Bifurcation, bifurcation
-from rotorcalc.nonlinear.measured_onset import Onsets, onsets
+from rotorcalc.nonlinear.measured_onset import Onsets, measured_growth, onsets
 from rotorcalc.nonlinear.transient import Start, Transient, TransientError, simulate, start_on_mode
+from rotorcalc.oils import iso_oil
 from rotorcalc.onset import Onset, onset_speed
 from rotorcalc.onset.whirl import WhirlOnset, whirl_onset
 from rotorcalc.presets import PRESETS, Preset
+from rotorcalc.unbalance_curves import unstable_ranges
+from rotorcalc.unbalance_peaks import response_peaks
 from rotorcalc.unbalance_response import OrbitEllipse, orbit_ellipse
+from rotorcalc.units import rpm
+from rotorcalc.validity import validity
+from rotorcalc.variation import varied
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 __all__ = [
     "PRESETS",
@@ -49,14 +56,25 @@ __all__ = [
     "films",
     "frames",
     "hopf",
+    "iso_oil",
+    "measured_growth",
     "modes",
+    "oils",
+    "onset_map",
     "onset_speed",
     "onsets",
     "orbit_ellipse",
+    "response_peaks",
+    "rpm",
+    "sensitivities",
     "signals",
     "simulate",
+    "solve_onset",
     "stability",
     "start_on_mode",
     "unbalance_response",
+    "unstable_ranges",
+    "validity",
+    "varied",
     "whirl_onset",
 ]

@@ -5,7 +5,7 @@ Follows the calculation sheet of the notes, vectorised over running speed.
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,7 +19,11 @@ from rotorcalc.films import FilmState, film_state
 from rotorcalc.frames import rotate
 from rotorcalc.machine import JournalBearing, Machine
 from rotorcalc.onset.whirl import WhirlOnset, flexible_threshold, whirl_onset
+from rotorcalc.tables import columns, dataframe, eigenvalue_columns
 from rotorcalc.unbalance_response import synchronous_response
+
+if TYPE_CHECKING:
+    import pandas as pd  # pyright: ignore[reportMissingTypeStubs]
 
 # The film of a σ at which what the load changes of it is below rounding.
 _LIGHTEST = 1e10
@@ -64,7 +68,7 @@ class Sweep(Result):
     whirl_ratio : array, (n,)
         ω̄ [-] (Eq. 5.46); 0 where the film cannot whirl.
     critical_mass : array, (n,)
-        M_c [kg per bearing]: with more the rotor is unstable at this speed; infinite where the
+        M_c [kg], per bearing: with more the rotor is unstable at this speed; infinite where the
         film cannot whirl.
     rigid_threshold, flexible_threshold : array, (n,)
         Ω_s and Ω_sf [rad/s] (Eqs. 5.45 to 5.50) at this speed's equilibrium; the machine is
@@ -108,6 +112,30 @@ class Sweep(Result):
         if rotor.is_rigid:
             return self.rigid_eigenvalues
         return modes.eigenvalues(rotor, self.stiffness, self.damping)
+
+    def to_dataframe(self) -> "pd.DataFrame":
+        """Return the sweep as a table of pandas: a row a speed, a column a number.
+
+        Returns
+        -------
+        pandas.DataFrame
+            Columns "speed [rad/s]", "stiffness_XY [N/m]" and so on. Responses stand as amplitude
+            [m], zero to peak, and phase lag [rad], of X behind cos Ωt and of Y behind sin Ωt,
+            unwrapped over the sweep: what a Bode plot shows. The flexible rotor's eigenvalues
+            stand as real and imaginary part, each followed over the sweep.
+
+        Raises
+        ------
+        ValueError
+            Where the speeds are neither one nor a list, (n,).
+        ImportError
+            Where pandas is not installed.
+        """
+        if self.speed.ndim > 1:
+            raise ValueError(f"speed: must have the shape (n,) for a table, has {self.speed.shape}")
+        rows = self.speed.size
+        branches = modes.follow_branches(self.flexible_eigenvalues.reshape(rows, -1))
+        return dataframe(columns(self, rows=rows) | eigenvalue_columns(branches))
 
 
 @checked

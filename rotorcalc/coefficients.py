@@ -132,7 +132,7 @@ class AddedMass(Result):
     speed : array, (...)
         Running speed, Ω [rad/s].
     mass : array, (..., 2, 2)
-        M_ij in X, Y [kg per bearing] (Eq. 5.14).
+        M_ij in X, Y [kg], per bearing (Eq. 5.14).
     to_rotor : array, (...)
         Mean of M_XX and M_YY over half the rotor's mass, M [-].
     to_damping : array, (...)
@@ -467,6 +467,21 @@ def modified_sommerfeld(machine: Machine, speed: ArrayLike) -> Array:
         Where a speed is not positive and finite.
     """
     return operating_points(machine, speed).sommerfeld
+
+
+def rising_speed(speed: ArrayLike, *, name: str = "speed") -> Array:
+    """Return speeds [rad/s] that rise, (n,), or raise ValueError where they do not."""
+    speeds = checked_speed(speed)
+    if speeds.ndim != 1 or len(speeds) < 2:
+        raise ValueError(f"{name}: must be two or more rising speeds, (n,), has {speeds.shape}")
+    falls = np.flatnonzero(np.diff(speeds) <= 0.0)
+    if falls.size:
+        i = int(falls[0])
+        raise ValueError(
+            f"{name}[{i + 1}] = {speeds[i + 1]:g} rad/s: must be greater than the speed before it, "
+            f"{speeds[i]:g} rad/s"
+        )
+    return speeds
 
 
 def checked_speed(speed: ArrayLike) -> Array:

@@ -4,14 +4,12 @@ Where a source gives only a bearing, the rest of the machine is this program's c
 preset's note says so.
 """
 
-import math
 from dataclasses import dataclass, replace
 
 from scipy.constants import g
 
 from rotorcalc.machine import JournalBearing, Machine, Oil, Rotor
-
-_RPM = math.pi / 30
+from rotorcalc.units import rpm
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,16 +55,16 @@ PRESETS: dict[str, Preset] = {
         title="600 lbf rotor, stiff shaft",
         note="San Andrés, Notes 5, calculation sheet, shaft stiffness 1e8 N/m.",
         machine=_SHEET_STIFF,
-        speed=6000 * _RPM,
-        top_speed=12000 * _RPM,
+        speed=6000 * rpm,
+        top_speed=12000 * rpm,
     ),
     "sheet-1e7": Preset(
         title="600 lbf rotor, flexible shaft",
         note="San Andrés, Notes 5, calculation sheet, shaft stiffness 1e7 N/m. Its running speed "
         "is this program's choice, below the onset.",
         machine=replace(_SHEET_STIFF, rotor=replace(_SHEET_STIFF.rotor, shaft_stiffness=1e7)),
-        speed=4000 * _RPM,
-        top_speed=12000 * _RPM,
+        speed=4000 * rpm,
+        top_speed=12000 * rpm,
     ),
     "fig-5-2": Preset(
         title="Bearing of Fig. 5.2",
@@ -80,8 +78,8 @@ PRESETS: dict[str, Preset] = {
             rotor=Rotor(mass=600 * 4.448 / g, imbalance=5e-6),
             temperature=50.0,
         ),
-        speed=3000 * _RPM,
-        top_speed=12000 * _RPM,
+        speed=3000 * rpm,
+        top_speed=12000 * rpm,
     ),
     "friswell-5-5-1": Preset(
         title="Friswell et al., example 5.5.1",
@@ -97,7 +95,7 @@ PRESETS: dict[str, Preset] = {
             temperature=50.0,
             load=525.0,
         ),
-        speed=1500 * _RPM,
-        top_speed=9000 * _RPM,
+        speed=1500 * rpm,
+        top_speed=9000 * rpm,
     ),
 }

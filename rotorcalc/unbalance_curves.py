@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from rotorcalc.analysis import Sweep
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, ComplexArray
-from rotorcalc.coefficients import checked_speed, equilibrium, stiffness_and_damping
+from rotorcalc.coefficients import equilibrium, rising_speed, stiffness_and_damping
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine, Rotor
 from rotorcalc.onset import judge
@@ -226,6 +226,7 @@ def unstable_ranges(sweep: Sweep) -> Array:
     ValueError
         Where the speeds are not in one row and rising.
     """
+    rising_speed(sweep.speed, name="sweep.speed")
     return judge.unstable_ranges(sweep.machine, sweep.speed)
 
 
@@ -310,7 +311,7 @@ def response_family(
     ValueError
         Where a speed is not positive and finite.
     """
-    speeds, group = checked_speed(speed), Rotors.of(rotors)
+    speeds, group = rising_speed(speed), Rotors.of(rotors)
     film = stiffness_and_damping(machine, speeds)
     sizes = orbit_sizes(*synchronous_response(group, *film, speeds))
     near = _near(speeds, disk_peak_speeds(machine, rotors, speeds, film, sizes[0]))

@@ -18,8 +18,9 @@ from numpy.typing import ArrayLike
 
 from rotorcalc import modes
 from rotorcalc.analysis import Sweep, analyse
+from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, ComplexArray, IntArray
-from rotorcalc.coefficients import stiffness_and_damping
+from rotorcalc.coefficients import rising_speed, stiffness_and_damping
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine, Rotor
 from rotorcalc.unbalance_response import Rotors, orbit_sizes, synchronous_response
@@ -56,6 +57,7 @@ class ResponsePeaks(Result):
     amplitude: Array
 
 
+@checked
 def response_peaks(machine: Machine, speed: ArrayLike, *, at: str = "disk") -> ResponsePeaks:
     """Return the speeds at which the orbit is largest: local maxima of its semi-major axis.
 
@@ -81,10 +83,11 @@ def response_peaks(machine: Machine, speed: ArrayLike, *, at: str = "disk") -> R
     """
     if at not in ("disk", "journal"):
         raise ValueError(f"at = {at!r}: must be 'disk' or 'journal'")
-    disk, journal = both_peaks(analyse(machine, speed))
+    disk, journal = both_peaks(analyse(machine, rising_speed(speed)))
     return disk if at == "disk" else journal
 
 
+@checked
 def both_peaks(sweep: Sweep) -> tuple[ResponsePeaks, ResponsePeaks]:
     """Return the peaks of the disk's response and of the journals', found in one search.
 
@@ -104,7 +107,7 @@ def both_peaks(sweep: Sweep) -> tuple[ResponsePeaks, ResponsePeaks]:
         Where the speeds do not rise.
     """
     machine, rotor, speed = sweep.machine, sweep.machine.rotor, sweep.speed
-    _check_rising(speed)
+    rising_speed(speed, name="sweep.speed")
     near = _near_resonances(machine, rotor, speed, (sweep.stiffness, sweep.damping))
     known = orbit_sizes(sweep.disk_response, sweep.journal_response)
     dense, size = _denser(speed, known, near, lambda more: _orbit_sizes(machine, rotor, more))
@@ -209,14 +212,6 @@ def _denser(
         return speed, size
     dense, order = np.unique(np.concatenate([speed, near]), return_index=True)
     return dense, np.concatenate([size, sizes(near)], axis=-1)[:, order]
-
-
-def _check_rising(speed: Array) -> None:
-    if speed.ndim != 1 or len(speed) < 2 or not np.all(np.diff(speed) > 0.0):
-        raise ValueError(
-            "speed: must be two or more speeds that rise from one to the next, has the shape "
-            f"{speed.shape}"
-        )
 
 
 def _orbit_sizes(machine: Machine, rotor: Rotor | Rotors, speed: Array) -> Array:

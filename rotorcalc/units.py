@@ -9,6 +9,8 @@ from scipy.constants import gallon, hp, inch, lb, lbf, liter, mil, minute, psi
 
 from rotorcalc.arrays import Array
 
+# The speed of one revolution a minute [rad/s]: 6000 * rpm is 6000 rpm.
+rpm = 2 * constants.pi / minute
 _REYN = lbf / inch**2  # Pa·s in a reyn, lbf·s/in²
 
 
@@ -60,7 +62,7 @@ class Units:
     flow: Unit
     pressure: Unit
     torque: Unit
-    speed: Unit = Unit("rpm", 1 / (2 * constants.pi / minute))
+    speed: Unit = Unit("rpm", 1 / rpm)
     frequency: Unit = Unit("Hz", 1 / (2 * constants.pi))
     angle: Unit = Unit("°", 1 / constants.degree)
     growth: Unit = Unit("1/s")

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rotorcalc import analyse, modes
+from rotorcalc import analyse, modes, unstable_ranges
 from rotorcalc.analysis import film_curves, force_coefficients
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.films import short
@@ -225,3 +225,9 @@ def test_in_units_of_the_load_the_centred_film_has_the_same_threshold():
     assert onset.critical_mass[0] == pytest.approx(24 / math.pi)
     assert onset.whirl_ratio[0] == 0.5
     assert onset.whirl_ratio[1] == whirl_onset(short.stiffness(0.5), short.damping(0.5)).whirl_ratio
+
+
+@pytest.mark.parametrize("speeds", [500.0, [500.0], [600.0, 500.0], [500.0] * 3, [[400.0, 500.0]]])
+def test_a_sweep_that_does_not_rise_has_no_unstable_ranges(speeds):
+    with pytest.raises(ValueError, match=r"^sweep\.speed(\[\d\] = |: must be two or more rising)"):
+        unstable_ranges(analyse(SHEET, speeds))

@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 
 from rotorcalc import modes
 from rotorcalc.arguments import checked
-from rotorcalc.arrays import Array, BoolArray, shown
-from rotorcalc.coefficients import checked_speed, stiffness_and_damping
+from rotorcalc.arrays import Array, BoolArray
+from rotorcalc.coefficients import checked_speed, rising_speed, stiffness_and_damping
 from rotorcalc.machine import Machine, Rotor
 from rotorcalc.numerics import routh
 from rotorcalc.onset.characteristic import ExactPolynomial
@@ -82,7 +82,7 @@ def unstable_ranges(machine: Machine, speed: ArrayLike) -> Array:
     ValueError
         Where the speeds are not positive and finite, in one row, and rising.
     """
-    speeds = _rising(speed)
+    speeds = rising_speed(speed)
     if covers(machine):
         first = max(closed_form_onset(machine).speed, speeds[0])
         return np.array([[first, speeds[-1]]] if first < speeds[-1] else np.empty((0, 2)))
@@ -107,13 +107,6 @@ def unstable_ranges(machine: Machine, speed: ArrayLike) -> Array:
     ]  # fmt: skip
     ends = [*speeds[:1][unstable[:1]], *edges, *speeds[-1:][unstable[-1:]]]
     return np.array(ends).reshape(-1, 2)
-
-
-def _rising(speed: ArrayLike) -> Array:
-    speeds = checked_speed(speed)
-    if speeds.ndim != 1 or len(speeds) == 0 or not np.all(np.diff(speeds) > 0.0):
-        raise ValueError(f"speed = {shown(speed)}: must be one row of rising speeds in rad/s")
-    return speeds
 
 
 def _margins(machine: Machine, speed: Array, K: Array, C: Array, *, flexible: bool = True) -> Array:

@@ -14,9 +14,8 @@ from rotorcalc.machine import Machine
 from rotorcalc.onset import search, whirl
 from rotorcalc.presets import PRESETS
 from rotorcalc.unbalance_response import orbit_ellipse, synchronous_response
+from rotorcalc.units import rpm
 from rotorcalc.validation.case import Case, alike
-
-_RPM = math.pi / 30.0
 
 
 def onset() -> list[Case]:
@@ -33,7 +32,7 @@ def onset() -> list[Case]:
         found, closed = search.searched_onset(machine, flexible), _closed_onset(machine, flexible)
         cases.append(
             Case(
-                group, f"Onset, {name}", found.speed / _RPM, closed / _RPM, 1e-9 * closed / _RPM,
+                group, f"Onset, {name}", found.speed / rpm, closed / rpm, 1e-9 * closed / rpm,
                 "Eqs. 5.8, 5.45, 5.46" + (" and 5.50" if flexible else ""), "rpm",
             )
         )  # fmt: skip
@@ -41,8 +40,8 @@ def onset() -> list[Case]:
         there = float(sweep.flexible_threshold if flexible else sweep.rigid_threshold)
         cases.append(
             Case(
-                group, f"Threshold speed there, {name}", there / _RPM, found.speed / _RPM,
-                1e-9 * closed / _RPM, "Ω = Ω_sf(ε(Ω))" if flexible else "Ω = Ω_s(ε(Ω))", "rpm",
+                group, f"Threshold speed there, {name}", there / rpm, found.speed / rpm,
+                1e-9 * closed / rpm, "Ω = Ω_sf(ε(Ω))" if flexible else "Ω = Ω_s(ε(Ω))", "rpm",
             )
         )  # fmt: skip
     machine = PRESETS["sheet-1e8"].machine
@@ -65,7 +64,7 @@ def onset() -> list[Case]:
             1e-9,
             "Eq. 5.46",
         ),
-        Case(group, "Onset without load", bare.speed / _RPM, 0.0, 0.0, "below Eq. 5.48", "rpm"),
+        Case(group, "Onset without load", bare.speed / rpm, 0.0, 0.0, "below Eq. 5.48", "rpm"),
     ]
 
 
@@ -156,14 +155,14 @@ def sheet() -> list[Case]:
     group = "The calculation sheet's 600 lbf rotor"
     stiff, soft = PRESETS["sheet-1e8"].machine, PRESETS["sheet-1e7"].machine
     clearance, M = stiff.bearing.radial_clearance, stiff.rotor.half_mass
-    point = analyse(stiff, 6000.0 * _RPM)
+    point = analyse(stiff, 6000.0 * rpm)
     onsets = (
         ("rigid", search.searched_onset(stiff, flexible=False), 10651.9, 5332.6),
         ("K_rot = 1e8 N/m", search.searched_onset(stiff), 8919.3, None),
         ("K_rot = 1e7 N/m", search.searched_onset(soft), 4627.1, None),
     )
     alone = [
-        float(modes.undamped_frequency(m.rotor.shaft_stiffness, M)) / _RPM for m in (stiff, soft)
+        float(modes.undamped_frequency(m.rotor.shaft_stiffness, M)) / rpm for m in (stiff, soft)
     ]
     printed = "calculation sheet, printed"
     rows = [
@@ -180,10 +179,10 @@ def sheet() -> list[Case]:
         ("Power at 6000 rpm", float(point.power_loss) / 1e3, 11.1735, 5e-5, "recorded", "kW"),
     ]
     for name, onset, speed, frequency in onsets:
-        rows.append((f"Onset, {name}", onset.speed / _RPM, speed, 0.05, "recorded", "rpm"))
+        rows.append((f"Onset, {name}", onset.speed / rpm, speed, 0.05, "recorded", "rpm"))
         if frequency is not None:
             rows.append(
-                (f"Whirl, {name}", onset.whirl_frequency / _RPM, frequency, 0.05, "recorded", "rpm")
+                (f"Whirl, {name}", onset.whirl_frequency / rpm, frequency, 0.05, "recorded", "rpm")
             )
     return [Case(group, *row) for row in rows]
 
