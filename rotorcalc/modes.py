@@ -3,7 +3,8 @@
 Model: the film's linear stiffness and damping at one running speed; the rotor as one disk on a
 massless shaft, the whole per bearing. States, X and Y of each: a rigid rotor has the journal's
 position and velocity (4); a flexible one the disk's position and velocity and the journal's
-position (6), and with journal mass the journal's velocity too (8).
+position (6), and with journal mass the journal's velocity too (8). A film with inner coordinates
+adds their places, and the velocities of those that have a mass.
 
 Source: San Andrés, Notes 5, Eq. 5.38 (rigid), and the calculation sheet (flexible); midspan damping
 and journal mass are the two extensions that the sheet leaves to its reader.
@@ -17,9 +18,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import linear_sum_assignment
 
+from rotorcalc import state_matrices
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, ComplexArray, IntArray, complex_array, real_array
 from rotorcalc.display import Result
+from rotorcalc.films.dynamics import NO_INERTIA
 from rotorcalc.machine import Rotor
 
 _I = np.eye(2)
@@ -37,7 +40,7 @@ class ModeShapes(Result):
     """The free motions e^{λt} of a machine: eigenvalues λ, and what moves how in each.
 
     A mode's motion is Re{P e^{λt}}, P its phasors here. Each mode is scaled so that the largest of
-    its displacements is 1.
+    its displacements is 1, inner coordinates included.
 
     Attributes
     ----------
@@ -66,42 +69,54 @@ class ModeShapes(Result):
 
 
 @checked
-def state_matrix(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> Array:
+def state_matrix(
+    rotor: Rotor, K: Array, C: Array, *, inertia: Array = NO_INERTIA, flexible: bool = True
+) -> Array:
     """Return the matrix A of the free motion, q̇ = A q.
 
     Parameters
     ----------
     rotor : Rotor
         The rotor.
-    K, C : array, (..., 2, 2)
-        The film's stiffness [N/m] and damping [N·s/m] in X, Y.
+    K, C : array, (..., 2+i, 2+i)
+        The film's stiffness [N/m] and damping [N·s/m] in X, Y and its i inner coordinates.
+    inertia : array, (i,)
+        Mass of each inner coordinate [kg]; none by default.
     flexible : bool
         Whether the shaft bends; a rigid shaft never does.
 
     Returns
     -------
     array, (..., n, n)
-        A; n = 4 for a rigid rotor, 6 for a flexible one, 8 with journal mass. The state holds
-        disk position, journal position, disk velocity, journal velocity, as far as the model has
-        them; a rigid rotor's journal is its disk.
+        A; n = 4 for a rigid rotor, 6 for a flexible one, 8 with journal mass, and i to 2i more
+        with inner coordinates. The state holds the positions of disk, journal and inner
+        coordinates, then their velocities, as far as the model has them; a rigid rotor's journal
+        is its disk.
     """
-    if rotor.is_rigid or not flexible:
-        return _rigid(rotor, K, C)
+    bends = flexible and not rotor.is_rigid
+    if K.shape[-1] > 2:
+        return state_matrices.with_inner(rotor, K, C, inertia, bends=bends)
+    if not bends:
+        return state_matrices.rigid(rotor, K, C)
     if rotor.journal_mass > 0.0:
-        return _with_journal_mass(rotor, K, C)
-    return _massless_journals(rotor, K, C)
+        return state_matrices.with_journal_mass(rotor, K, C)
+    return state_matrices.massless_journals(rotor, K, C)
 
 
 @checked
-def eigenvalues(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> ComplexArray:
+def eigenvalues(
+    rotor: Rotor, K: Array, C: Array, *, inertia: Array = NO_INERTIA, flexible: bool = True
+) -> ComplexArray:
     """Return the eigenvalues λ of the free motion e^{λt}.
 
     Parameters
     ----------
     rotor : Rotor
         The rotor.
-    K, C : array, (..., 2, 2)
-        The film's stiffness [N/m] and damping [N·s/m] in X, Y.
+    K, C : array, (..., 2+i, 2+i)
+        The film's stiffness [N/m] and damping [N·s/m] in X, Y and its i inner coordinates.
+    inertia : array, (i,)
+        Mass of each inner coordinate [kg]; none by default.
     flexible : bool
         Whether the shaft bends; a rigid shaft never does.
 
@@ -110,19 +125,24 @@ def eigenvalues(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> C
     complex array, (..., n)
         λ [1/s], in no particular order; n as in `state_matrix`.
     """
-    return np.linalg.eigvals(state_matrix(rotor, K, C, flexible=flexible)).astype(complex)
+    A = state_matrix(rotor, K, C, inertia=inertia, flexible=flexible)
+    return np.linalg.eigvals(A).astype(complex)
 
 
 @checked
-def mode_shapes(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> ModeShapes:
+def mode_shapes(
+    rotor: Rotor, K: Array, C: Array, *, inertia: Array = NO_INERTIA, flexible: bool = True
+) -> ModeShapes:
     """Return the eigenvalues of the free motion with the shapes of its modes.
 
     Parameters
     ----------
     rotor : Rotor
         The rotor.
-    K, C : array, (..., 2, 2)
-        The film's stiffness [N/m] and damping [N·s/m] in X, Y.
+    K, C : array, (..., 2+i, 2+i)
+        The film's stiffness [N/m] and damping [N·s/m] in X, Y and its i inner coordinates.
+    inertia : array, (i,)
+        Mass of each inner coordinate [kg]; none by default.
     flexible : bool
         Whether the shaft bends; a rigid shaft never does.
 
@@ -131,13 +151,14 @@ def mode_shapes(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> M
     ModeShapes
         In no particular order; n as in `state_matrix`.
     """
-    values, vectors = np.linalg.eig(state_matrix(rotor, K, C, flexible=flexible))
-    n = values.shape[-1]
-    positions = vectors[..., : 2 if n == 4 else 4, :]
+    A = state_matrix(rotor, K, C, inertia=inertia, flexible=flexible)
+    values, vectors = np.linalg.eig(A)
+    rigid = rotor.is_rigid or not flexible
+    positions = vectors[..., : K.shape[-1] + (0 if rigid else 2), :]
     largest = np.argmax(np.abs(positions), axis=-2)[..., None, :]
     vectors = vectors / np.take_along_axis(positions, largest, axis=-2)
     disk = vectors[..., :2, :].swapaxes(-1, -2)
-    journal = disk if n == 4 else vectors[..., 2:4, :].swapaxes(-1, -2)
+    journal = disk if rigid else vectors[..., 2:4, :].swapaxes(-1, -2)
     return ModeShapes(
         eigenvalues=values.astype(complex),
         vectors=vectors.astype(complex),
@@ -147,7 +168,9 @@ def mode_shapes(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> M
 
 
 @checked
-def refined_eigenvalues(rotor: Rotor, K: Array, C: Array, *, flexible: bool = True) -> ComplexArray:
+def refined_eigenvalues(
+    rotor: Rotor, K: Array, C: Array, *, inertia: Array = NO_INERTIA, flexible: bool = True
+) -> ComplexArray:
     """Return the eigenvalues λ of the free motion, each to a rounding error of its own.
 
     A matrix eigenvalue is good to a rounding error of the matrix's largest entries, which for a
@@ -158,8 +181,10 @@ def refined_eigenvalues(rotor: Rotor, K: Array, C: Array, *, flexible: bool = Tr
     ----------
     rotor : Rotor
         The rotor.
-    K, C : array, (..., 2, 2)
-        The film's stiffness [N/m] and damping [N·s/m] in X, Y.
+    K, C : array, (..., 2+i, 2+i)
+        The film's stiffness [N/m] and damping [N·s/m] in X, Y and its i inner coordinates.
+    inertia : array, (i,)
+        Mass of each inner coordinate [kg]; none by default.
     flexible : bool
         Whether the shaft bends; a rigid shaft never does.
 
@@ -177,11 +202,11 @@ def refined_eigenvalues(rotor: Rotor, K: Array, C: Array, *, flexible: bool = Tr
     starts from the matrix eigenvalues, and from those of simpler machines, to which the ones that
     the matrix tells least tend: with massless journals, and, of the slow ones, K + λ(C + C_s I).
     """
-    values = _first_guesses(rotor, K, C, flexible)
+    values = _first_guesses(rotor, K, C, inertia, flexible)
     step = values
     with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
         for _ in range(_REFINEMENTS):
-            step = _newton_step(rotor, K, C, values, flexible)
+            step = _newton_step(rotor, _impedance(K, C, inertia, values), values, flexible)
             values = values + step
             if np.all(np.abs(step) <= _NO_NEED * np.abs(values)):
                 break
@@ -265,8 +290,10 @@ def leading(eigenvalues: ArrayLike) -> ComplexArray:
 
 
 def leading_place(eigenvalues: ComplexArray) -> IntArray:
-    """Return the place of `leading` among eigenvalues, (...); that of any where none oscillates."""
-    return np.argmax(np.where(eigenvalues.imag > 0.0, eigenvalues.real, -np.inf), axis=-1)
+    """Return the place of `leading` among eigenvalues, (...); among all where none oscillates."""
+    waves = eigenvalues.imag > 0.0
+    counts = waves | ~np.any(waves, axis=-1, keepdims=True)
+    return np.argmax(np.where(counts, eigenvalues.real, -np.inf), axis=-1)
 
 
 def damped_frequency(eigenvalue: ArrayLike) -> Array:
@@ -395,11 +422,16 @@ def _bounded(step: ComplexArray, last: ComplexArray) -> ComplexArray:
     return step * np.where(length > most, most / np.where(length == 0.0, 1.0, length), 1.0)
 
 
-def _first_guesses(rotor: Rotor, K: Array, C: Array, flexible: bool) -> ComplexArray:
+def _first_guesses(
+    rotor: Rotor, K: Array, C: Array, inertia: Array, flexible: bool
+) -> ComplexArray:
     """Return eigenvalues of the machine and of simpler ones, (..., m), none of them refined."""
-    found = [eigenvalues(rotor, K, C, flexible=flexible), _slow(K, C + rotor.disk_damping * _I)]
-    if flexible and not rotor.is_rigid and rotor.journal_mass > 0.0:
-        found.append(np.linalg.eigvals(_massless_journals(rotor, K, C)).astype(complex))
+    found = [eigenvalues(rotor, K, C, inertia=inertia, flexible=flexible)]
+    if K.shape[-1] == 2:
+        found.append(_slow(K, C + rotor.disk_damping * _I))
+        if flexible and not rotor.is_rigid and rotor.journal_mass > 0.0:
+            A = state_matrices.massless_journals(rotor, K, C)
+            found.append(np.linalg.eigvals(A).astype(complex))
     return np.concatenate(found, axis=-1)
 
 
@@ -428,63 +460,47 @@ def _trace(A: NDArray[Any]) -> NDArray[Any]:
     return A[..., 0, 0] + A[..., 1, 1]
 
 
+def _impedance(
+    K: Array, C: Array, inertia: Array, lam: ComplexArray
+) -> tuple[ComplexArray, ComplexArray]:
+    """Return the film's Z and dZ/dλ as the journal feels it at each λ, (..., m, 2, 2).
+
+    Inner coordinates follow the journal, q_i = −Z_ii⁻¹ Z_iq q.
+    """
+    at = lam[..., None, None]
+    mass = np.diag(np.concatenate([np.zeros(2), inertia]))
+    Z = K[..., None, :, :] + at * (C[..., None, :, :] + at * mass)
+    dZ = C[..., None, :, :] + 2.0 * at * mass
+    if K.shape[-1] == 2:
+        return Z, dZ
+    follows = -np.linalg.solve(Z[..., 2:, 2:], Z[..., 2:, :2])
+    drives = -np.linalg.solve(Z[..., 2:, 2:].swapaxes(-1, -2), Z[..., :2, 2:].swapaxes(-1, -2))
+    drives = drives.swapaxes(-1, -2)
+    change = dZ[..., :2, :2] + dZ[..., :2, 2:] @ follows
+    change = change + drives @ (dZ[..., 2:, :2] + dZ[..., 2:, 2:] @ follows)
+    return Z[..., :2, :2] + Z[..., :2, 2:] @ follows, change
+
+
 def _newton_step(
-    rotor: Rotor, K: Array, C: Array, values: ComplexArray, flexible: bool
+    rotor: Rotor,
+    film: tuple[ComplexArray, ComplexArray],
+    lam: ComplexArray,
+    flexible: bool,
 ) -> ComplexArray:
     """Return −1/tr(W⁻¹ dW) = −det W/tr(adj W · dW) of the machine's impedance W at each λ."""
-    s, m, lam = 1.0 / rotor.shaft_stiffness if flexible else 0.0, rotor.journal_mass, values
+    s, m = 1.0 / rotor.shaft_stiffness if flexible else 0.0, rotor.journal_mass
     z = lam * (lam * rotor.disk_mass + rotor.disk_damping)
     dz = 2.0 * lam * rotor.disk_mass + rotor.disk_damping
     bent, d_bent = 1.0 + s * z, s * dz
-    inertia, d_inertia = (
-        lam * lam * m * bent + z,
-        2.0 * lam * m * bent + lam * lam * m * d_bent + dz,
-    )
+    inertia = lam * lam * m * bent + z
+    d_inertia = 2.0 * lam * m * bent + lam * lam * m * d_bent + dz
+    Z, dZ = film
 
     def element(i: int, j: int) -> tuple[ComplexArray, ComplexArray]:
-        k, c = K[..., i, j, None], C[..., i, j, None]
-        film = k + lam * c
-        W, dW = film * bent, c * bent + film * d_bent
+        W, dW = Z[..., i, j] * bent, dZ[..., i, j] * bent + Z[..., i, j] * d_bent
         return (W + inertia, dW + d_inertia) if i == j else (W, dW)
 
     (W_xx, dW_xx), (W_xy, dW_xy) = element(0, 0), element(0, 1)
     (W_yx, dW_yx), (W_yy, dW_yy) = element(1, 0), element(1, 1)
     slope = W_yy * dW_xx + W_xx * dW_yy - W_xy * dW_yx - W_yx * dW_xy
     return (W_xy * W_yx - W_xx * W_yy) / slope
-
-
-def _rigid(rotor: Rotor, K: Array, C: Array) -> Array:
-    M = rotor.half_mass
-    A = np.zeros((*K.shape[:-2], 4, 4))
-    A[..., :2, 2:] = _I
-    A[..., 2:, :2] = -K / M
-    A[..., 2:, 2:] = -(C + rotor.disk_damping * _I) / M
-    return A
-
-
-def _massless_journals(rotor: Rotor, K: Array, C: Array) -> Array:
-    """Return A over (disk, journal, disk velocity): the journal moves as film and shaft balance."""
-    k, m = rotor.shaft_stiffness, rotor.disk_mass
-    mobility = np.linalg.inv(C)
-    A = np.zeros((*K.shape[:-2], 6, 6))
-    A[..., :2, 4:] = _I
-    A[..., 2:4, :2] = k * mobility
-    A[..., 2:4, 2:4] = -mobility @ (K + k * _I)
-    A[..., 4:, :2] = -k / m * _I
-    A[..., 4:, 2:4] = k / m * _I
-    A[..., 4:, 4:] = -rotor.disk_damping / m * _I
-    return A
-
-
-def _with_journal_mass(rotor: Rotor, K: Array, C: Array) -> Array:
-    """Return A over (disk, journal, disk velocity, journal velocity)."""
-    k, m, m_j = rotor.shaft_stiffness, rotor.disk_mass, rotor.journal_mass
-    A = np.zeros((*K.shape[:-2], 8, 8))
-    A[..., :4, 4:] = np.eye(4)
-    A[..., 4:6, :2] = -k / m * _I
-    A[..., 4:6, 2:4] = k / m * _I
-    A[..., 4:6, 4:6] = -rotor.disk_damping / m * _I
-    A[..., 6:, :2] = k / m_j * _I
-    A[..., 6:, 2:4] = -(K + k * _I) / m_j
-    A[..., 6:, 6:] = -C / m_j
-    return A

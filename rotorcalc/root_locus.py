@@ -14,7 +14,7 @@ from scipy.optimize import linear_sum_assignment
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.display import Result
-from rotorcalc.modes import ModeShapes
+from rotorcalc.modes import ModeShapes, leading_place
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,9 +44,7 @@ class Locus(Result):
     @property
     def leading(self) -> int:
         """Index of the oscillating mode that decays slowest, or grows fastest, at that speed."""
-        values = self.here.eigenvalues
-        waves = values.imag > 0.0
-        return int(np.argmax(np.where(waves | ~np.any(waves), values.real, -np.inf)))
+        return int(leading_place(self.here.eigenvalues))
 
 
 @checked

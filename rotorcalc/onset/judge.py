@@ -14,10 +14,12 @@ from rotorcalc import modes
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.coefficients import checked_speed, rising_speed, stiffness_and_damping
+from rotorcalc.films import film_of
 from rotorcalc.machine import Machine, Rotor
 from rotorcalc.numerics import routh
 from rotorcalc.onset.characteristic import ExactPolynomial
 from rotorcalc.onset.closed_form import closed_form_onset, covers, excess_mass
+from rotorcalc.onset.growth import growth
 from rotorcalc.onset.search import crossing, humps, search_speeds
 from rotorcalc.onset.whirl import whirl_onset
 
@@ -54,6 +56,11 @@ def is_unstable(
         Where a speed is not positive and finite.
     """
     speeds = checked_speed(speed)
+    film_model = film_of(machine.bearing)
+    if not film_model.can_whirl:
+        return np.zeros(speeds.shape, dtype=bool)
+    if film_model.inner:
+        return growth(machine, speeds, flexible) > 0.0
     K, C = stiffness_and_damping(machine, speeds) if film is None else film
     if covers(machine):
         return _is_too_heavy(machine.rotor, speeds, K, C, flexible=flexible)
@@ -83,6 +90,9 @@ def unstable_ranges(machine: Machine, speed: ArrayLike) -> Array:
         Where the speeds are not positive and finite, in one row, and rising.
     """
     speeds = rising_speed(speed)
+    film = film_of(machine.bearing)
+    if not film.can_whirl:
+        return np.empty((0, 2))
     if covers(machine):
         first = max(closed_form_onset(machine).speed, speeds[0])
         return np.array([[first, speeds[-1]]] if first < speeds[-1] else np.empty((0, 2)))
@@ -91,6 +101,8 @@ def unstable_ranges(machine: Machine, speed: ArrayLike) -> Array:
     speeds = np.union1d(speeds, searched[within])
 
     def margins(speed: Array) -> Array:
+        if film.inner:
+            return growth(machine, speed, True)
         return _margins(machine, speed, *stiffness_and_damping(machine, speed))
 
     found = margins(speeds)

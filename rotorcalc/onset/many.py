@@ -97,7 +97,7 @@ def sure_onsets(machines: Sequence[Machine]) -> Array:
 def _curve(machine: Machine) -> Hashable:
     """Return what is equal for machines whose films follow one curve over σ, None for others."""
     film = film_of(machine.bearing)
-    return film.curve if film.inner == 0 else None
+    return film.curve if film.can_whirl and film.inner == 0 else None
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,12 +19,17 @@ from rotorcalc.machine import Machine
 from rotorcalc.numerics import routh
 from rotorcalc.numerics.roots import narrow_root
 from rotorcalc.onset.characteristic import ExactPolynomial, polynomial
+from rotorcalc.onset.growth import growth, growth_crossing
 from rotorcalc.onset.whirl import Method, Onset, whirl_onset
 
 # Speeds a decade at which the search for the onset looks before it closes in.
 _POINTS_PER_DECADE = 30
 # It looks at so many speeds at once, and no further than it must.
 _BLOCK, _EXACT_BLOCK = 64, 4
+# Where a film's synchronous coefficients feed no whirl, its inner coordinates may: near half speed.
+_HALF = 0.5
+# How much further the search goes for them, and how often it is widened for a film that stiffens.
+_INNER, _RISES = 10.0, 60
 # How near to an onset, relative, there is no doubt below it that the machine is stable, and none
 # above it that it is not.
 _SURE = 1e-9
@@ -47,23 +52,43 @@ def searched_onset(machine: Machine, flexible: bool = True) -> Onset:
     Onset
         As `onset_speed` gives it.
     """
+    film = film_of(machine.bearing)
+    if not film.can_whirl:
+        return _no_onset("film")
+    speeds = search_speeds(machine, flexible)
+    if film.inner:
+        return _onset_by_growth(machine, flexible, speeds)
+    return _onset_by_polynomial(machine, flexible, speeds)
 
+
+def _onset_by_polynomial(machine: Machine, flexible: bool, speeds: Array) -> Onset:
     def most(speeds: Array) -> Array:
         return routh.margin_bounds(polynomial(machine, speeds, flexible))[1]
 
-    speeds = search_speeds(machine, flexible)
     bracket = first_crossing(most, speeds)
     if bracket is None:
         return _no_onset("polynomial")
     found = _in_floats(machine, flexible, *bracket)
     if found is not None:
         return _onset_at(machine, *found, method="polynomial")
+    return _onset_in_many_digits(machine, flexible, speeds[speeds >= bracket[0]])
+
+
+def _onset_in_many_digits(machine: Machine, flexible: bool, speeds: Array) -> Onset:
     exact = ExactPolynomial(machine, flexible)
-    bracket = first_crossing(exact.margins, speeds[speeds >= bracket[0]], block=_EXACT_BLOCK)
+    bracket = first_crossing(exact.margins, speeds, block=_EXACT_BLOCK)
     if bracket is None:
         return _no_onset("extended precision")
     found = (0.0, 0.0) if bracket[0] == 0.0 else _in_many_digits(exact, *bracket)
     return _onset_at(machine, *found, method="extended precision")
+
+
+def _onset_by_growth(machine: Machine, flexible: bool, speeds: Array) -> Onset:
+    bracket = first_crossing(lambda speed: growth(machine, speed, flexible), speeds)
+    if bracket is None:
+        return _no_onset("eigenvalues")
+    found = (0.0, 0.0) if bracket[0] == 0.0 else growth_crossing(machine, flexible, *bracket)
+    return _onset_at(machine, *found, method="eigenvalues")
 
 
 def crossing(machine: Machine, stable: float, unstable: float, *, flexible: bool = True) -> float:
@@ -83,6 +108,8 @@ def crossing(machine: Machine, stable: float, unstable: float, *, flexible: bool
     float
         A speed between the two [rad/s].
     """
+    if film_of(machine.bearing).inner:
+        return growth_crossing(machine, flexible, stable, unstable)[0]
     found = _in_floats(machine, flexible, stable, unstable)
     return (found or _in_many_digits(ExactPolynomial(machine, flexible), stable, unstable))[0]
 
@@ -204,9 +231,25 @@ def search_speeds(machine: Machine, flexible: bool = True) -> Array:
     is_loaded = math.isfinite(unit)
     lowest = lightest / unit if is_loaded else 1e-3 * _slowest_rate(machine, flexible)
     centred = centred / unit if is_loaded else lowest
-    highest = 2.0 * max(centred, _highest_onset(machine, centred, flexible))
+    highest = 2.0 * _beyond_all_onsets(machine, centred, flexible)
+    if film_of(machine.bearing).inner:  # its own parts whirl beside the rotor
+        highest *= _INNER
     points = 1 + math.ceil(_POINTS_PER_DECADE * math.log10(highest / lowest))
     return np.geomspace(lowest, highest, points)
+
+
+def _beyond_all_onsets(machine: Machine, centred: float, flexible: bool) -> float:
+    """Return a speed above every onset [rad/s].
+
+    The stiffness of a film that is not circular goes on rising with speed where it is centred, and
+    with it the highest onset.
+    """
+    highest = centred
+    for _ in range(_RISES):
+        before, highest = highest, max(highest, _highest_onset(machine, highest, flexible))
+        if highest <= 1.5 * before:
+            break
+    return highest
 
 
 def _slowest_rate(machine: Machine, flexible: bool) -> float:
@@ -239,4 +282,5 @@ def _highest_onset(machine: Machine, centred: float, flexible: bool) -> float:
         # Largest of k²C_s/|k + z|² over frequency; a light damper's is cut off, for it quenches
         # no whirl.
         taken = C_s if C_s**2 >= 2.0 * k * m else min(2.0 * k * m / C_s, 1e6 * C)
-    return math.sqrt(max(squares)) * (1.0 + taken / C) / float(film.whirl_ratio)
+    ratio = float(film.whirl_ratio) or _HALF
+    return math.sqrt(max(squares)) * (1.0 + taken / C) / ratio

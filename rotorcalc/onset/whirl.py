@@ -16,7 +16,9 @@ from rotorcalc.arrays import Array, real_array
 from rotorcalc.display import Result
 
 # How an onset was found, the surest and soonest first.
-Method: TypeAlias = Literal["closed form", "polynomial", "extended precision"]
+Method: TypeAlias = Literal[
+    "closed form", "polynomial", "extended precision", "eigenvalues", "film"
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +57,9 @@ class Onset:
         Eccentricity ratio there, ε [-]; not a number where there is none.
     method : str
         How it was found: by the "closed form" of `onset.closed_form`, on the characteristic
-        "polynomial", or on that in "extended precision" where floats leave doubt.
+        "polynomial", on that in "extended precision" where floats leave doubt, on the
+        "eigenvalues" where the film has coordinates of its own; by the "film" alone where it cannot
+        whirl.
     """
 
     speed: float

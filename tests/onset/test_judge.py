@@ -19,8 +19,6 @@ from tests.onset.reference import drawn, unstable_roots
 
 wide = settings(max_examples=40, suppress_health_check=[HealthCheck.too_slow])
 seeds = st.integers(0, 10**6)
-# Midspan damping that quenches the whirl of the disk again, before that of the journals begins.
-TWICE = with_rotor(shaft_stiffness=2.95e7, disk_damping=1.0e5, journal_mass=0.03)
 
 
 @wide
@@ -35,7 +33,7 @@ def test_the_judge_counts_as_sixty_digits_do(seed, power, flexible):
 
 @wide
 @given(seeds)
-@example(797)
+@example(114539)  # one end sure in floats, the other not
 def test_the_first_range_begins_at_the_onset(seed):
     machine = drawn(seed)
     onset = onset_speed(machine).speed

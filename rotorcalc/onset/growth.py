@@ -1,0 +1,43 @@
+"""The onset of machines whose film has coordinates of its own: on the eigenvalues.
+
+Such a film's coefficients depend on the whirl's frequency, so neither Eqs. 5.45 to 5.50 nor a
+polynomial of fixed degree hold. The mode that grows fastest is refined on the machine's impedance.
+"""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rotorcalc import modes
+from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.coefficients import dynamics
+from rotorcalc.machine import Machine
+from rotorcalc.numerics.roots import narrow_root
+
+# A refined eigenvalue that has moved further, relative, has gone to another.
+_SAME = 1e-6
+
+
+def fastest(machine: Machine, speed: ArrayLike, flexible: bool) -> ComplexArray:
+    """Return λ of the mode that grows fastest at speeds (...) [1/s]."""
+    film, rotor = dynamics(machine, speed), machine.rotor
+    matrices = (rotor, film.stiffness, film.damping)
+    known = modes.eigenvalues(*matrices, inertia=film.inertia, flexible=flexible)
+    refined = modes.refined_eigenvalues(*matrices, inertia=film.inertia, flexible=flexible)
+    refined = refined[..., : known.shape[-1]]  # they begin with these
+    is_same = np.abs(refined - known) <= _SAME * np.abs(known)
+    values: ComplexArray = np.where(is_same, refined, known)
+    return np.take_along_axis(values, np.argmax(values.real, axis=-1)[..., None], axis=-1)[..., 0]
+
+
+def growth(machine: Machine, speed: ArrayLike, flexible: bool) -> Array:
+    """Return the largest Re λ/Ω of any mode at speeds (...) [-]."""
+    return fastest(machine, speed, flexible).real / np.asarray(speed)
+
+
+def growth_crossing(
+    machine: Machine, flexible: bool, stable: float, unstable: float
+) -> tuple[float, float]:
+    """Return speed and whirl frequency where a machine changes between two speeds [rad/s]."""
+    low, high = sorted((stable, unstable))
+    root = narrow_root(lambda speed: growth(machine, speed, flexible), low, high)
+    return root, float(abs(fastest(machine, root, flexible).imag))

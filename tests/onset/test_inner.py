@@ -1,0 +1,119 @@
+"""Onset and eigenvalues with films that are not the short one, against a pencil of their own."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.linalg
+
+from rotorcalc import modes, onset_speed
+from rotorcalc.coefficients import dynamics
+from rotorcalc.onset.judge import is_unstable, unstable_ranges
+from rotorcalc.onset.many import onset_speeds
+from tests.films.models import BEARINGS
+from tests.machines import ROTORS, SHEET
+
+WHIRLING = [name for name in BEARINGS if name != "sprung"]
+
+
+def machine_of(bearing, rotor, load=None):
+    return replace(SHEET, bearing=BEARINGS[bearing], rotor=replace(ROTORS[rotor]), load=load)
+
+
+def pencil(machine, speed, *, flexible=True):
+    """Return the finite eigenvalues of M q̈ + C q̇ + K q = 0, as a pencil of first order.
+
+    A rigid shaft is Lagrange's multiplier; a mass of zero is left in, and gives infinite ones.
+    """
+    film, rotor = dynamics(machine, speed), machine.rotor
+    n = film.stiffness.shape[-1] + 2
+    K, C = np.zeros((n, n)), np.zeros((n, n))
+    K[2:, 2:], C[2:, 2:] = film.stiffness, film.damping
+    C[:2, :2] += rotor.disk_damping * np.eye(2)
+    rigid = rotor.is_rigid or not flexible
+    M = np.diag([rotor.disk_mass] * 2 + [rotor.journal_mass] * 2 + list(film.inertia))
+    tie = np.zeros((2, n))
+    tie[:, :2], tie[:, 2:4] = np.eye(2), -np.eye(2)
+    if not rigid:
+        K += rotor.shaft_stiffness * tie.T @ tie
+    m = 2 if rigid else 0
+    A, B = np.zeros((2 * n + m, 2 * n + m)), np.zeros((2 * n + m, 2 * n + m))
+    A[:n, n : 2 * n], B[:n, :n] = np.eye(n), np.eye(n)
+    A[n : 2 * n, :n], A[n : 2 * n, n : 2 * n], B[n : 2 * n, n : 2 * n] = -K, -C, M
+    if rigid:
+        scale = np.abs(K).max()
+        A[n : 2 * n, 2 * n :] = scale * tie.T
+        A[2 * n :, :n] = scale * tie
+    values = scipy.linalg.eigvals(A, B)
+    return values[np.isfinite(values) & (np.abs(values) < 1e7 * speed)]
+
+
+@pytest.mark.parametrize("rotor", ROTORS)
+@pytest.mark.parametrize("bearing", BEARINGS)
+@pytest.mark.parametrize("speed", [300.0, 900.0])
+def test_eigenvalues_are_those_of_the_pencil(bearing, rotor, speed):
+    machine = machine_of(bearing, rotor)
+    film = dynamics(machine, speed)
+    matrices = (machine.rotor, film.stiffness, film.damping)
+    found = modes.eigenvalues(*matrices, inertia=film.inertia)
+    refined = modes.refined_eigenvalues(*matrices, inertia=film.inertia)
+    expected = pencil(machine, speed)
+    near = found[np.abs(found) < 1e6 * speed]
+    assert len(near) <= len(expected) + 2
+    for value in near:
+        assert np.abs(expected - value).min() <= 1e-5 * abs(value)
+        assert np.nanmin(np.abs(refined - value)) <= 1e-6 * abs(value)
+    shapes = modes.mode_shapes(*matrices, inertia=film.inertia)
+    A = modes.state_matrix(*matrices, inertia=film.inertia)
+    residual = A @ shapes.vectors - shapes.vectors * shapes.eigenvalues
+    assert np.abs(residual).max() <= 1e-9 * np.abs(A).max() * np.abs(shapes.vectors).max()
+    assert shapes.disk.shape == shapes.journal.shape == (len(found), 2)
+
+
+@pytest.mark.parametrize("rotor", ROTORS)
+@pytest.mark.parametrize("bearing", WHIRLING)
+def test_the_onset_parts_decay_from_growth(bearing, rotor):
+    machine = machine_of(bearing, rotor)
+    onset = onset_speed(machine)
+    top = min(onset.speed, 3e4)
+    for speed in np.geomspace(0.05 * top, 0.999999 * top, 25):
+        assert pencil(machine, speed).real.max() < 0.0
+    if math.isfinite(onset.speed):
+        values = pencil(machine, 1.000001 * onset.speed)
+        assert values.real.max() > 0.0
+        lead = values[np.argmax(values.real)]
+        assert abs(lead.imag) == pytest.approx(onset.whirl_frequency, rel=1e-4)
+        speeds = onset.speed * np.array([0.5, 0.999, 1.001, 1.1])
+        assert is_unstable(machine, speeds)[:3].tolist() == [False, False, True]
+        assert unstable_ranges(machine, speeds)[0, 0] == pytest.approx(onset.speed, rel=1e-9)
+    assert onset_speeds([machine])[0] == pytest.approx(onset.speed, rel=1e-9)
+
+
+@pytest.mark.parametrize("rotor", ROTORS)
+@pytest.mark.parametrize("load", [None, 0.0])
+def test_a_film_that_cannot_whirl_has_no_onset(rotor, load):
+    machine = machine_of("sprung", rotor, load)
+    onset = onset_speed(machine)
+    assert (onset.speed, onset.method) == (math.inf, "film")
+    assert math.isnan(onset.whirl_frequency)
+    assert np.all(np.isinf(onset_speeds([machine] * 5)))
+    assert not np.any(is_unstable(machine, [10.0, 1e3, 1e5]))
+    assert unstable_ranges(machine, [10.0, 1e3, 1e5]).shape == (0, 2)
+
+
+@pytest.mark.parametrize("rotor", ["rigid", "massless journals", "journal mass"])
+def test_a_film_that_holds_the_journal_in_its_centre_is_stable_without_load(rotor):
+    """κ in film units: M(Ω/2)² = κ μΩRL³/C³ of a rigid rotor, and any other balances there too."""
+    machine = machine_of("preloaded", rotor, load=0.0)
+    onset = onset_speed(machine)
+    assert onset.speed > 0.0
+    assert onset.whirl_frequency == pytest.approx(onset.speed / 2, rel=1e-9)
+    assert pencil(machine, 0.9999 * onset.speed).real.max() < 0.0
+    assert pencil(machine, 1.0001 * onset.speed).real.max() > 0.0
+    if rotor == "rigid":
+        b = machine.bearing
+        unit = machine.viscosity * b.radius * b.length**3 / b.radial_clearance**3
+        kappa = b.geometry.spring
+        expected = 4.0 * kappa * unit / machine.rotor.half_mass
+        assert onset.speed == pytest.approx(expected, rel=1e-9)
