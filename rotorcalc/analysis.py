@@ -13,9 +13,9 @@ from numpy.typing import ArrayLike
 from rotorcalc import modes
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, ComplexArray
-from rotorcalc.coefficients import equilibrium
+from rotorcalc.coefficients import dynamics, equilibrium
 from rotorcalc.display import Result
-from rotorcalc.films import FilmState, film_state
+from rotorcalc.films import FilmState, film_of, film_state
 from rotorcalc.frames import rotate
 from rotorcalc.machine import JournalBearing, Machine
 from rotorcalc.onset.whirl import WhirlOnset, flexible_threshold, whirl_onset
@@ -101,17 +101,24 @@ class Sweep(Result):
 
     @cached_property
     def rigid_eigenvalues(self) -> ComplexArray:
-        """λ of the rigid rotor [1/s], (n, 4); computed when first asked for."""
-        rotor = self.machine.rotor
-        return modes.eigenvalues(rotor, self.stiffness, self.damping, flexible=False)
+        """λ of the rigid rotor [1/s], (n, 4), and of inner coordinates; when first asked for."""
+        return self._eigenvalues(flexible=False)
 
     @cached_property
     def flexible_eigenvalues(self) -> ComplexArray:
         """λ of the flexible rotor [1/s], (n, 6); 8 with journal mass; a rigid shaft's as above."""
-        rotor = self.machine.rotor
-        if rotor.is_rigid:
+        if self.machine.rotor.is_rigid:
             return self.rigid_eigenvalues
-        return modes.eigenvalues(rotor, self.stiffness, self.damping)
+        return self._eigenvalues(flexible=True)
+
+    def _eigenvalues(self, *, flexible: bool) -> ComplexArray:
+        machine, rotor = self.machine, self.machine.rotor
+        if film_of(machine.bearing).inner:
+            film = dynamics(machine, self.speed)
+            return modes.eigenvalues(
+                rotor, film.stiffness, film.damping, inertia=film.inertia, flexible=flexible
+            )
+        return modes.eigenvalues(rotor, self.stiffness, self.damping, flexible=flexible)
 
     def to_dataframe(self) -> "pd.DataFrame":
         """Return the sweep as a table of pandas: a row a speed, a column a number.

@@ -4,9 +4,9 @@ On a lightly loaded film, σ ≫ 1, or a soft shaft the growth of a whirl is to 
 as 1/σ and as K_rot/K_eq. Where both are small together, a float's sixteen digits do not hold it.
 """
 
+import functools
 from collections.abc import Callable
 from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal, localcontext
-from functools import wraps
 from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
@@ -17,7 +17,7 @@ from rotorcalc.arrays import Array
 from rotorcalc.coefficients import stiffness_and_damping
 from rotorcalc.films import film_of
 from rotorcalc.films.short import exact
-from rotorcalc.machine import Machine
+from rotorcalc.machine import Machine, Rotor
 from rotorcalc.numerics import routh
 
 # A division by zero gives infinity as in NumPy, not an error.
@@ -33,7 +33,7 @@ T = TypeVar("T")
 def many_digits(function: Callable[P, T]) -> Callable[P, T]:
     """Have a function compute with `Decimal` in sixty digits."""
 
-    @wraps(function)
+    @functools.wraps(function)
     def computed(*args: P.args, **kwargs: P.kwargs) -> T:
         with localcontext(_DIGITS):
             return function(*args, **kwargs)
@@ -43,8 +43,14 @@ def many_digits(function: Callable[P, T]) -> Callable[P, T]:
 
 def polynomial(machine: Machine, speed: ArrayLike, flexible: bool) -> Array:
     """Return the characteristic polynomials of a machine at speeds (...), floats (..., n+1)."""
-    K, C = stiffness_and_damping(machine, speed)
-    return modes.characteristic_polynomial(machine.rotor, K, C, flexible=flexible)
+    return modes.film_terms(*stiffness_and_damping(machine, speed)) @ _rotor_terms(
+        machine.rotor, flexible
+    )
+
+
+@functools.lru_cache(maxsize=64)
+def _rotor_terms(rotor: Rotor, flexible: bool) -> Array:
+    return modes.rotor_terms(rotor, flexible=flexible)
 
 
 class ExactPolynomial:

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from rotorcalc import modes, onset_speed
+from rotorcalc import analyse, modes, onset_speed
 from rotorcalc.coefficients import dynamics
 from rotorcalc.onset.judge import is_unstable, unstable_ranges
 from rotorcalc.onset.many import onset_speeds
@@ -117,3 +117,14 @@ def test_a_film_that_holds_the_journal_in_its_centre_is_stable_without_load(roto
         kappa = b.geometry.spring
         expected = 4.0 * kappa * unit / machine.rotor.half_mass
         assert onset.speed == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("bearing", ["ringed", "ringed, heavy"])
+def test_a_sweep_has_the_inner_coordinates_eigenvalues(bearing):
+    machine = machine_of(bearing, "massless journals")
+    sweep = analyse(machine, [300.0, 900.0])
+    for speed, values in zip(sweep.speed, sweep.flexible_eigenvalues, strict=True):
+        expected = pencil(machine, speed)
+        for value in values[np.abs(values) < 1e6 * speed]:
+            assert np.abs(expected - value).min() <= 1e-5 * abs(value)
+    assert sweep.rigid_eigenvalues.shape == (2, sweep.flexible_eigenvalues.shape[1] - 2)
