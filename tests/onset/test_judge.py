@@ -103,5 +103,5 @@ def test_a_family_is_judged_as_its_machines_are():
 
 @pytest.mark.parametrize("speed", [3.0, [], [[1.0, 2.0]], [2.0, 1.0], [1.0, 1.0]])
 def test_speeds_that_do_not_rise_are_refused(speed):
-    with pytest.raises(ValueError, match="rising speeds|greater than the speed before it"):
+    with pytest.raises(ValueError, match=r"rising speeds|greater than the speed before it"):
         unstable_ranges(SHEET, speed)
