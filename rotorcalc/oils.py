@@ -20,6 +20,8 @@ ISO_VG: dict[str, tuple[float, float]] = {
     "ISO VG 68": (68.0, 8.731),
     "ISO VG 100": (100.0, 11.384),
 }
+# A round value for mineral oils [kg/m³]; it enters through the film's Reynolds number, and turns
+# a grade's kinematic viscosity into the dynamic one.
 DENSITY = 860.0
 # The range of the charts of ASTM D341 [°C].
 _COLDEST, _HOTTEST = -70.0, 370.0

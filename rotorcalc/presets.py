@@ -38,7 +38,8 @@ class Preset:
 
 
 _SHEET_STIFF = Machine(
-    # 2.5e-6 reyn at 50 °C; a reyn is a lbf·s/in², 6894.757 Pa·s in the sheet.
+    # The sheet's own rounded factors: with the exact pound its half mass would be 136.078 kg, not
+    # the printed 136.071. 2.5e-6 reyn at 50 °C; a reyn is a lbf·s/in², 6894.757 Pa·s in the sheet.
     oil=Oil(
         reference_viscosity=2.5e-6 * 6894.757,
         reference_temperature=50.0,

@@ -24,7 +24,7 @@ from rotorcalc.onset import Onset
 from rotorcalc.onset.whirl import flexible_threshold
 
 _I = np.eye(2)
-# The modified Sommerfeld number below which no film can whirl.
+# The modified Sommerfeld number below which no film can whirl; the short one stops at 0.0664.
 _CLOSEST_FILM = 1e-3
 _CIRCLE: ComplexArray = np.array([1.0, -1.0j])  # turns forward
 

@@ -4,6 +4,7 @@ In the plane X, along the load, points down and Y to the right, so the shaft tur
 The linear theory is always drawn in purple, broken.
 """
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -376,8 +377,8 @@ def _placed(chart: Chart) -> Chart:
 
 
 def _thin(values: Array) -> Array:
-    """Return every so manieth value, no more than a screen can show."""
-    return values[:: max(1, len(values) // _MOST_POINTS)]
+    """Return values thinned evenly to at most 6000 points."""
+    return values[:: max(1, math.ceil(len(values) / _MOST_POINTS))]
 
 
 def _guides() -> list[dict[str, Any]]:

@@ -14,12 +14,15 @@ from rotorcalc.onset import Onset
 from rotorcalc.root_locus import Locus
 from rotorcalc.units import Units
 
+# Speeds at which the scrubber stops, one every 2.5 % of the top speed.
 _STEPS = 40
 # From slow to fast, apart from each other to colour-blind eyes, and 3 : 1 on light and dark.
 _SLOW_TO_FAST = ((43, 123, 186), (176, 86, 159), (214, 128, 10))
+# A Plotly line has one colour, so a branch is drawn in pieces; with twelve the steps hardly show.
 _PIECES = 12
 # A mode more damped than this hardly swings, and lies far left of the others.
 HARDLY_SWINGS = 0.7
+# Damping ratios of the rays, each twice the one before: light damping is what matters.
 _RAYS = (0.05, 0.1, 0.2, 0.4)
 _HOVER = "Ω %{customdata:.0f}<br>Re λ %{x:.4g}<br>Im λ %{y:.0f}<extra></extra>"
 Item = dict[str, Any]

@@ -21,6 +21,7 @@ Item = dict[str, Any]
 # Under the axis, at the figure's lower edge: it takes nothing from the plot and meets nothing.
 LEGEND = {"orientation": "h", "x": 0, "yref": "container", "y": 0, "yanchor": "bottom"}
 MARGIN = {"l": 64, "r": 16, "t": 16, "b": 112}
+# Stands for infinity: a line can rise to it, beyond the end of any axis.
 _BEYOND = 1e7
 _STABLE = "rgba(0,145,106,0.13)"
 # Half the space between the two bars at one speed, and their width.

@@ -38,6 +38,7 @@ HEIGHT = 380
 SMALL_HEIGHT = 280
 # The share of two panes, one above the other, in a chart's height.
 UPPER, LOWER = [0.55, 1.0], [0.0, 0.45]
+# Round ends of an axis within a decade, so close that at most a quarter of it stays empty.
 _LADDER = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 
 

@@ -77,6 +77,15 @@ def test_the_charts_show_the_records_numbers(releases):
     assert np.nanmax(np.abs(x)) == pytest.approx(np.abs(found.motion.journal[:, 0]).max() * 1e6)
 
 
+@pytest.mark.parametrize("points", [1, 5999, 6000, 6001, 11999, 12000, 12001])
+def test_a_long_line_is_thinned_to_what_a_screen_shows(points):
+    thinned = orbits._thin(np.arange(points))
+    assert len(thinned) <= 6000
+    assert thinned[0] == 0
+    assert len(np.unique(np.diff(thinned))) <= 1
+    assert points < 6000 or len(thinned) > 2500
+
+
 def test_a_run_up_and_its_marks():
     motion = simulate(
         with_rotor(imbalance=2e-6), 8000 * RPM, revolutions=60, samples_per_revolution=16,

@@ -15,7 +15,7 @@ from contextlib import contextmanager
 
 
 class Gate:
-    """Lets one thread through at a time, who came first goes first, also after stepping aside."""
+    """Admits one thread at a time, in order of arrival, also after stepping aside."""
 
     def __init__(self) -> None:
         self._mine = threading.local()

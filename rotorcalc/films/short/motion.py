@@ -16,15 +16,18 @@ Units and axes as in `short`: position in C, velocity in CΩ, force in μΩRL³/
 
 import math
 
-# Closer to the wall than this the force is that of this distance: only a trial step that an
-# integrator then takes back comes there.
+# Nearer to the wall than κ² = 1 − x² − y² = 1e-10 the force is the one at that distance: only trial
+# steps come there, which the integrator then rejects.
 _LEAST_KAPPA2 = 1e-10
+# The n-th coefficients of W'/2 and of W in powers of (κ/b)², from the highest down (Horner).
 _SERIES = tuple((3.0 / (2 * n + 1) - 1.0, 3.0 / (2 * n + 1) - 1.0 / (2 * n - 1), n)
                 for n in reversed(range(2, 16)))  # fmt: skip
+# κ/b below which W comes from the series: there differences in the closed form cancel (it errs by
+# 1e-12 at 0.2, by 1e-8 at 0.02), and the terms left out are below rounding.
 _SLACK = 0.2
-_MOST_ITERATIONS = 120
-_TOLERANCE = 4e-15
-# After a step of Newton's as short as this, the next one would be a rounding error.
+# Halving alone takes 50 steps from π down to the tolerance, some ten roundings of π.
+_MOST_ITERATIONS, _TOLERANCE = 120, 4e-15
+# Newton's steps square: after one as short as √1e-15 the next would be a rounding error.
 _LAST_STEP = 3e-8
 
 
@@ -64,8 +67,8 @@ def velocity(
     f_x, f_y : float
         Force of the film in X and Y, in μΩRL³/C².
     near : list or None
-        The last search's memory, where this one begins, and which it changes; empty at first. The
-        nearer the two points the sooner it ends.
+        Memory of the last search, where this one begins, and which it updates; empty at first. The
+        closer the two points, the fewer steps it takes.
 
     Returns
     -------
@@ -100,7 +103,7 @@ def velocity(
         step = error / ((W + slope_a) * sin - g_a * cos)
         if error > 0.0:
             low = psi
-        elif error <= 0.0:  # neither for what is no number: that search does not end
+        elif error <= 0.0:  # NaN moves neither end, so that its search ends in the error below
             high = psi
         if abs(step) <= _LAST_STEP or high - low <= _TOLERANCE:
             if near is not None:
@@ -118,7 +121,7 @@ def _impedance(b: float, kappa2: float) -> tuple[float, float, float]:
     """Return W, W'/2 and W'': g_b, the force against the velocity at V = 1, and what makes g_a."""
     kappa2 = kappa2 if kappa2 > _LEAST_KAPPA2 else _LEAST_KAPPA2  # noqa: FURB136 - max is slow
     kappa = math.sqrt(kappa2)
-    if kappa < _SLACK * b:  # all are small differences there: by their series
+    if kappa < _SLACK * b:  # differences of nearly equal terms: by their series
         return _slack_impedance(b, kappa2 / (b * b))
     G, q, half = 2.0 / kappa * math.atan2(kappa, b), b / (kappa2 + b * b), 0.5 / (kappa2 * kappa2)
     slack, bq = 3.0 * (b * G - 2.0), 2.0 * b * q

@@ -8,15 +8,15 @@ from numpy.typing import ArrayLike
 from rotorcalc.arrays import Array, real_array
 from rotorcalc.frames import vector
 
-# ln(ε/s) between which the search for ε begins. From the last but one at either end on, the curve
-# is straight, past the largest and the smallest of numbers.
+# Points of ln(ε/s) on whose chords the search for ε begins. Beyond ±12 the curve is straight, so
+# one point at either end, past the largest and the smallest double, serves for the rest.
 _LN_W = np.concatenate([[-800.0], np.linspace(-12.0, 12.0, 2401), [200.0]])
 
 
-# The change of ln(ε/s) that ends it: the error that is left is less than 12 times its square.
+# A step of ln(ε/s) as small as this is the last: it leaves an error below 12 times its square.
 _TOLERANCE = 1e-8
 
-
+# Two tangents suffice for σ = 1e-12 … 1e12; more mean that something is wrong.
 _MOST_ITERATIONS = 50
 
 
