@@ -311,6 +311,6 @@ BAD_SPEEDS = [
 
 @pytest.mark.parametrize("speed", BAD_SPEEDS, ids=[f"bad{n}" for n in range(len(BAD_SPEEDS))])
 @pytest.mark.parametrize("function", [analyse, equilibrium, modified_sommerfeld])
-def test_what_is_no_speed_is_refused_by_its_name(function, speed):
+def test_a_speed_that_is_not_a_number_is_refused_by_name(function, speed):
     with pytest.raises(ValueError, match=r"^speed = "):
         function(SHEET, speed)

@@ -346,7 +346,7 @@ def test_both_solutions_beside_an_extreme_are_found() -> None:
     assert len(none.solutions) == 0
 
 
-def test_no_solution_tells_what_can_be_reached() -> None:
+def test_without_a_solution_the_reachable_range_is_told() -> None:
     found = design.solve_onset(SHEET, vary="temperature", target=20000 * RPM, low=0.0, high=150.0)
     assert len(found.solutions) == 0
     onsets = [
@@ -401,7 +401,7 @@ def test_an_onset_at_infinity_is_bracketed_too(monkeypatch: pytest.MonkeyPatch) 
         ({"vary": "clearance"}, "no input"),
     ],
 )
-def test_what_cannot_be_solved_is_named(wrong: dict[str, float], message: str) -> None:
+def test_an_input_that_cannot_be_solved_for_is_named(wrong: dict[str, float], message: str) -> None:
     asked = {"vary": "radial_clearance", "target": 700.0, "low": 1e-5, "high": 1e-4} | wrong
     with pytest.raises(ValueError, match=message):
         design.solve_onset(SHEET, **asked)

@@ -106,7 +106,7 @@ def test_a_clearance_of_a_tenth_of_the_radius_is_accepted():
 
 
 @pytest.mark.parametrize("temperature", ["50", math.nan, None, [20.0, math.inf], True, {}])
-def test_an_oil_has_no_viscosity_at_what_is_no_temperature(temperature):
+def test_viscosity_at_an_invalid_temperature_is_refused(temperature):
     with pytest.raises(ValueError, match=r"^temperature = "):
         SHEET.oil.viscosity(temperature)
 
@@ -131,7 +131,7 @@ def test_a_field_from_zero_accepts_zero(record, name):
 
 
 @pytest.mark.parametrize(("record", "name"), POSITIVE)
-def test_a_positive_field_accepts_what_is_barely_more_than_zero(record, name):
+def test_a_positive_field_accepts_the_smallest_positive_number(record, name):
     # With the smallest mass there is no journal to take out of it, and a journal has its clearance.
     others = {"mass": {"journal_mass": 0.0}, "diameter": {"radial_clearance": 1e-303}}.get(name, {})
     assert getattr(made(record, **{name: 1e-300}, **others), name) == 1e-300
@@ -160,14 +160,14 @@ def test_a_number_that_is_not_finite_is_refused(record, name, value):
     "value",
     ["1.0", b"1", True, False, [1.0], (1.0,), {}, 1j, Decimal(1), np.ones(2), Unprintable()],
 )
-def test_what_is_no_number_is_refused(record, name, value):
+def test_a_value_that_is_not_a_number_is_refused(record, name, value):
     message = error(record, **{name: value})
     assert message.startswith(f"{name} = ")
     assert "must be a number in " in message
 
 
 @pytest.mark.parametrize(("record", "name"), [pair for pair in NUMBERS if pair[1] != "load"])
-def test_none_is_refused_but_as_a_load(record, name):
+def test_none_is_refused_except_as_a_load(record, name):
     assert error(record, **{name: None}).startswith(f"{name} = None: must be a number")
     assert made(Machine, load=None).load is None
 
@@ -384,7 +384,7 @@ def test_json_leaves_defaults_out():
     assert "load" not in written
 
 
-def test_an_infinite_value_that_is_no_default_is_the_word_inf():
+def test_an_infinite_value_other_than_the_default_is_written_as_inf():
     class_ = make_dataclass(
         "Stiff",
         [("k", Annotated[float, Bound("N/m", infinite=True)])],
@@ -527,7 +527,7 @@ def test_a_value_out_of_its_bound_is_named(value):
 
 @pytest.mark.parametrize("part", ["oil", "bearing", "rotor"])
 @pytest.mark.parametrize("value", [None, 1, "x", [], True])
-def test_a_part_that_is_no_object_is_named(part, value):
+def test_a_part_that_is_not_an_object_is_named(part, value):
     assert refusal(json.dumps(document(**{part: value}))).startswith(f"{part} = ")
 
 
@@ -569,14 +569,14 @@ def test_deep_nesting_is_refused(text):
 @pytest.mark.parametrize(
     "text", ["", " ", "{", "null", "1", '"x"', "[]", "{}", "{'a': 1}", "\ufeff{}"]
 )
-def test_text_that_is_no_machine_is_refused(text):
+def test_text_that_is_not_a_machine_is_refused(text):
     assert "machine" in refusal(text) or "version" in refusal(text)
 
 
 @pytest.mark.parametrize(
     "value", [None, 1, 1.5, {}, [], object(), b"\xff\xfe", b"\x80", b"\xff" * 9]
 )
-def test_what_is_no_text_is_refused(value):
+def test_a_file_that_is_not_text_is_refused(value):
     assert refusal(value).startswith("no JSON text of a machine: ")
 
 

@@ -32,7 +32,7 @@ def test_a_preset_runs_below_its_onset_and_its_range_shows_it(name):
 
 
 @pytest.mark.parametrize("name", PRESETS)
-def test_a_preset_says_what_it_is_and_survives_json(name):
+def test_a_preset_has_title_and_note_and_survives_json(name):
     preset = PRESETS[name]
     assert preset.title
     assert preset.note

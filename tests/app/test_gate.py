@@ -73,7 +73,7 @@ def test_order_of_arrival_holds_after_stepping_aside_too() -> None:
     assert seen == ["second", "first", "third"]
 
 
-def test_what_fails_inside_or_aside_leaves_the_gate_open() -> None:
+def test_an_error_inside_or_aside_leaves_the_gate_open() -> None:
     gate = Gate()
     with pytest.raises(RuntimeError), gate.through():
         raise RuntimeError

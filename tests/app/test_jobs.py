@@ -57,7 +57,7 @@ def test_no_more_than_the_limit_run_at_once_in_order_of_arrival(limit: int) -> N
         assert sorted(order[i : i + limit]) == list(range(i, i + limit))
 
 
-def test_many_threads_take_and_give_back_processes_and_never_share_one() -> None:
+def test_threads_at_once_never_share_a_process() -> None:
     turns, together = Turns(4, hire=Here), threading.Barrier(4)
 
     def run(_: int) -> Here:
@@ -90,7 +90,7 @@ def test_a_process_left_in_the_middle_of_something_is_ended_and_another_hired() 
     assert second.closed
 
 
-def test_who_would_wait_too_long_is_told_and_not_kept_waiting(monkeypatch) -> None:
+def test_a_visitor_at_the_end_of_a_full_line_is_told_and_not_kept_waiting(monkeypatch) -> None:
     said: list[str] = []
     monkeypatch.setattr(queue.st, "warning", said.append)
 
@@ -121,7 +121,7 @@ def test_who_would_wait_too_long_is_told_and_not_kept_waiting(monkeypatch) -> No
 
 
 @pytest.mark.parametrize("limit", [1, 2, 4])
-def test_those_who_ask_for_the_same_at_once_have_it_computed_once(limit: int) -> None:
+def test_requests_for_the_same_at_once_are_computed_once(limit: int) -> None:
     begun, go_on = threading.Semaphore(0), threading.Event()
     asked: list[int] = []
 
@@ -141,7 +141,7 @@ def test_those_who_ask_for_the_same_at_once_have_it_computed_once(limit: int) ->
     assert asked == [21]
 
 
-def test_those_who_wait_for_the_same_do_not_hold_up_others() -> None:
+def test_requests_that_wait_for_the_same_do_not_hold_up_others() -> None:
     begun, go_on = threading.Event(), threading.Event()
 
     def work(number: int) -> int:
@@ -160,7 +160,7 @@ def test_those_who_wait_for_the_same_do_not_hold_up_others() -> None:
         assert [one.result(PATIENCE) for one in same] == [42] * 4
 
 
-def test_a_computation_that_fails_is_taken_over_by_the_next_who_asked_for_it() -> None:
+def test_a_computation_that_fails_is_taken_over_by_the_next_request_for_it() -> None:
     begun, go_on = threading.Event(), threading.Event()
     asked: list[int] = []
 

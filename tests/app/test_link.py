@@ -36,7 +36,7 @@ def _values(draw: st.DrawFn, preset: str) -> Values:
 
 @pytest.mark.parametrize("preset", PRESETS)
 @given(data=st.data(), units=st.sampled_from(sorted(SYSTEMS)))
-def test_what_is_written_is_read(preset: str, data: st.DataObject, units: str) -> None:
+def test_a_link_reads_back_as_it_was_written(preset: str, data: st.DataObject, units: str) -> None:
     values = data.draw(_values(preset))
     params = address.write(preset, values, units)
     again = address.read(params)
@@ -122,7 +122,7 @@ def test_the_weight_can_be_named() -> None:
 )
 @example({"C": "1_0"})
 @example({"C": "١٢٠"})
-def test_no_link_whatever_breaks_the_program(params: dict[str, str]) -> None:
+def test_no_link_breaks_the_program(params: dict[str, str]) -> None:
     read = address.read(params)
     machine_of(read.values)
     assert all(not item.problem(read.values[key]) for key, item in INPUTS.items())
@@ -132,7 +132,7 @@ def test_no_link_whatever_breaks_the_program(params: dict[str, str]) -> None:
 
 
 @given(st.text(max_size=300))
-def test_what_a_visitor_typed_cannot_be_markup(word: str) -> None:
+def test_quoted_input_is_never_markup(word: str) -> None:
     shown = address.quoted(word)
     assert shown.startswith("`")
     assert shown.endswith("`")

@@ -73,7 +73,7 @@ def test_long_work_starts_on_demand_and_is_kept_until_the_machine_changes() -> N
     assert at.button(key="orbits_cycles")
 
 
-def test_cancel_ends_what_was_asked_for() -> None:
+def test_cancel_ends_the_computation() -> None:
     at = visit(ORBITS)
     open_part(at, "orbits_tab", "Limit cycles")
     press(at, "orbits_cycles")

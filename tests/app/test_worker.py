@@ -24,14 +24,14 @@ def worker() -> Iterator[Worker]:
     made.close()
 
 
-def test_it_answers_what_this_process_would(worker: Worker) -> None:
+def test_the_answer_is_the_one_of_this_process(worker: Worker) -> None:
     asked = SHEET, 600.0, 0.3, 20
     there, here = worker.run(work.release, asked, None), work.release(*asked)
     assert np.array_equal(there.motion.journal, here.motion.journal)
     assert there.stopped == here.stopped
 
 
-def test_its_progress_is_told(worker: Worker) -> None:
+def test_progress_is_reported(worker: Worker) -> None:
     told: list[float] = []
     worker.run(work.release, LONG, told.append)
     assert len(told) > 10
@@ -39,7 +39,7 @@ def test_its_progress_is_told(worker: Worker) -> None:
     assert told[-1] == 1.0
 
 
-def test_what_the_listener_raises_ends_the_computation_and_not_the_process(worker: Worker) -> None:
+def test_an_error_in_the_listener_ends_the_computation_and_not_the_process(worker: Worker) -> None:
     class LeftError(BaseException):
         pass
 
@@ -56,7 +56,7 @@ def test_what_the_listener_raises_ends_the_computation_and_not_the_process(worke
     assert worker.run(np.zeros, (3,), None).shape == (3,)
 
 
-def test_what_it_raises_is_raised_here_with_its_places(worker: Worker) -> None:
+def test_an_error_is_raised_here_with_its_places_in_the_code(worker: Worker) -> None:
     with pytest.raises(ValueError, match="radial clearance") as caught:
         worker.run(work.release, (SHEET, 600.0, 5.0, 20), None)
     assert any("work.py" in place for place in described(caught.value)["places"])

@@ -47,7 +47,7 @@ async def _visit(address: str) -> list[str]:
         return visitor.texts()
 
 
-def test_what_fails_has_an_id_on_the_page_and_in_the_log_and_nothing_of_the_visitor(
+def test_a_failure_has_an_id_on_page_and_in_log_and_nothing_of_the_visitor(
     failing: Replica,
 ) -> None:
     said = " ".join(finished(_visit(failing.address)))

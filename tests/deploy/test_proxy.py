@@ -92,7 +92,7 @@ def test_a_replica_itself_refuses_a_foreign_host(site: Site, host: str) -> None:
 @pytest.mark.parametrize(
     "path", ["healthz", "_stcore/metrics", "_stcore/script-health-check", "_stcore/agent/interact"]
 )
-def test_what_is_for_the_host_is_not_for_visitors(site: Site, path: str) -> None:
+def test_health_and_metrics_are_closed_to_visitors(site: Site, path: str) -> None:
     for spelling in (path, path.replace("_", "%5f"), f"x/../{path}", f"/{path}"):
         answer = site.get(f"/rotorcalc/{spelling}")
         assert answer.status == 404 or b"# TYPE" not in answer.body, spelling
@@ -125,7 +125,7 @@ def test_no_file_beside_the_served_ones_is_sent(site: Site, path: str) -> None:
         assert b"import streamlit" not in site.get(f"/rotorcalc/{folder}/{path}").body
 
 
-def test_too_much_is_not_taken(site: Site) -> None:
+def test_an_upload_that_is_too_large_is_refused(site: Site) -> None:
     connection = HTTPConnection("127.0.0.1", site.port, timeout=30)
     connection.request(
         "PUT",

@@ -64,7 +64,7 @@ async def test_new_visitors_are_shared_out_and_stay_with_their_replica(site: Sit
         await visitor.close()
 
 
-def test_a_file_is_asked_of_the_visitors_own_replica(site: Site) -> None:
+def test_a_file_comes_from_the_visitors_own_replica(site: Site) -> None:
     for name in NAMES:
         for _ in range(4):
             answer = site.get("/rotorcalc/", Cookie=f"{COOKIE}={name}")

@@ -67,7 +67,7 @@ def _film(axes: Any, sigma: Any = SIGMA) -> ForceCoefficients:
     return force_coefficients(film_curves(SHEET.bearing, sigma), axes=axes)
 
 
-def test_what_is_negative_is_dashed_and_named_so() -> None:
+def test_negative_coefficients_are_dashed_and_named_so() -> None:
     chart = coefficients.dimensionless(_film("XY"), _film("XY", 1.0), "k", "ε")
     lines = {trace["name"]: trace for trace in chart["data"] if trace["mode"] == "lines"}
     positive, negative = lines["k<sub>YX</sub>"], lines["−k<sub>YX</sub>"]

@@ -223,7 +223,7 @@ def test_balance_is_a_right_angled_triangle_over_the_load(case: str) -> None:
 @pytest.mark.parametrize(
     "name", ["locus", "over sommerfeld", "film", "pressure", "forces", "balance"]
 )
-def test_words_say_that_there_is_no_load(name: str) -> None:
+def test_the_chart_says_that_there_is_no_load(name: str) -> None:
     assert "no load" in _texts(CHARTS[name](CASES["no load"], SI))
 
 

@@ -73,7 +73,7 @@ def test_plotly_accepts_every_chart(name, changes, units):
 
 @pytest.mark.parametrize("changes", CHANGES.values(), ids=CHANGES)
 @pytest.mark.parametrize("name", PRESETS)
-def test_some_line_crosses_every_view(name, changes):
+def test_every_chart_shows_a_line_in_its_window(name, changes):
     for chart in all_charts(*shown_of(PRESETS[name], **dict(changes))):
         x, y = (sorted(chart["layout"][key]["range"]) for key in ("xaxis", "yaxis"))
         inside = 0

@@ -171,7 +171,7 @@ def test_a_journal_outside_the_clearance_circle_is_refused(position):
 
 
 @pytest.mark.parametrize("velocity", [[math.nan, 0.0], [0.0, math.inf], [-math.inf, math.inf]])
-def test_a_velocity_that_is_no_number_is_refused(velocity):
+def test_a_velocity_that_is_not_finite_is_refused(velocity):
     with pytest.raises(ValueError, match=r"velocity: must be finite"):
         short.film_force([0.5, 0.0], velocity)
 
@@ -449,7 +449,7 @@ def test_inverse_at_the_ends_of_the_number_range(sigma, eps):
 
 
 @pytest.mark.parametrize("bad", [-1.0, -math.inf, math.nan, [1.0, -2.0], "1", None, True, 1j])
-def test_a_sommerfeld_number_that_is_none_is_refused(bad):
+def test_an_invalid_sommerfeld_number_is_refused(bad):
     with pytest.raises(ValueError, match="sigma"):
         short.eccentricity_ratio(bad)
 
@@ -477,7 +477,7 @@ TO_THE_WALL = list(OF_ECCENTRICITY)[:5]
 
 @pytest.mark.parametrize("name", OF_ECCENTRICITY)
 @pytest.mark.parametrize("bad", [-0.1, 1.1, math.nan, math.inf, [0.5, 2.0], "0.5", None, 0.5j])
-def test_an_eccentricity_that_is_none_is_refused(name, bad):
+def test_an_eccentricity_outside_its_range_is_refused(name, bad):
     function, _ = OF_ECCENTRICITY[name]
     with pytest.raises(ValueError, match="eps"):
         function(bad)

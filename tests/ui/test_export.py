@@ -47,7 +47,7 @@ def sheet(case: str, units: Units) -> tuple[list[str], np.ndarray]:
     return header, np.array(rows, dtype=float)
 
 
-def test_cases_are_what_they_are_called() -> None:
+def test_cases_match_their_names() -> None:
     assert computed("no load").unloaded
     assert computed("rigid").machine.rotor.is_rigid
     assert math.isinf(computed("no onset").onset.speed)
@@ -117,7 +117,7 @@ def test_csv_holds_every_eigenvalue_of_the_sweep(case: str) -> None:
         assert np.all(apart.min(axis=2) <= 1e-9 * abs(values).max(axis=1, keepdims=True))
 
 
-def test_csv_writes_what_is_no_number_in_words_that_python_reads() -> None:
+def test_csv_writes_nan_and_infinity_in_words_that_python_reads() -> None:
     text = export.sweep_csv(computed("no load"), SI).decode("utf-8-sig")
     assert ",inf," in text
     still = export.sweep_csv(computed("no imbalance"), SI).decode("utf-8-sig")
@@ -287,7 +287,7 @@ def test_report_shows_every_input_and_result(case: str, units: Units) -> None:
         assert result.label in text
 
 
-def test_report_names_what_is_no_number() -> None:
+def test_report_says_rigid_weight_and_no_onset_in_words() -> None:
     assert "rigid" in read("rigid", None).text
     assert "half the weight" in read("sheet-1e8", None).text
     assert "no limit" in read("no onset", None).text
@@ -321,7 +321,7 @@ def test_report_escapes_the_link() -> None:
     assert len(page.scripts) == len([tag for tag, _ in page.tags if tag == "script"]) == 2
 
 
-def test_report_makes_no_anchor_of_what_is_no_web_address() -> None:
+def test_report_links_web_addresses_only() -> None:
     page = report.report(computed("rigid"), None, SI, "javascript:alert(1)", "1").decode()
     reader = Reader(page)
     assert not any(tag == "a" for tag, _ in reader.tags)
