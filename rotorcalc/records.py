@@ -65,7 +65,7 @@ class Choice:
 
 
 @dataclass(frozen=True)
-class _Rule:
+class Rule:
     """What a field of a record accepts: a check or a class, whether None, and its default."""
 
     check: "Bound | Choice | type[Record]"
@@ -74,10 +74,10 @@ class _Rule:
 
 
 @functools.cache
-def _rules(record: type) -> dict[str, _Rule]:
+def rules(record: type) -> dict[str, Rule]:
     """Return the rule of each field of a record class."""
     hints = get_type_hints(record, include_extras=True)
-    rules: dict[str, _Rule] = {}
+    found: dict[str, Rule] = {}
     for field in fields(record):
         hint, check = hints[field.name], None
         if get_origin(hint) is Annotated:
@@ -85,8 +85,8 @@ def _rules(record: type) -> dict[str, _Rule]:
         optional = NoneType in get_args(hint)
         if check is None:
             check = next(one for one in (get_args(hint) or (hint,)) if one is not NoneType)
-        rules[field.name] = _Rule(check, optional, field.default)
-    return rules
+        found[field.name] = Rule(check, optional, field.default)
+    return found
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,7 +94,7 @@ class Record:
     """A frozen record that checks its fields once, when it is made."""
 
     def __post_init__(self) -> None:
-        for name, rule in _rules(type(self)).items():
+        for name, rule in rules(type(self)).items():
             value = getattr(self, name)
             if rule.optional and value is None:
                 continue
@@ -125,7 +125,7 @@ class Kind(Record):
 
 def number_paths(record: Record) -> Iterator[tuple[str, ...]]:
     """Yield where each number of a record stands: its field's name, below those of its records."""
-    for name, rule in _rules(type(record)).items():
+    for name, rule in rules(type(record)).items():
         value = getattr(record, name)
         if isinstance(value, Record):
             yield from ((name, *path) for path in number_paths(value))
@@ -139,7 +139,7 @@ def to_tree(record: Record) -> dict[str, object]:
     JSON has no infinity, so it is the word inf; a record of several kinds says which in "type".
     """
     tree: dict[str, object] = {"type": record.kind} if isinstance(record, Kind) else {}
-    for name, rule in _rules(type(record)).items():
+    for name, rule in rules(type(record)).items():
         value = getattr(record, name)
         if value == rule.default and str(value) == str(rule.default):  # −0.0 is not 0.0
             continue
@@ -157,10 +157,10 @@ def from_tree(cls: type[R], tree: object, *, where: str) -> R:
     values = dict(cast("Mapping[str, Any]", tree))
     if issubclass(cls, Kind):
         cls = _kind_of(cls, values, where)
-    rules = _rules(cls)
-    for unknown in values.keys() - rules.keys():
-        raise ValueError(f"{where}{_key(unknown)}: unknown key; known are {', '.join(rules)}")
-    for name, rule in rules.items():
+    known = rules(cls)
+    for unknown in values.keys() - known.keys():
+        raise ValueError(f"{where}{_key(unknown)}: unknown key; known are {', '.join(known)}")
+    for name, rule in known.items():
         if name in values:
             values[name] = _value_of(rule, values[name], where=f"{where}{name}")
         elif rule.default is MISSING:
@@ -177,7 +177,7 @@ def _kind_of(cls: type[R], values: dict[str, Any], where: str) -> type[R]:
     return cast("type[R]", kinds[word])
 
 
-def _value_of(rule: _Rule, value: object, *, where: str) -> object:
+def _value_of(rule: Rule, value: object, *, where: str) -> object:
     """Return a field's value from its JSON value."""
     if isinstance(rule.check, type):
         return (

@@ -43,7 +43,8 @@ from rotorcalc.unbalance_curves import (
     response_family,
 )
 from rotorcalc.unbalance_peaks import ResponsePeaks, both_peaks
-from ui.inputs import Values, machine_of, speeds_of
+from ui.bearing import Values
+from ui.inputs import machine_of, speeds_of
 
 # Points of a sweep: enough for a smooth line across a projector.
 POINTS = 240

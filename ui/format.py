@@ -1,6 +1,7 @@
-"""Numbers as readers see them: their digits, their unit, and LaTeX."""
+"""Numbers as readers see them, with digits, unit, in LaTeX; and what a visitor typed, harmless."""
 
 import math
+import reprlib
 
 from numpy.typing import ArrayLike
 
@@ -34,3 +35,9 @@ def tex(value: float, unit: str = "") -> str:
     number = mantissa + (rf"\cdot 10^{{{int(power)}}}" if power else "")
     words = unit.replace(" ", r"\,")
     return number + (rf"\ \mathrm{{{words}}}" if unit else "")
+
+
+def quoted(word: object) -> str:
+    """Return what a visitor typed, short, and with nothing that a page could take for markup."""
+    text = reprlib.repr(word).replace("`", "'")
+    return f"`{text}`"

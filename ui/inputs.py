@@ -1,34 +1,36 @@
 """The quantities that a visitor moves: their keys, symbols, units, ranges and groups.
 
 A value is kept in the unit of the address bar (SI as engineers write it: mm, µm, mPa·s, rpm), under
-its key there. `machine_of` and `values_of` lead from such values to the core's records and back.
+its key there; what shapes a bearing's bore besides is in `ui.bearing`. `machine_of` and `values_of`
+lead from such values to the core's records and back: here a slider's value becomes a machine.
 """
 
+import functools
 import math
-import reprlib
-from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from rotorcalc import PRESETS, JournalBearing, Machine, Oil, Preset, Rotor
 from rotorcalc.figures import style
 from rotorcalc.units import SI, Unit, Units
+from ui.bearing import Values, bearing_values, shape_of
+from ui.format import quoted
 
 # The least of a positive value: below it what is divided by it has no room.
 _LEAST = 1e-290
-
-# None for a load that follows the rotor's weight.
-Values = dict[str, float | None]
 
 
 @dataclass(frozen=True)
 class Input:
     """A quantity that a visitor moves.
 
-    `kind` names its unit in `Units`; `low`, `high` and `step` are in SI as engineers write it. A
-    logarithmic input has `step` values a decade. `infinite` admits one value beyond `high`.
+    `field` is its place in the core's records; `kind` names its unit in `Units`; `low`, `high` and
+    `step` are in SI as engineers write it. A logarithmic input has `step` values a decade.
+    `infinite` admits one value beyond `high`.
     """
 
     key: str
+    field: str
     label: str
     symbol: str
     kind: str
@@ -96,62 +98,84 @@ INPUTS: dict[str, Input] = {
     item.key: item
     for item in (
         Input(
-            "mass", "Rotor mass", "2M", "mass", 10, 2000, 1, "Load",
+            "mass", "rotor.mass",
+            "Rotor mass", "2M", "mass", 10, 2000, 1, "Load",
             "The whole rotor's; each bearing carries half of it.",
         ),
         Input(
-            "load", "Load per bearing", "Fₒ", "force", 0, 20000, 10, "Load",
+            "load", "load",
+            "Load per bearing", "Fₒ", "force", 0, 20000, 10, "Load",
             "Static load on one bearing; without a value of its own, half the rotor's weight.",
         ),
         Input(
-            "T", "Film temperature", "T", "temperature", 0, 150, 0.5, "Oil",
+            "T", "temperature",
+            "Film temperature", "T", "temperature", 0, 150, 0.5, "Oil",
             "μ = μᵣ exp(−α(T − Tᵣ))",
         ),
         Input(
-            "mu", "Reference viscosity", "μᵣ", "viscosity", 1, 500, 40, "Oil",
+            "mu", "oil.reference_viscosity",
+            "Reference viscosity", "μᵣ", "viscosity", 1, 500, 40, "Oil",
             "Viscosity at the reference temperature.", log=True,
         ),
         Input(
-            "TR", "Reference temperature", "Tᵣ", "temperature", 0, 150, 0.5, "Oil",
+            "TR", "oil.reference_temperature",
+            "Reference temperature", "Tᵣ", "temperature", 0, 150, 0.5, "Oil",
             "Temperature at which the reference viscosity holds.",
         ),
         Input(
-            "alpha", "Viscosity coefficient", "α", "per_temperature", 0, 0.08, 0.001, "Oil",
+            "alpha", "oil.temperature_coefficient",
+            "Viscosity coefficient", "α", "per_temperature", 0, 0.08, 0.001, "Oil",
             "How fast the oil thins as it warms.",
         ),
         Input(
-            "rho", "Oil density", "ρ", "density", 500, 1500, 5, "Oil",
+            "rho", "oil.density",
+            "Oil density", "ρ", "density", 500, 1500, 5, "Oil",
             "Enters the film's Reynolds number and added mass only.",
         ),
         Input(
-            "C", "Radial clearance", "C", "film", 10, 500, 1, "Bearing",
+            "C", "bearing.radial_clearance",
+            "Radial clearance", "C", "film", 10, 500, 1, "Bearing",
             "Half the difference of the diameters of bearing and journal.",
         ),
-        Input("D", "Diameter", "D", "length", 20, 600, 1, "Bearing", "Of the journal, D = 2R."),
-        Input("L", "Length", "L", "length", 5, 300, 1, "Bearing", "Axial length of the bearing."),
         Input(
-            "k", "Shaft stiffness", "Kᵣₒₜ", "shaft_stiffness", 1e5, 1e10, 20, "Shaft and disk",
+            "D", "bearing.diameter",
+            "Diameter", "D", "length", 20, 600, 1, "Bearing",
+            "Of the journal, D = 2R.",
+        ),
+        Input(
+            "L", "bearing.length",
+            "Length", "L", "length", 5, 300, 1, "Bearing",
+            "Axial length of the bearing.",
+        ),
+        Input(
+            "k", "rotor.shaft_stiffness",
+            "Shaft stiffness", "Kᵣₒₜ", "shaft_stiffness", 1e5, 1e10, 20, "Shaft and disk",
             "Of one side of the shaft; the right end is a rigid shaft.",
             log=True, infinite="rigid",
         ),
         Input(
-            "u", "Imbalance", "u", "film", 0, 100, 0.1, "Shaft and disk",
+            "u", "rotor.imbalance",
+            "Imbalance", "u", "film", 0, 100, 0.1, "Shaft and disk",
             "Distance of the disk's mass centre from the shaft's axis.",
         ),
         Input(
-            "cs", "Midspan damping", "Cₛ", "shaft_damping", 0, 1e5, 100, "Shaft and disk",
+            "cs", "rotor.disk_damping",
+            "Midspan damping", "Cₛ", "shaft_damping", 0, 1e5, 100, "Shaft and disk",
             "External damping at the disk, one side.",
         ),
         Input(
-            "mj", "Journal mass", "Mⱼ", "mass", 0, 500, 0.5, "Shaft and disk",
+            "mj", "rotor.journal_mass",
+            "Journal mass", "Mⱼ", "mass", 0, 500, 0.5, "Shaft and disk",
             "Mass lumped at each journal, taken out of the disk.",
         ),
         Input(
-            "rpm", "Running speed", "Ω", "speed", 100, 30000, 10, "Speed",
+            "rpm", "speed",
+            "Running speed", "Ω", "speed", 100, 30000, 10, "Speed",
             "The speed of the point that every chart marks.",
         ),
         Input(
-            "rpm_max", "Top speed", "Ωₘₐₓ", "speed", 1000, 40000, 100, "Speed",
+            "rpm_max", "top_speed",
+            "Top speed", "Ωₘₐₓ", "speed", 1000, 40000, 100, "Speed",
             "Charts run to this speed, or to the running speed where that is higher.",
         ),
     )
@@ -160,9 +184,14 @@ INPUTS: dict[str, Input] = {
 DEFAULT_PRESET = "sheet-1e8"
 
 
-def _number(values: Mapping[str, float | None], key: str) -> float:
+# What is no part of a machine: the speeds at which it is looked at.
+_SPEEDS = ("speed", "top_speed")
+
+
+def number(values: Values, key: str) -> float:
+    """Return a kept number, or raise ValueError where it is missing."""
     value = values[key]
-    if value is None:
+    if value is None or isinstance(value, str):
         raise ValueError(f"{INPUTS[key].label}: missing")
     return value
 
@@ -174,19 +203,17 @@ def _tidy(value: float) -> float:
 
 def values_of(machine: Machine, speed: float, top_speed: float) -> Values:
     """Return the kept values of a machine and its speeds [rad/s]."""
-    oil, bearing, rotor = machine.oil, machine.bearing, machine.rotor
-    in_si: dict[str, float | None] = {
-        "mass": rotor.mass, "load": machine.load, "T": machine.temperature,
-        "mu": oil.reference_viscosity, "TR": oil.reference_temperature,
-        "alpha": oil.temperature_coefficient, "rho": oil.density,
-        "C": bearing.radial_clearance, "D": bearing.diameter, "L": bearing.length,
-        "k": rotor.shaft_stiffness, "u": rotor.imbalance, "cs": rotor.disk_damping,
-        "mj": rotor.journal_mass, "rpm": speed, "rpm_max": top_speed,
-    }  # fmt: skip
-    return {
-        key: None if value is None else _tidy(float(INPUTS[key].unit(SI).of(value)))
-        for key, value in in_si.items()
-    }
+    speeds = {"speed": speed, "top_speed": top_speed}
+    values: Values = {}
+    for key, item in INPUTS.items():
+        value = speeds[item.field] if item.field in speeds else _at(machine, item.field)
+        values[key] = None if value is None else _tidy(float(item.unit(SI).of(value)))
+    return values | bearing_values(machine.bearing)
+
+
+def _at(machine: Machine, field: str) -> float | None:
+    """Return the value of a record's field; a load that follows the weight has none."""
+    return functools.reduce(getattr, field.split("."), machine)  # type: ignore[return-value]
 
 
 def preset_values(preset: Preset) -> Values:
@@ -197,42 +224,29 @@ def preset_values(preset: Preset) -> Values:
 PRESET_VALUES: dict[str, Values] = {key: preset_values(preset) for key, preset in PRESETS.items()}
 
 
-def machine_of(values: Mapping[str, float | None]) -> Machine:
+def machine_of(values: Values) -> Machine:
     """Return the machine that kept values describe, or raise the core's ValueError."""
-    si = {
-        key: None if value is None else INPUTS[key].unit(SI).to_si(value)
-        for key, value in values.items()
-    }
+    records: dict[str, dict[str, Any]] = {"oil": {}, "bearing": {}, "rotor": {}, "": {}}
+    for key, item in INPUTS.items():
+        record, _, name = item.field.rpartition(".")
+        if item.field not in _SPEEDS:
+            load = name == "load" and values[key] is None
+            records[record][name] = None if load else item.unit(SI).to_si(number(values, key))
+    geometry, film = shape_of(values)
     return Machine(
-        oil=Oil(
-            reference_viscosity=_number(si, "mu"),
-            reference_temperature=_number(si, "TR"),
-            temperature_coefficient=_number(si, "alpha"),
-            density=_number(si, "rho"),
-        ),
-        bearing=JournalBearing(
-            diameter=_number(si, "D"),
-            length=_number(si, "L"),
-            radial_clearance=_number(si, "C"),
-        ),
-        rotor=Rotor(
-            mass=_number(si, "mass"),
-            shaft_stiffness=_number(si, "k"),
-            imbalance=_number(si, "u"),
-            disk_damping=_number(si, "cs"),
-            journal_mass=_number(si, "mj"),
-        ),
-        temperature=_number(si, "T"),
-        load=si["load"],
+        oil=Oil(**records["oil"]),
+        bearing=JournalBearing(**records["bearing"], geometry=geometry, film=film),
+        rotor=Rotor(**records["rotor"]),
+        **records[""],
     )
 
 
-def speeds_of(values: Mapping[str, float | None]) -> tuple[float, float]:
+def speeds_of(values: Values) -> tuple[float, float]:
     """Return the running speed and the top speed of the charts [rad/s].
 
     A running speed above the top speed takes the charts to the next round number, not along.
     """
-    speed, top = (_number(values, key) for key in ("rpm", "rpm_max"))
+    speed, top = (number(values, key) for key in ("rpm", "rpm_max"))
     top = max(top, style.ceiling(speed)) if speed > top else top
     return SI.speed.to_si(speed), SI.speed.to_si(top)
 
@@ -242,9 +256,3 @@ def input_named(name: str) -> Input:
     if name not in INPUTS:
         raise ValueError(f"{quoted(name)} is no input")
     return INPUTS[name]
-
-
-def quoted(word: object) -> str:
-    """Return what a visitor typed, short, and with nothing that a page could take for markup."""
-    text = reprlib.repr(word).replace("`", "'")
-    return f"`{text}`"

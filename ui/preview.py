@@ -6,8 +6,9 @@ from typing import Any
 
 from rotorcalc.figures import Chart, themed, with_baseline
 from rotorcalc.units import Units
+from ui.bearing import Values
 from ui.computed import Computed, computed_from
-from ui.inputs import Values, input_named
+from ui.inputs import input_named
 from ui.results.row import row_key
 from ui.results.table import RESULTS
 

@@ -11,7 +11,8 @@ from dataclasses import dataclass, field
 import streamlit as st
 
 from rotorcalc.units import SYSTEMS, Units
-from ui.inputs import PRESET_VALUES, Values
+from ui.bearing import Value, Values
+from ui.inputs import PRESET_VALUES
 from ui.preview import Preview
 from ui.sharing import address
 
@@ -47,7 +48,7 @@ class Session:
         """The units shown."""
         return SYSTEMS[self.units_name]
 
-    def set_value(self, key: str, value: float | None) -> None:
+    def set_value(self, key: str, value: Value) -> None:
         """Keep a moved value; what a link or a file got wrong has been read by now."""
         self.values[key] = value
         self.problems.clear()

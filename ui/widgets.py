@@ -15,7 +15,8 @@ from plotly.basedatatypes import BaseFigure
 
 from rotorcalc.figures import Chart, themed
 from rotorcalc.units import Units
-from ui.inputs import INPUTS, Input, Values, input_named
+from ui.bearing import Values
+from ui.inputs import INPUTS, Input, input_named, number
 from ui.preview import Preview
 from ui.serving import settings
 from ui.session import mirror, session
@@ -100,8 +101,9 @@ def _own(item: Input) -> None:
 
 
 def _shown(item: Input, values: Values, units: Units) -> float:
-    value = values[item.key]
-    return item.low if value is None else item.shown(value, units)
+    if values[item.key] is None:
+        return item.low
+    return item.shown(number(values, item.key), units)
 
 
 def _keep(item: Input, key: str, units: Units) -> None:

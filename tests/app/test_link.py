@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 
 from rotorcalc import PRESETS
 from rotorcalc.units import SYSTEMS
-from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, Input, Values, machine_of
+from tests.films.models import BEARINGS
+from ui.bearing import KIND, Values, bearing_values, fields_of
+from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, Input, machine_of
 from ui.sharing import address
 
 
@@ -31,7 +33,10 @@ def _values(draw: st.DrawFn, preset: str) -> Values:
         for key, value in drawn.items()
     }
     values["mj"] = min(values["mj"], 0.49 * values["mass"])
-    return values
+    bearing = bearing_values(BEARINGS[draw(st.sampled_from(sorted(BEARINGS)))])
+    for key in fields_of(bearing[KIND]):
+        bearing[key] = draw(st.floats(1e-3, 1e3) | st.just(bearing[key]))
+    return values | bearing
 
 
 @pytest.mark.parametrize("preset", PRESETS)

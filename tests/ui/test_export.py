@@ -276,10 +276,10 @@ def test_report_is_whole_and_says_no_nan(case: str, pinned: str | None) -> None:
 @either_system
 def test_report_shows_every_input_and_result(case: str, units: Units) -> None:
     text = read(case, None, units.name).text
-    for key, value in values_of(
-        computed(case).machine, computed(case).speed, computed(case).top_speed
-    ).items():
-        item = INPUTS[key]
+    shown = computed(case)
+    values = values_of(shown.machine, shown.speed, shown.top_speed)
+    for key, item in INPUTS.items():
+        value = values[key]
         assert item.label in text
         if value is not None and math.isfinite(value):
             assert f"{item.shown(value, units):.6g}".replace("-", "−") in text

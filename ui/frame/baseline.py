@@ -5,7 +5,8 @@ import math
 import streamlit as st
 
 from rotorcalc.units import Units
-from ui.inputs import INPUTS, Values
+from ui.bearing import FILM, KIND, Values, fields_of
+from ui.inputs import INPUTS, number
 from ui.session import session
 
 
@@ -37,6 +38,7 @@ def draw_differences(units: Units) -> None:
         for key, item in INPUTS.items()
         if visitor.baseline[key] != visitor.values[key]
     ]
+    rows += _bearings(visitor.baseline, visitor.values, units)
     if rows:
         st.table(rows, border="horizontal", width="content", hide_index=True,
                  alt="Inputs that differ between machine A and the live one")  # fmt: skip
@@ -45,7 +47,19 @@ def draw_differences(units: Units) -> None:
 
 
 def _shown(key: str, values: Values, units: Units) -> str:
-    value = values[key]
-    if value is None:
+    if values[key] is None:
         return "half the weight"
+    value = number(values, key)
     return INPUTS[key].infinite if math.isinf(value) else f"{INPUTS[key].shown(value, units):.5g}"
+
+
+def _bearings(pinned: Values, live: Values, units: Units) -> list[dict[str, str]]:
+    """Return what differs in the kind of the bearing, its film model and its fields."""
+    rows = [(word.capitalize(), f"{pinned[word]}", f"{live[word]}")
+            for word in (KIND, FILM) if pinned[word] != live[word]]  # fmt: skip
+    fields = fields_of(pinned[KIND]) | fields_of(live[KIND])
+    for key, field in fields.items():
+        then, now = (field.shown(values.get(key), units) for values in (pinned, live))
+        if then != now:
+            rows.append((field.name_in(units), then, now))
+    return [dict(zip(("Input", "A", "Now"), row, strict=True)) for row in rows]

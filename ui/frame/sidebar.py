@@ -5,7 +5,7 @@ import streamlit as st
 from rotorcalc import PRESETS, Oil
 from rotorcalc.oils import ISO_VG, fitted_oil, iso_oil
 from rotorcalc.units import SI, SYSTEMS
-from ui.inputs import GROUPS, INPUTS, OPEN_GROUPS, machine_of
+from ui.inputs import GROUPS, INPUTS, OPEN_GROUPS, machine_of, number
 from ui.session import mirror, session
 from ui.widgets import show_inputs
 
@@ -64,8 +64,7 @@ def _oil_library() -> None:
 
 
 def _grades() -> None:
-    temperature = session().values["T"]
-    assert temperature is not None  # noqa: S101 - only a load may be absent
+    temperature = number(session().values, "T")
     grade = st.selectbox("ISO viscosity grade", list(ISO_VG), key="grade", persist_state="session")
     st.caption(
         "Mineral oil of viscosity index 100, by Walther's law (ASTM D341). The exponential law "
@@ -82,10 +81,10 @@ def _fit() -> None:
     st.markdown("Fit α from two viscosities")
     columns = st.columns(2)
     readings: list[tuple[float, float]] = []
-    for column, number, T, mu in zip(columns, "12", (40.0, 80.0), (30.0, 9.0), strict=True):
+    for column, place, T, mu in zip(columns, "12", (40.0, 80.0), (30.0, 9.0), strict=True):
         with column:
-            warm = st.number_input(f"T{number} [°C]", 0.0, 150.0, T, key=f"fit_T{number}")
-            thick = st.number_input(f"μ{number} [mPa·s]", 0.1, 5000.0, mu, key=f"fit_mu{number}")
+            warm = st.number_input(f"T{place} [°C]", 0.0, 150.0, T, key=f"fit_T{place}")
+            thick = st.number_input(f"μ{place} [mPa·s]", 0.1, 5000.0, mu, key=f"fit_mu{place}")
             readings.append((warm, thick * 1e-3))
     (T_1, mu_1), (T_2, mu_2) = readings
     try:
@@ -101,14 +100,11 @@ def _take_over(oil: Oil) -> None:
     """Put an oil into the inputs, and report what of it lies outside their ranges."""
     visitor = session()
     visitor.problems.clear()
-    in_si = {
-        "mu": oil.reference_viscosity,
-        "TR": oil.reference_temperature,
-        "alpha": oil.temperature_coefficient,
-    }
-    for key, value in in_si.items():
-        item = INPUTS[key]
-        reading = float(f"{float(item.unit(SI).of(value)):.6g}")
+    for key, item in INPUTS.items():
+        record, _, name = item.field.rpartition(".")
+        if record != "oil" or name == "density":  # the library knows nothing of the density
+            continue
+        reading = float(f"{float(item.unit(SI).of(getattr(oil, name))):.6g}")
         if problem := item.problem(reading):
             visitor.problems.append(f"{item.label} = {reading:g} {problem}; it was left as it is.")
         else:

@@ -1,14 +1,28 @@
 """The address bar: kept values to query parameters and back.
 
 A link holds the preset and every value that differs from it, always in SI as engineers write it, so
-it means the same whatever units are shown.
+it means the same whatever units are shown. A bearing of another kind than the preset's is named,
+with those of its fields that are not at their default.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from rotorcalc.units import SYSTEMS
-from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, Values, machine_of, quoted
+from ui.bearing import (
+    FILM,
+    KIND,
+    Field,
+    Value,
+    Values,
+    defaults_of,
+    fields_of,
+    kinds,
+    without_shape,
+    written,
+)
+from ui.format import quoted
+from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, machine_of
 
 
 @dataclass
@@ -26,43 +40,104 @@ def read(params: Mapping[str, str]) -> Link:
     link = Link()
     link.preset = _word(params, "preset", DEFAULT_PRESET, PRESET_VALUES, link.problems)
     link.units = _word(params, "units", "SI", SYSTEMS, link.problems)
-    link.values = checked_values(
-        {key: params[key] for key in INPUTS if key in params}, link.preset, link.problems
-    )
-    for key in params.keys() - INPUTS.keys() - {"preset", "units"}:
-        link.problems.append(f"{quoted(key)} is no quantity of this program and was left out.")
+    given = {key: word for key, word in params.items() if key not in ("preset", "units")}
+    link.values = checked_values(given, link.preset, link.problems)
     return link
 
 
 def write(preset: str, values: Values, units: str) -> dict[str, str]:
     """Return the query parameters that `read` turns into the same."""
     params = {} if preset == DEFAULT_PRESET else {"preset": preset}
+    usual = _usual(values[KIND], preset)
     for key, value in values.items():
-        if value != PRESET_VALUES[preset][key]:
-            params[key] = (
-                "weight" if value is None else f"{value:.17g}" if _long(value) else f"{value:g}"
-            )
+        if key not in usual or value != usual[key]:
+            params[key] = "weight" if key == "load" and value is None else written(value)
+    if values[KIND] != PRESET_VALUES[preset][KIND]:
+        params[KIND] = str(values[KIND])
     return params if units == "SI" else params | {"units": units}
+
+
+def _usual(kind: object, preset: str) -> Values:
+    """Return a preset's values with a bearing of a kind as it is by itself."""
+    values = PRESET_VALUES[preset]
+    return values if values[KIND] == kind else without_shape(values) | defaults_of(str(kind))
 
 
 def checked_values(given: Mapping[str, object], preset: str, problems: list[str]) -> Values:
     """Return a preset's values with the given ones in place, as far as they can be used."""
-    values = dict(PRESET_VALUES[preset])
+    kind = given.get(KIND, PRESET_VALUES[preset][KIND])
+    if kind not in kinds():
+        problems.append(
+            f"{KIND} = {quoted(kind)} is not one of {', '.join(kinds())}; {_kept(KIND, preset)}"
+        )
+        kind = PRESET_VALUES[preset][KIND]
+    values, fields = _usual(kind, preset), fields_of(kind)
+    values = dict(values)
     for key, word in given.items():
-        value, problem = _value(key, word)
-        if problem:
-            problems.append(
-                f"{INPUTS[key].label} ({key} = {quoted(word)}) {problem}; {_kept(key, preset)}"
-            )
-        else:
-            values[key] = value
+        if key in INPUTS:
+            _take_number(values, key, word, preset, problems)
+        elif key in fields:
+            _take_field(values, fields[key], word, problems)
+        elif key == FILM:
+            values[FILM] = None if word in (None, "none") else str(word)
+        elif key != KIND:
+            problems.append(f"{quoted(key)} is not an input of this machine and was left out.")
+    return _made(values, preset, problems)
+
+
+def _take_number(values: Values, key: str, word: object, preset: str, problems: list[str]) -> None:
+    value, problem = _value(key, word)
+    if problem:
+        problems.append(
+            f"{INPUTS[key].label} ({key} = {quoted(word)}) {problem}; {_kept(key, preset)}"
+        )
+    else:
+        values[key] = value
+
+
+def _take_field(values: Values, field: Field, word: object, problems: list[str]) -> None:
+    try:
+        values[field.key] = field.taken(word)
+    except ValueError as error:
+        usual = values.get(field.key)
+        rest = "" if usual is None else f" {written(usual)} is used."
+        problems.append(f"{field.label} ({field.key} = {quoted(word)}): {error}.{rest}")
+
+
+def _made(values: Values, preset: str, problems: list[str]) -> Values:
+    """Return values that make a machine: what stands in the way is the preset's again.
+
+    Each value lies in its range, so what is left is a journal mass that leaves no disk, or a
+    bearing whose parts do not go together.
+    """
+    error = _fault(values)
+    if error is None:
+        return values
+    usual = PRESET_VALUES[preset]
+    mass = {"mj": usual["mj"]}
+    bearing = {key: usual[key] for key in ("D", "L", "C")} | _shape(usual)
+    mended = (
+        ("mj", values | mass),
+        (KIND, without_shape(values) | bearing),
+        (KIND, without_shape(values) | bearing | mass),
+        ("preset", dict(usual)),
+    )
+    what, values = next(one for one in mended if _fault(one[1]) is None)
+    problems.append(f"{error}; {_kept(what, preset)}")
+    return values
+
+
+def _fault(values: Values) -> ValueError | None:
+    """Return why values make no machine, or nothing where they make one."""
     try:
         machine_of(values)
     except ValueError as error:
-        # Each value lies in its range, so what is left is a journal mass that leaves no disk.
-        problems.append(f"{error}; {_kept('mj', preset)}")
-        values["mj"] = PRESET_VALUES[preset]["mj"]
-    return values
+        return error
+    return None
+
+
+def _shape(values: Values) -> Values:
+    return {key: value for key, value in values.items() if key not in without_shape(values)}
 
 
 def _value(key: str, word: object) -> tuple[float | None, str]:
@@ -90,10 +165,10 @@ def _word(
 
 
 def _kept(key: str, preset: str) -> str:
-    value = PRESET_VALUES[preset][key]
-    shown = "half the rotor's weight" if value is None else f"{value:g}"
+    value: Value = PRESET_VALUES[preset].get(key)
+    if key == KIND:
+        return "the preset's bearing is used."
+    if key not in INPUTS:
+        return "the preset's machine is used."
+    shown = "half the rotor's weight" if value is None else written(value)
     return f"the preset's {shown} is used."
-
-
-def _long(value: float) -> bool:
-    return float(f"{value:g}") != value

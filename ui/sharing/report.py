@@ -19,9 +19,10 @@ from rotorcalc import modes
 from rotorcalc.arrays import Array
 from rotorcalc.units import Unit, Units
 from rotorcalc.validity import validity
+from ui.bearing import KIND, Values, fields_of
 from ui.computed import Computed
 from ui.format import amount, digits, minus
-from ui.inputs import GROUPS, INPUTS, Values, values_of
+from ui.inputs import GROUPS, INPUTS, number, values_of
 from ui.results.table import RESULTS
 from ui.sharing import report_charts
 from ui.sharing.report_charts import Figure
@@ -105,15 +106,41 @@ def _inputs(computed: Computed, baseline: Computed | None, units: Units) -> str:
         rows.append(f'<tr class="group"><th colspan="5">{escape(group)}</th></tr>')
         keys = (key for key, item in INPUTS.items() if item.group == group)
         rows += (_input(key, live, pinned, units) for key in keys)
+        if group == "Bearing":
+            rows += _bearing(live, pinned, units)
     beside = [] if pinned is None else [("A", "n")]
     head = _head("Input", "Symbol", ("Value", "n"), "Unit", *beside)
     return f"<h2>Inputs</h2>{_table(head, rows)}"
 
 
+def _bearing(live: Values, pinned: Values | None, units: Units) -> Iterator[str]:
+    """Yield rows of the kind of the bearing and its fields; a plain one's has none to tell."""
+    if live[KIND] == "plain" and (pinned is None or pinned[KIND] == "plain"):
+        return
+    fields = fields_of(live[KIND])
+    rows = [("Kind", "", lambda values: f"{values[KIND]}")]
+    rows += [
+        (
+            field.label,
+            field.unit(units).name,
+            lambda values, field=field: field.shown(values.get(field.key), units),
+        )
+        for field in fields.values()
+    ]
+    for label, unit, shown in rows:
+        now, then = shown(live), "" if pinned is None else shown(pinned)
+        differs = pinned is not None and now != then
+        cells = [(label, ""), ("", ""), (minus(now), "n"), ("" if unit == "-" else unit, "")]
+        if pinned is not None:
+            cells.append((minus(then) if differs else "", "n"))
+        yield _row(cells, "differs" if differs else "")
+
+
 def _input(key: str, live: Values, pinned: Values | None, units: Units) -> str:
     item = INPUTS[key]
     value, differs = live[key], pinned is not None and pinned[key] != live[key]
-    unit = item.unit(units).name if value is not None and math.isfinite(value) else ""
+    known = isinstance(value, float | int) and math.isfinite(value)
+    unit = item.unit(units).name if known else ""
     cells = [(item.label, ""), (item.symbol, ""), (_value(key, live, units), "n"), (unit, "")]
     if pinned is not None:
         cells.append((_value(key, pinned, units) if differs else "", "n"))
@@ -121,10 +148,9 @@ def _input(key: str, live: Values, pinned: Values | None, units: Units) -> str:
 
 
 def _value(key: str, values: Values, units: Units) -> str:
-    value = values[key]
-    if value is None:
+    if values[key] is None:
         return "half the weight"
-    item = INPUTS[key]
+    item, value = INPUTS[key], number(values, key)
     return item.infinite if math.isinf(value) else minus(f"{item.shown(value, units):.6g}")
 
 

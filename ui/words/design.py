@@ -16,12 +16,7 @@ from ui.inputs import INPUTS
 from ui.jobs import cache, work
 
 # The core's names for the inputs that move an onset.
-FIELDS = {
-    "mass": "rotor.mass", "load": "load", "T": "temperature", "mu": "oil.reference_viscosity",
-    "alpha": "oil.temperature_coefficient", "C": "bearing.radial_clearance",
-    "D": "bearing.diameter", "L": "bearing.length", "k": "rotor.shaft_stiffness",
-    "cs": "rotor.disk_damping", "mj": "rotor.journal_mass",
-}  # fmt: skip
+FIELDS = {key: item.field for key, item in INPUTS.items() if item.field in design.INPUTS}
 _KEYS = {name: key for key, name in FIELDS.items()}
 # Whose effect goes by ratios: drawn and searched over a logarithmic axis.
 _BY_RATIO = {"mass", "load", "mu", "C", "D", "L", "k"}

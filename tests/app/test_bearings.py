@@ -1,0 +1,118 @@
+"""Bearings of other kinds, made for the tests, go through every page, link, file and export."""
+
+import csv
+import io
+import json
+import math
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+
+from rotorcalc import Machine
+from rotorcalc.units import SI, US
+from tests.app.session import HOME, faults, session_of, visit
+from tests.films.models import BEARINGS, Ringed
+from tests.machines import SHEET
+from ui.bearing import bearing_values, shape_of
+from ui.computed import Computed
+from ui.inputs import machine_of, values_of
+from ui.sharing import address, export, popover, report
+
+RPM = math.pi / 30
+SPEED, TOP = 6000 * RPM, 12000 * RPM
+
+
+def machine(name: str) -> Machine:
+    return replace(SHEET, bearing=BEARINGS[name])
+
+
+def query(name: str) -> dict[str, str]:
+    return address.write("sheet-1e8", values_of(machine(name), SPEED, TOP), "SI")
+
+
+@pytest.mark.parametrize("name", BEARINGS)
+def test_values_lead_to_the_bearing_and_back(name: str) -> None:
+    bearing = BEARINGS[name]
+    values = values_of(machine(name), SPEED, TOP)
+    assert machine_of(values).bearing == bearing
+    assert shape_of(values) == (bearing.geometry, bearing.film)
+    explicit = replace(bearing, film="short")
+    assert machine_of(values | bearing_values(explicit)).bearing == explicit
+
+
+@pytest.mark.parametrize("name", BEARINGS)
+@pytest.mark.parametrize("film", [None, "short"])
+def test_a_link_has_the_whole_bearing(name: str, film: str | None) -> None:
+    whole = replace(machine(name), bearing=replace(BEARINGS[name], film=film))
+    link = address.read(address.write("sheet-1e8", values_of(whole, SPEED, TOP), "SI"))
+    assert link.problems == []
+    assert machine_of(link.values).bearing == whole.bearing
+
+
+def test_a_link_writes_a_bore_in_the_units_of_engineers() -> None:
+    ring = Ringed(outer_clearance=110e-6, share=0.25)
+    whole = replace(SHEET, bearing=replace(SHEET.bearing, geometry=ring))
+    written = address.write("sheet-1e8", values_of(whole, SPEED, TOP), "SI")
+    assert written["bearing"] == "ringed"
+    assert written["outer_clearance"] == "110"
+    # A key that means something else in the address bar stands behind the bearing's name.
+    assert written["bearing.share"] == "0.25"
+    assert "ring_mass" not in written
+
+
+@pytest.mark.parametrize(
+    ("given", "word"),
+    [
+        ({"bearing": "square"}, "`'square'` is not one of plain"),
+        ({"bearing": "ringed", "bearing.share": "-1"}, "must be positive"),
+        ({"bearing": "ringed", "outer_clearance": "wide"}, "is no number"),
+        ({"bearing": "sprung", "outer_clearance": "90"}, "is not an input of this machine"),
+        ({"film": "finite"}, "film = 'finite'"),
+        ({"film": "<b>"}, "film"),
+    ],
+)
+def test_what_of_a_bearing_cannot_be_used_is_named(given: dict[str, str], word: str) -> None:
+    link = address.read(given)
+    (problem,) = link.problems
+    assert word in problem
+    machine_of(link.values)
+
+
+@pytest.mark.parametrize("name", BEARINGS)
+def test_an_uploaded_machine_keeps_its_bearing(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    at = visit(HOME)
+    visitor = session_of(at)
+    upload = SimpleNamespace(name="m.json", getvalue=lambda: machine(name).to_json().encode())
+    monkeypatch.setattr(popover, "session", lambda: visitor)
+    monkeypatch.setattr(popover.st, "session_state", {"upload": upload})
+    popover._load()
+    assert visitor.problems == []
+    assert machine_of(visitor.values).bearing == BEARINGS[name]
+
+
+@pytest.mark.parametrize("name", [name for name in BEARINGS if name != "sprung"])
+def test_files_are_written_for_every_bearing(name: str) -> None:
+    shown = Computed(machine(name), SPEED, TOP)
+    assert Machine.from_json(export.machine_json(shown).decode()) == shown.machine
+    rows = list(csv.reader(io.StringIO(export.sweep_csv(shown, SI).decode("utf-8-sig"))))
+    assert len(rows) == 241
+    assert all(len(row) == len(rows[0]) for row in rows)
+    assert export.ross_table(shown)[:2] == b"PK"
+    page = report.report(shown, Computed(SHEET, SPEED, TOP), US, "link", "0").decode()
+    for key in json.loads(shown.machine.to_json())["bearing"].get("geometry", {}):
+        assert key == "type" or key.replace("_", " ").capitalize() in page
+    if name != "short":
+        assert BEARINGS[name].geometry.kind in page
+
+
+def test_a_pinned_bearing_is_told_from_the_live_one() -> None:
+    at = visit(HOME, **query("ringed"))
+    at.button(key="pin").click().run()
+    session_of(at).values = values_of(SHEET, SPEED, TOP)
+    at.run()
+    (table,) = at.table
+    said = table.value.to_string()
+    assert "ringed" in said
+    assert "Outer clearance [µm]" in said
+    assert faults(at) == []

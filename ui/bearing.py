@@ -1,0 +1,143 @@
+"""The kind of a bearing among the kept values: its word, the fields of its bore, its film model.
+
+A kind's fields stand beside the inputs under their own names, in the units of the address bar:
+angles in °, lengths in mm, clearances and depths in µm, pressures in MPa, flows in l/min.
+"""
+
+import functools
+import math
+from collections.abc import Mapping
+from dataclasses import MISSING, dataclass
+
+from rotorcalc import JournalBearing
+from rotorcalc.geometry import Geometry
+from rotorcalc.records import Bound, Rule, rules
+from rotorcalc.units import SI, Unit, Units
+
+# A number; a word; or None for what follows from the rest, as a load from the rotor's weight.
+Value = float | str | None
+Values = dict[str, Value]
+
+KIND, FILM = "bearing", "film"
+# Keys of the address bar that mean something else: a bore's field of that name is "bearing.load".
+_TAKEN = frozenset(("load", "film", "flow", "share", "preset", "units", "tab", "present"))
+_UNITS = {"rad": "angle", "m": "length", "Pa": "pressure", "m³/s": "flow", "kg": "mass"}
+
+
+@dataclass(frozen=True)
+class Field:
+    """A field of a bore: its key among the kept values, its name in the record, what it accepts."""
+
+    key: str
+    name: str
+    rule: Rule
+
+    @property
+    def label(self) -> str:
+        """Its name in words."""
+        return self.name.replace("_", " ").capitalize()
+
+    def unit(self, units: Units) -> Unit:
+        """Return the unit in which a visitor sees it."""
+        if not isinstance(self.rule.check, Bound):
+            return units.number
+        word = self.rule.check.unit
+        small = word == "m" and any(part in self.name for part in ("clearance", "depth"))
+        kind = "film" if small else _UNITS.get(word)
+        return getattr(units, kind) if kind else Unit(word)
+
+    def name_in(self, units: Units) -> str:
+        """Return label and unit, as beside a number."""
+        unit = self.unit(units).name
+        return self.label + ("" if unit == "-" else f" [{unit}]")
+
+    def kept(self, value: object) -> Value:
+        """Return a record's value as it is kept."""
+        if value is None or isinstance(value, str):
+            return value
+        return float(f"{float(self.unit(SI).of(value)):.14g}")  # type: ignore[arg-type]
+
+    def taken(self, word: object) -> Value:
+        """Return what a link or a file says as it is kept, or raise ValueError in words."""
+        if self.rule.optional and word in (None, "none"):
+            return None
+        if not isinstance(self.rule.check, Bound):
+            return self.rule.check.check(self.key, word)  # type: ignore[union-attr]
+        try:
+            value = float(word)  # type: ignore[arg-type]
+        except (TypeError, ValueError):
+            raise ValueError("is no number") from None
+        self.rule.check.check(self.key, self.unit(SI).to_si(value))
+        return value
+
+    def si(self, value: Value) -> Value:
+        """Return a kept value as the record has it."""
+        return self.unit(SI).to_si(value) if isinstance(value, float | int) else value
+
+    def shown(self, value: Value, units: Units) -> str:
+        """Return a kept value in words, in a visitor's unit."""
+        if value is None or isinstance(value, str):
+            return value or "–"
+        return f"{float(self.unit(units).of(self.unit(SI).to_si(value))):.6g}"
+
+
+def kinds() -> dict[str, type[Geometry]]:
+    """Return the kinds of bearings by their words."""
+    return Geometry.kinds()
+
+
+def fields_of(kind: object) -> dict[str, Field]:
+    """Return the fields of a kind of bearing by their keys."""
+    return _fields(kinds()[str(kind)])
+
+
+@functools.cache
+def _fields(geometry: type[Geometry]) -> dict[str, Field]:
+    found = (
+        Field(f"{KIND}.{name}" if name in _TAKEN else name, name, rule)
+        for name, rule in rules(geometry).items()
+    )
+    return {field.key: field for field in found}
+
+
+def bearing_values(bearing: JournalBearing) -> Values:
+    """Return kind, film model and fields of a bearing as they are kept."""
+    geometry = bearing.geometry
+    fields = fields_of(geometry.kind)
+    return {KIND: geometry.kind, FILM: bearing.film} | {
+        key: field.kept(getattr(geometry, field.name)) for key, field in fields.items()
+    }
+
+
+def defaults_of(kind: str) -> Values:
+    """Return the kept values of a kind of bearing as it is by itself."""
+    return {KIND: kind, FILM: None} | {
+        key: field.kept(field.rule.default)
+        for key, field in fields_of(kind).items()
+        if field.rule.default is not MISSING
+    }
+
+
+def without_shape(values: Mapping[str, Value]) -> Values:
+    """Return kept values without kind, film model and fields of their bearing."""
+    shape = {KIND, FILM, *fields_of(values[KIND])}
+    return {key: value for key, value in values.items() if key not in shape}
+
+
+def shape_of(values: Mapping[str, Value]) -> tuple[Geometry, str | None]:
+    """Return the bore and the film model that kept values describe, or raise ValueError."""
+    kind, film = values[KIND], values[FILM]
+    fields = fields_of(kind)
+    given = {field.name: field.si(values[key]) for key, field in fields.items() if key in values}
+    for key, field in fields.items():
+        if field.name not in given:
+            raise ValueError(f"{key}: missing; a bearing of kind {kind} needs it")
+    return kinds()[str(kind)](**given), film if isinstance(film, str) else None
+
+
+def written(value: Value) -> str:
+    """Return a kept value as a link has it: as short as it can be exactly."""
+    if value is None or isinstance(value, str):
+        return value or "none"
+    short = f"{value:g}"
+    return short if float(short) == value or math.isnan(value) else f"{value:.17g}"
