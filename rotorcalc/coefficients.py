@@ -322,7 +322,7 @@ def film_field(
     bearing, points = machine.bearing, operating_points(machine, speed)
     model = film_of(bearing)
     film = model.state(points)
-    theta, zeta = np.atleast_1d(np.asarray(theta, float)), np.atleast_1d(np.asarray(zeta, float))
+    theta, zeta = np.atleast_1d(real_array("theta", theta)), np.atleast_1d(real_array("zeta", zeta))
     opposite = film.attitude_angle + np.pi
     angle = opposite + theta
     middle = model.field(points, angle=angle, zeta=0.0)

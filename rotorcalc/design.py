@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from scipy.optimize import brentq, minimize_scalar
 
 from rotorcalc.arguments import checked
-from rotorcalc.arrays import Array
+from rotorcalc.arrays import Array, real_array
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine
 from rotorcalc.onset.closed_form import covers
@@ -182,7 +182,10 @@ def onset_map(  # noqa: PLR0913 - two axes, each a name and its values
     """
     if address(machine, x) == address(machine, y):
         raise ValueError(f"y = {y!r}: must differ from x")
-    xs, ys = np.asarray(xs, dtype=float), np.asarray(ys, dtype=float)
+    xs, ys = real_array("xs", xs), real_array("ys", ys)
+    for name, values in (("xs", xs), ("ys", ys)):
+        if values.ndim != 1:
+            raise ValueError(f"{name}: must be a list, (n,), has the shape {values.shape}")
     rows = [[_machine_or_none(machine, {x: a, y: b}) for a in xs] for b in ys]
     made = [row_machine for row in rows for row_machine in row if row_machine is not None]
     whole = all(covers(one) for one in made)

@@ -238,12 +238,14 @@ def characteristic_polynomial(rotor: Rotor, K: Array, C: Array, *, flexible: boo
     return film_terms(K, C) @ rotor_terms(rotor, flexible=flexible)
 
 
+@checked
 def film_terms(K: NDArray[Any], C: NDArray[Any]) -> NDArray[Any]:
     """Return the film's part in `characteristic_polynomial`: of det Z, tr Z and 1, (..., 6)."""
     one = np.ones(K.shape[:-2], dtype=K.dtype)
     return np.stack([*_determinant(K, C), _trace(K), _trace(C), one], axis=-1)
 
 
+@checked
 def rotor_terms(
     rotor: Rotor, *, flexible: bool = True, number: Callable[[float], Any] = float
 ) -> NDArray[Any]:
@@ -289,6 +291,7 @@ def leading(eigenvalues: ArrayLike) -> ComplexArray:
     return np.where(value.imag > 0.0, value, complex(np.nan, np.nan))
 
 
+@checked
 def leading_place(eigenvalues: ComplexArray) -> IntArray:
     """Return the place of `leading` among eigenvalues, (...); among all where none oscillates."""
     waves = eigenvalues.imag > 0.0

@@ -199,6 +199,7 @@ def phase_lag(response: ArrayLike) -> Array:
     return np.unwrap(-np.angle(complex_array("response", response, ends=(2,)) / _FORWARD), axis=0)
 
 
+@checked
 def orbit_sizes(disk: ComplexArray, journal: ComplexArray) -> Array:
     """Return the semi-major axes of the disk's orbit and the journal's, (2, ...), of (..., 2)."""
     x, jy = (np.stack([disk[..., i], journal[..., i]]) * unit for i, unit in ((0, 0.5), (1, 0.5j)))

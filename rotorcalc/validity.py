@@ -1,15 +1,19 @@
-"""Where the model holds: what a machine at one speed asks of the short-bearing, linear theory.
+"""Where the model holds: what a machine asks, at each speed, of the short-bearing, linear theory.
 
 The program computes outside these limits too; it says so beside the result.
 """
 
+import math
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rotorcalc.analysis import Sweep
 from rotorcalc.arguments import checked
+from rotorcalc.arrays import Array
+from rotorcalc.display import Result
 from rotorcalc.films import film_of
 from rotorcalc.unbalance_response import orbit_ellipse
 
@@ -19,41 +23,47 @@ Level: TypeAlias = Literal["good", "caution", "outside"]
 ROUGHNESS = 1e-6
 
 
-@dataclass(frozen=True)
-class Check:
-    """One assumption of the model, checked.
+@dataclass(frozen=True, eq=False)
+class Check(Result):
+    """One assumption of the model, checked at each speed.
 
     Attributes
     ----------
     name : str
         What is checked, in words with its symbol.
-    value : float
+    value : array, (...)
         The number that is judged [-].
-    caution, limit : float
+    caution, limit : array, (...)
         From `caution` on the model is strained, from `limit` on it fails; for a film thickness
-        the values below which that is so.
-    level : "good", "caution" or "outside"
-        The verdict.
+        the values below which that is so [-].
+    level : array of str, (...)
+        The verdict: "good", "caution" or "outside".
     reason : str
         What goes wrong, in a sentence.
     """
 
     name: str
-    value: float
-    caution: float
-    limit: float
-    level: Level
+    value: Array
+    caution: Array
+    limit: Array
+    level: NDArray[np.str_]
     reason: str
+
+    @property
+    def worst(self) -> Level:
+        """The worst verdict over the speeds; "good" where there are none."""
+        found = self.level
+        return "outside" if "outside" in found else "caution" if "caution" in found else "good"
 
 
 @checked
-def validity(point: Sweep) -> tuple[Check, ...]:
-    """Return how far a machine at one speed keeps to what the model assumes.
+def validity(sweep: Sweep) -> tuple[Check, ...]:
+    """Return how far a machine keeps to what the model assumes, at each speed.
 
     Parameters
     ----------
-    point : Sweep
-        The machine at one speed: `analyse(machine, speed)` of a scalar.
+    sweep : Sweep
+        The machine at one speed or over many, (...).
 
     Returns
     -------
@@ -62,18 +72,19 @@ def validity(point: Sweep) -> tuple[Check, ...]:
         Reynolds number of the film, ρΩRC/μ, against that at which Taylor's vortices appear,
         41.1√(R/C) (Taylor 1923), with turbulence at 2000; smallest film against an assumed
         roughness of 1 µm, full film above 3 of it, and against the clearance; the journal's
-        imbalance orbit and the rotor's static sag against the clearance.
+        imbalance orbit and the rotor's static sag against the clearance. Numbers and verdicts
+        have the shape (...).
     """
-    machine = point.machine
+    machine = sweep.machine
     bearing = machine.bearing
     R, C = bearing.radius, bearing.radial_clearance
-    film = float(point.minimum_film_thickness)
-    reynolds = machine.oil.density * float(point.speed) * R * C / machine.viscosity
-    vortices = min(41.1 * float(np.sqrt(R / C)), 2000.0)
-    orbit = orbit_ellipse(point.journal_response)
-    swing = float(orbit.semi_major) / C
+    film = sweep.minimum_film_thickness
+    reynolds = machine.oil.density * sweep.speed * R * C / machine.viscosity
+    vortices = min(41.1 * math.sqrt(R / C), 2000.0)
+    swing = orbit_ellipse(sweep.journal_response).semi_major / C
+    everywhere = np.ones(sweep.speed.shape)
     return (
-        *(_above(one.name, one.value, one.caution, one.outside, one.reason)
+        *(_above(one.name, one.value * everywhere, one.caution, one.outside, one.reason)
           for one in film_of(bearing).limits),
         _above("Reynolds number of the film, ρΩRC/μ", reynolds, vortices, 2000.0,
                "vortices, and then turbulence, replace the laminar flow"),
@@ -81,18 +92,20 @@ def validity(point: Sweep) -> tuple[Check, ...]:
                "the surfaces' roughness reaches through the film"),
         _below("Smallest film over clearance, h_min/C", film / C, 0.1, 0.03,
                "so thin a film heats up and bends its walls, which the model leaves out"),
-        _above("Imbalance orbit over clearance", swing, 0.1, max(film / C, 0.1),
+        _above("Imbalance orbit over clearance", swing, 0.1, np.maximum(film / C, 0.1),
                "linear coefficients hold for small orbits; at the limit it reaches the wall"),
-        _above("Static sag over clearance, Γ/C", machine.static_sag / C, 1.0, 10.0,
+        _above("Static sag over clearance, Γ/C", machine.static_sag / C * everywhere, 1.0, 10.0,
                "so flexible a shaft slopes in its bearings, which the model takes as aligned"),
     )  # fmt: skip
 
 
-def _above(name: str, value: float, caution: float, limit: float, reason: str) -> Check:
-    level: Level = "outside" if value > limit else "caution" if value > caution else "good"
-    return Check(name, value, caution, limit, level, reason)
+def _above(name: str, value: Array, caution: float, limit: Array | float, reason: str) -> Check:
+    level = np.select([value > limit, value > caution], ["outside", "caution"], "good")
+    low, high = np.full_like(value, caution), np.full_like(value, limit)
+    return Check(name, value, low, high, level, reason)
 
 
-def _below(name: str, value: float, caution: float, limit: float, reason: str) -> Check:
-    level: Level = "outside" if value < limit else "caution" if value < caution else "good"
-    return Check(name, value, caution, limit, level, reason)
+def _below(name: str, value: Array, caution: float, limit: float, reason: str) -> Check:
+    level = np.select([value < limit, value < caution], ["outside", "caution"], "good")
+    low, high = np.full_like(value, caution), np.full_like(value, limit)
+    return Check(name, value, low, high, level, reason)

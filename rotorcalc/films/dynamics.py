@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.arguments import checked
+from rotorcalc.arrays import Array, ComplexArray, real_array
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +42,7 @@ class FilmDynamics:
 NO_INERTIA: Array = np.zeros(0)
 
 
+@checked
 def reduced(dynamics: FilmDynamics, frequency: ArrayLike) -> tuple[Array, Array]:
     """Return the stiffness and damping that a journal feels which whirls at one frequency.
 
@@ -58,9 +60,9 @@ def reduced(dynamics: FilmDynamics, frequency: ArrayLike) -> tuple[Array, Array]
     K, C : array, (..., 2, 2)
         Stiffness [N/m] and damping [N·s/m] in X, Y.
     """
+    omega = real_array("frequency", frequency)[..., None, None]
     if dynamics.inner == 0:
         return dynamics.stiffness, dynamics.damping
-    omega = np.asarray(frequency, dtype=float)[..., None, None]
     mass = np.diag(np.concatenate([np.zeros(2), dynamics.inertia]))
     Z: ComplexArray = dynamics.stiffness + 1j * omega * dynamics.damping - omega**2 * mass
     left = Z[..., :2, :2] - Z[..., :2, 2:] @ np.linalg.solve(Z[..., 2:, 2:], Z[..., 2:, :2])

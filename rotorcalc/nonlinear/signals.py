@@ -205,6 +205,7 @@ def free_modes(
     return fitted_modes(path[:count], float(motion.time[1] - motion.time[0]))
 
 
+@checked
 def fitted_modes(path: Array, step: float) -> ComplexArray:
     """Return the exponents of the exponentials that add up to a path, as `free_modes` does.
 

@@ -222,9 +222,10 @@ def _mode(number: int, value: complex, speed: float, units: Units) -> str:
 def _validity(computed: Computed) -> str:
     rows = (
         _row([
-            (check.name, ""), (digits(check.value), "n"), (digits(check.caution), "n"),
-            (digits(check.limit), "n"), (validity_words.WORDS[check.level], check.level),
-            ("" if check.level == "good" else f"{check.reason}.", ""),
+            (check.name, ""),
+            *((digits(float(n)), "n") for n in (check.value, check.caution, check.limit)),
+            (validity_words.WORDS[check.worst], check.worst),
+            ("" if check.worst == "good" else f"{check.reason}.", ""),
         ])
         for check in validity(computed.point)
     )  # fmt: skip

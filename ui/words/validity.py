@@ -14,10 +14,10 @@ WORDS = {"good": "holds", "caution": "strained", "outside": "outside"}
 def draw(computed: Computed) -> None:
     """Show each assumption with its number and limits; the headline tells the worst."""
     checks = validity(computed.point)
-    worst = max(checks, key=lambda check: list(_BADGES).index(check.level))
-    strained = [check for check in checks if check.level != "good"]
+    worst = max(checks, key=lambda check: list(_BADGES).index(check.worst))
+    strained = [check for check in checks if check.worst != "good"]
     headline = (
-        "The model holds" if not strained else f"The model is {WORDS[worst.level]}: {worst.name}"
+        "The model holds" if not strained else f"The model is {WORDS[worst.worst]}: {worst.name}"
     )
     with st.expander(headline, expanded=False, key="validity", icon=_icon(worst)):
         st.markdown("\n\n".join([*map(_line, checks), _FILM]))
@@ -25,11 +25,11 @@ def draw(computed: Computed) -> None:
 
 def _icon(worst: Check) -> str:
     icons = {"good": "check_circle", "caution": "warning", "outside": "error"}
-    return f":material/{icons[worst.level]}:"
+    return f":material/{icons[worst.worst]}:"
 
 
 def _line(check: Check) -> str:
-    badge = f":{_BADGES[check.level]}-badge[{WORDS[check.level]}]"
-    limits = f"limits {digits(check.caution)} and {digits(check.limit)}"
-    text = f"{badge} {check.name}: **{digits(check.value)}** ({limits})"
-    return text if check.level == "good" else f"{text}: {check.reason}."
+    badge = f":{_BADGES[check.worst]}-badge[{WORDS[check.worst]}]"
+    limits = f"limits {digits(float(check.caution))} and {digits(float(check.limit))}"
+    text = f"{badge} {check.name}: **{digits(float(check.value))}** ({limits})"
+    return text if check.worst == "good" else f"{text}: {check.reason}."

@@ -3,7 +3,8 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotorcalc.arrays import Array
+from rotorcalc.arguments import checked
+from rotorcalc.arrays import Array, real_array
 from rotorcalc.films.short.static import below_one, checked_eccentricity, static_force
 
 
@@ -27,7 +28,7 @@ def film_thickness(eps: ArrayLike, theta: ArrayLike) -> Array:
     ValueError
         Where ε lies outside [0, 1].
     """
-    return 1.0 + checked_eccentricity(eps) * np.cos(theta)
+    return 1.0 + checked_eccentricity(eps) * np.cos(real_array("theta", theta))
 
 
 def pressure(eps: ArrayLike, theta: ArrayLike, zeta: ArrayLike = 0.0) -> Array:
@@ -55,7 +56,8 @@ def pressure(eps: ArrayLike, theta: ArrayLike, zeta: ArrayLike = 0.0) -> Array:
         Where ε lies outside [0, 1) or ζ outside the bearing.
     """
     eps, _ = below_one(eps)
-    zeta = np.asarray(zeta, dtype=float)
+    theta = real_array("theta", theta)
+    zeta = real_array("zeta", zeta)
     if not np.all(np.abs(zeta) <= 0.5):
         raise ValueError("zeta = z/L: must lie within the bearing, -0.5 to 0.5")
     H = film_thickness(eps, theta)
@@ -132,6 +134,7 @@ def side_flow(eps: ArrayLike) -> Array:
     return checked_eccentricity(eps)
 
 
+@checked
 def drag(eps: ArrayLike, *, length_to_radius: float) -> Array:
     """Return the film's torque on the journal: 2π/s + ½ε f_t (L/R)², in μΩR³L/C.
 
