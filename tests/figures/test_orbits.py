@@ -155,7 +155,7 @@ def test_the_linear_motion_ends_where_it_leaves_the_bearing(releases):
 
 
 def test_a_bad_release_is_refused_in_words():
-    with pytest.raises(ValueError, match="less than the radial clearance"):
+    with pytest.raises(ValueError, match="film has no thickness left"):
         release(SHEET, 6000 * RPM, kick=1.2 * C, revolutions=20)
     with pytest.raises(ValueError, match="16 or more"):
         release(SHEET, 6000 * RPM, kick=0.1 * C, revolutions=2)
