@@ -50,8 +50,8 @@ def orbits(page: Page) -> None:
         page.chart(
             lambda c: draw.in_clearance(c.clearance_orbit, c.sweep.journal_position, units),
             "clearance_orbit",
-            alt="The journal's orbit about its equilibrium inside the clearance circle.",
-            caption="The journal's centre in its clearance circle, about the point where it "
+            alt="The journal's orbit about its equilibrium inside its clearance.",
+            caption="The journal's centre in its clearance, about the point where it "
             "rests at running speed. X points down, along the load; the shaft turns "
             "anticlockwise.",
         )

@@ -401,8 +401,9 @@ def added_mass(machine: Machine, speed: ArrayLike, *, factor: float = LAMINAR) -
     """
     state = equilibrium(machine, speed)
     bearing = machine.bearing
-    R, L, C = bearing.radius, bearing.length, bearing.radial_clearance
-    unit = factor * machine.oil.density * R * L**3 / (12.0 * C)
+    unit = factor * FilmUnits(bearing, machine.viscosity, state.speed).added_mass(
+        machine.oil.density
+    )
     M = unit * film_of(bearing).added_mass(operating_points(machine, speed))
     return AddedMass(
         speed=state.speed,

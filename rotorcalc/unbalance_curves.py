@@ -19,6 +19,7 @@ from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, ComplexArray
 from rotorcalc.coefficients import equilibrium, rising_speed, stiffness_and_damping
 from rotorcalc.display import Result
+from rotorcalc.films import film_of
 from rotorcalc.machine import Machine, Rotor
 from rotorcalc.onset import judge
 from rotorcalc.unbalance_peaks import ResponsePeaks, disk_peak_speeds
@@ -126,22 +127,22 @@ class ClearanceOrbit(Result):
     ----------
     clearance : float
         Radial clearance, C [m].
-    circle : array, (p, 2)
-        Points of the clearance circle in X, Y [m].
+    wall : array, (p, 2)
+        Where the journal's centre would touch the wall, all the way round, in X, Y [m].
     centre : array, (2,)
         Static equilibrium of the journal's centre [m].
     path : array, (p, 2)
         The orbit from the bearing's centre [m].
-    reach : float
-        Largest distance of the orbit from the bearing's centre over the clearance [-]: above 1 the
-        linear theory takes the journal through the wall.
+    closest : float
+        Thinnest film on the orbit over the clearance [-]: below 0 the linear theory takes the
+        journal through the wall.
     """
 
     clearance: float
-    circle: Array
+    wall: Array
     centre: Array
     path: Array
-    reach: float
+    closest: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -262,7 +263,7 @@ def orbits(sweep: Sweep, *, points: int = _ORBIT_POINTS, every: int = 1) -> Orbi
 
 @checked
 def clearance_orbit(point: Sweep) -> ClearanceOrbit:
-    """Return the journal's orbit about its static equilibrium inside the clearance circle.
+    """Return the journal's orbit about its static equilibrium inside its clearance.
 
     Parameters
     ----------
@@ -272,17 +273,17 @@ def clearance_orbit(point: Sweep) -> ClearanceOrbit:
     Returns
     -------
     ClearanceOrbit
-        Circle, equilibrium, path, and how near the path comes to the wall.
+        Wall, equilibrium, path, and how near the path comes to the wall.
     """
-    C = point.machine.bearing.radial_clearance
+    film, C = film_of(point.machine.bearing), point.machine.bearing.radial_clearance
     journal = point.journal_response
     path = point.journal_position + orbit_points(journal[0], journal[1], points=4 * _ORBIT_POINTS)
     return ClearanceOrbit(
         clearance=C,
-        circle=orbit_points(C, -1j * C, points=2 * _ORBIT_POINTS),
+        wall=C * film.outline(np.linspace(0.0, 2.0 * np.pi, 2 * _ORBIT_POINTS)),
         centre=point.journal_position,
         path=path,
-        reach=float(np.hypot(path[:, 0], path[:, 1]).max() / C),
+        closest=float(film.gap(path / C).min()),
     )
 
 

@@ -216,7 +216,7 @@ class Computed:
 
     @property
     def clearance_orbit(self) -> ClearanceOrbit:
-        """The journal's orbit at the running speed in its clearance circle."""
+        """The journal's orbit at the running speed in its clearance."""
         return clearance_orbit(self.point)
 
     def response_family(self, variants: Callable[[Machine], tuple[Rotor, ...]]) -> ResponseFamily:

@@ -86,16 +86,17 @@ def phase(curves: ResponseCurves, units: Units) -> Chart:
 
 
 def in_clearance(orbit: ClearanceOrbit, locus: Array, units: Units) -> Chart:
-    """Return the journal's orbit about its static equilibrium inside the clearance circle."""
+    """Return the journal's orbit about its static equilibrium inside its clearance."""
     unit = units.film
-    reach = float(unit.of(1.06 * max(orbit.clearance, float(np.abs(orbit.path).max()))))
+    farthest = max(float(np.abs(path).max()) for path in (orbit.wall, orbit.path))
+    reach = float(unit.of(1.06 * farthest))
     x, y = _plane(reach, unit)
     centre = unit.of(orbit.centre)
     bottom = {**y, "range": [reach, reach]}  # the axis runs down, its larger end is below
     guide, point = style.here(float(centre[1]), float(centre[0]), x, bottom)
     small = {**point, "marker": {**point["marker"], "size": 7}, "showlegend": False}
     traces = [
-        _path(orbit.circle, unit, "clearance circle", style.GREY, width=1.8, showlegend=False),
+        _path(orbit.wall, unit, "clearance", style.GREY, width=1.8, showlegend=False),
         _path(locus, unit, "equilibrium at other speeds", style.GREY, dash="dot", width=1.4),
         guide,
         *_orbit(orbit.path, unit, "journal's orbit", style.JOURNAL),

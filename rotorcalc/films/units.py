@@ -63,3 +63,8 @@ class FilmUnits:
         """μΩR³L/C [N·m]."""
         one = self.bearing
         return self.viscosity * self.speed * one.radius**3 * one.length / one.radial_clearance
+
+    def added_mass(self, density: float) -> float:
+        """Return ρRL³/(12C) [kg] of an oil's density [kg/m³]."""
+        one = self.bearing
+        return density * one.radius * one.length**3 / (12.0 * one.radial_clearance)

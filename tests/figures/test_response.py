@@ -26,6 +26,7 @@ from rotorcalc.unbalance_curves import (
 from rotorcalc.unbalance_peaks import response_peaks
 from rotorcalc.unbalance_response import orbit_ellipse, orbit_points
 from tests.figures.charts import check_baseline_is_behind, check_plotly_takes_it, curves_in_window
+from tests.films.models import BEARINGS
 from tests.machines import machines
 
 SHEET = PRESETS["sheet-1e8"].machine
@@ -200,9 +201,14 @@ def test_the_lag_at_the_running_speed_lies_on_its_curve() -> None:
 def test_the_journals_path_surrounds_its_equilibrium_and_tells_its_reach() -> None:
     orbit = clearance_orbit(analyse(SHEET, SPEED))
     assert_allclose(orbit.path[:-1].mean(axis=0), orbit.centre, rtol=1e-9)
-    assert_allclose(np.hypot(*orbit.circle.T), orbit.clearance)
-    assert orbit.reach < 1.0
-    assert clearance_orbit(analyse(MACHINES["shaken"], SPEED)).reach > 1.0
+    assert_allclose(np.hypot(*orbit.wall.T), orbit.clearance)
+    farthest = np.hypot(*orbit.path.T).max() / orbit.clearance
+    assert orbit.closest == pytest.approx(1.0 - farthest, abs=1e-12)
+    assert orbit.closest > 0.0
+    assert clearance_orbit(analyse(MACHINES["shaken"], SPEED)).closest < 0.0
+    square = replace(MACHINES["shaken"], bearing=BEARINGS["sprung"])
+    wall = clearance_orbit(analyse(square, SPEED)).wall
+    assert_allclose(np.abs(wall).max(axis=1), orbit.clearance)
 
 
 def test_a_family_holds_each_rotors_own_response() -> None:

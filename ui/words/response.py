@@ -44,13 +44,13 @@ def say_limits(computed: Computed, units: Units) -> None:
             "The machine is unstable at its running speed: it whirls with growing amplitude, and "
             "the steady response shown there would not last."
         )
-    reach = computed.clearance_orbit.reach
-    if reach >= 1.0:
+    closest = computed.clearance_orbit.closest
+    if closest <= 0.0:
         C = float(units.film.of(computed.machine.bearing.radial_clearance))
         st.warning(
-            f"By this linear theory the journal would move {digits(reach * C)} {units.film.name} "
-            f"from the bearing's centre, beyond the clearance of {digits(C)} {units.film.name}. "
-            "The film stiffens long before: take its orbit as a sign of trouble, not as a size."
+            f"By this linear theory the journal would move {digits(-closest * C)} "
+            f"{units.film.name} into the wall; the clearance is {digits(C)} {units.film.name}. "
+            "The film stiffens long before: take the orbit as a sign of trouble, not as a size."
         )
 
 
