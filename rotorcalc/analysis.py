@@ -15,7 +15,8 @@ from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import dynamics, equilibrium
 from rotorcalc.display import Result
-from rotorcalc.films import FilmState, film_of, film_state
+from rotorcalc.films import FilmDynamics, FilmState, film_of, film_state
+from rotorcalc.films.dynamics import NO_INERTIA
 from rotorcalc.frames import rotate
 from rotorcalc.machine import JournalBearing, Machine
 from rotorcalc.onset.whirl import WhirlOnset, flexible_threshold, whirl_onset
@@ -100,6 +101,16 @@ class Sweep(Result):
     journal_response: ComplexArray
 
     @cached_property
+    def dynamics(self) -> FilmDynamics:
+        """The film with its inner coordinates, on which free motions depend [N/m], [N·s/m], [kg].
+
+        Without inner coordinates it is `stiffness` and `damping`.
+        """
+        if film_of(self.machine.bearing).inner:
+            return dynamics(self.machine, self.speed)
+        return FilmDynamics(self.stiffness, self.damping, NO_INERTIA)
+
+    @cached_property
     def rigid_eigenvalues(self) -> ComplexArray:
         """λ of the rigid rotor [1/s], (n, 4), and of inner coordinates; when first asked for."""
         return self._eigenvalues(flexible=False)
@@ -111,14 +122,18 @@ class Sweep(Result):
             return self.rigid_eigenvalues
         return self._eigenvalues(flexible=True)
 
+    def mode_shapes(self, *, flexible: bool = True) -> modes.ModeShapes:
+        """Return the free motions at each speed, of a shaft that bends or not."""
+        film, rotor = self.dynamics, self.machine.rotor
+        return modes.mode_shapes(
+            rotor, film.stiffness, film.damping, inertia=film.inertia, flexible=flexible
+        )
+
     def _eigenvalues(self, *, flexible: bool) -> ComplexArray:
-        machine, rotor = self.machine, self.machine.rotor
-        if film_of(machine.bearing).inner:
-            film = dynamics(machine, self.speed)
-            return modes.eigenvalues(
-                rotor, film.stiffness, film.damping, inertia=film.inertia, flexible=flexible
-            )
-        return modes.eigenvalues(rotor, self.stiffness, self.damping, flexible=flexible)
+        film, rotor = self.dynamics, self.machine.rotor
+        return modes.eigenvalues(
+            rotor, film.stiffness, film.damping, inertia=film.inertia, flexible=flexible
+        )
 
     def to_dataframe(self) -> "pd.DataFrame":
         """Return the sweep as a table of pandas: a row a speed, a column a number.

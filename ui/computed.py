@@ -268,7 +268,7 @@ def _locus(machine: Machine, speed: float, top_speed: float, flexible: bool) -> 
         speeds(top_speed),
         _branches(machine, top_speed, flexible),
         running_speed=speed,
-        shapes=modes.mode_shapes(machine.rotor, point.stiffness, point.damping, flexible=flexible),
+        shapes=point.mode_shapes(flexible=flexible),
     )
 
 

@@ -13,7 +13,7 @@ from rotorcalc import Machine, analyse
 from rotorcalc.coefficients import dynamics, equilibrium, stiffness_and_damping
 from rotorcalc.films import FilmMotion, FilmUnits, film_of, reduced
 from tests.films.models import BEARINGS, Preloaded, Ringed, Sprung, points
-from tests.machines import SHEET, log_uniform
+from tests.machines import ROTORS, SHEET, log_uniform
 
 ALL = pytest.mark.parametrize("bearing", BEARINGS.values(), ids=list(BEARINGS))
 SIGMA = np.array([0.2, 0.5, 1.0, 4.0, 30.0])
@@ -156,6 +156,50 @@ def test_without_load_the_film_has_a_place_and_finite_coefficients(bearing):
     sweep = analyse(machine_on(bearing, load=0.0), np.array([300.0, 600.0]))
     assert np.all(np.isfinite(sweep.journal_position))
     assert np.all(np.isfinite(sweep.stiffness))
+
+
+@ALL
+@pytest.mark.parametrize("rotor", ROTORS)
+def test_the_response_is_that_of_all_coordinates_together(bearing, rotor):
+    """Disk, journal and inner coordinates solved at jΩ, none eliminated."""
+    machine = machine_on(bearing, rotor=replace(ROTORS[rotor], imbalance=1e-5))
+    for speed in (300.0, 900.0):
+        sweep = analyse(machine, speed)
+        film, r = sweep.dynamics, machine.rotor
+        n = film.inner
+        # A rigid shaft is a very stiff one.
+        k = 1e9 * np.abs(film.stiffness).max() if r.is_rigid else r.shaft_stiffness
+        A = np.zeros((4 + n, 4 + n), dtype=complex)
+        A[2:, 2:] = film.stiffness + 1j * speed * film.damping
+        mass = [r.disk_mass] * 2 + [r.journal_mass] * 2 + list(film.inertia)
+        A -= np.diag(np.array(mass) * speed**2)
+        for i in (0, 1):
+            A[i, i] += k + 1j * speed * r.disk_damping
+            A[i + 2, i + 2] += k
+            A[i, i + 2] -= k
+            A[i + 2, i] -= k
+        force = np.zeros(4 + n, dtype=complex)
+        force[:2] = r.disk_mass * r.imbalance * speed**2 * np.array([1.0, -1.0j])
+        found = np.linalg.solve(A, force)
+        size = np.abs(found[:4]).max()
+        assert np.abs(sweep.disk_response - found[:2]).max() < 1e-5 * size
+        assert np.abs(sweep.journal_response - found[2:4]).max() < 1e-5 * size
+
+
+@ALL
+@pytest.mark.parametrize("rotor", ROTORS)
+def test_a_sweep_has_the_free_motions_of_all_coordinates(bearing, rotor):
+    machine = machine_on(bearing, rotor=ROTORS[rotor])
+    speed = np.array([300.0, 600.0])
+    sweep = analyse(machine, speed)
+    inner = sweep.dynamics.inner
+    more = inner + int(np.count_nonzero(sweep.dynamics.inertia))
+    assert sweep.rigid_eigenvalues.shape == (2, 4 + more)
+    states = 4 if machine.rotor.is_rigid else 8 if machine.rotor.journal_mass else 6
+    assert sweep.flexible_eigenvalues.shape == (2, states + more)
+    shapes = analyse(machine, 600.0).mode_shapes()
+    found = np.sort_complex(sweep.flexible_eigenvalues[1])
+    assert np.sort_complex(shapes.eigenvalues) == pytest.approx(found, rel=1e-6)
 
 
 @ALL
