@@ -14,10 +14,10 @@ from typing import Literal, TypeAlias
 
 from scipy.optimize import brentq
 
-from rotorcalc import modes
 from rotorcalc.analysis import analyse
 from rotorcalc.arguments import checked
 from rotorcalc.machine import Machine
+from rotorcalc.nonlinear.linear_motion import linear_theory
 from rotorcalc.nonlinear.signals import fitted_modes
 from rotorcalc.nonlinear.transient import TransientError, simulate, start_on_mode
 from rotorcalc.onset.closed_form import closed_form_onset, covers
@@ -29,6 +29,8 @@ _WHIRL, _OF_FILM = 1e-4, 1e-2
 # How long it is watched: so many whirls, unless so many of 1/|growth rate| are shorter; no fewer
 # whirls than _FEWEST, in no more revolutions and whirls than _MOST. Samples over that time.
 _WHIRLS, _LIFETIMES, _FEWEST, _MOST, _SAMPLES = 8.0, 3.0, 2.0, 400, 200
+# What the integrator's errors may be of such a motion.
+_NOISE = 1e-6
 # Speeds over the guess at which the search looks first, outwards; and how sharp it ends.
 _SPREAD = (0.97, 1.03, 0.9, 1.1, 0.75, 1.3, 0.5, 2.0)
 _SHARP = 1e-6
@@ -135,8 +137,7 @@ def measured_growth(machine: Machine, speed: float) -> float:
     """
     balanced = replace(machine, rotor=replace(machine.rotor, imbalance=0.0))
     point = analyse(balanced, speed)
-    expected = complex(modes.leading(point.flexible_eigenvalues))
-    time = _watched(expected, speed)
+    time = _watched(linear_theory(balanced, speed).whirl, speed)
     if math.isnan(time):
         return math.nan
     turns = time * speed / (2.0 * math.pi)
@@ -154,7 +155,7 @@ def measured_growth(machine: Machine, speed: float) -> float:
     except TransientError:
         return math.nan
     watched = motion.journal[motion.time <= time * (1.0 + 1e-9)]
-    values = fitted_modes(watched - point.journal_position, float(motion.time[1]))
+    values = fitted_modes(watched - point.journal_position, float(motion.time[1]), noise=_NOISE)
     waves = values[values.imag > 0.0]
     return float(waves[0].real) if len(waves) else math.nan
 

@@ -1,10 +1,6 @@
 """A journal let go: its nonlinear motion, and the linear theory's for the same start.
 
-The linear motion is that of the equations of motion with the film's stiffness and damping in place
-of its force: the synchronous ellipse, and all modes of the free motion, each with the share that
-the start gives it.
-
-Source: San Andrés, Notes 5, Eq. 5.38; the nonlinear motion as in `transient`.
+Source: San Andrés, Notes 5, Eq. 5.38; the motions as in `transient` and `linear_motion`.
 """
 
 import math
@@ -13,17 +9,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotorcalc import modes
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
-from rotorcalc.coefficients import Equilibrium, equilibrium
+from rotorcalc.coefficients import equilibrium
 from rotorcalc.display import Result
 from rotorcalc.films import film_of
 from rotorcalc.machine import JournalBearing, Machine
-from rotorcalc.nonlinear.equations import Start, resting
+from rotorcalc.nonlinear.equations import resting
+from rotorcalc.nonlinear.linear_motion import linear_theory, motion_of
 from rotorcalc.nonlinear.signals import Spectrum, poincare_points, spectrum
 from rotorcalc.nonlinear.transient import TOLERANCE, Transient, TransientError, simulate
-from rotorcalc.unbalance_response import orbit_points, synchronous_response
+from rotorcalc.unbalance_response import orbit_points
 
 # The share of a motion at its end that is taken for what it came to.
 _SETTLED = 0.25
@@ -149,8 +145,7 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
     if revolutions < 16:
         raise ValueError(f"revolutions = {revolutions}: must be 16 or more")
     C = machine.bearing.radial_clearance
-    state = equilibrium(machine, speed)
-    rest = state.film.position * C
+    rest = equilibrium(machine, speed).film.position * C
     start = resting(machine, rest - np.array([kick, 0.0]))
     stopped = ""
     try:
@@ -162,72 +157,20 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
         if len(error.partial.time) <= 16 * samples_per_revolution:
             raise
         motion, stopped = error.partial, str(error)
-    linear, ellipse, whirl = _linear(machine, state, start, motion.time)
+    theory = linear_theory(machine, speed)
+    linear = motion_of(theory, machine, speed, start, motion.time)
     return Release(
         motion=motion,
         clearance=C,
         rest=rest,
         linear=rest + _drawn(linear, rest, machine.bearing),
-        ellipse=rest + ellipse,
-        whirl=whirl,
+        ellipse=rest + orbit_points(*theory.forced[theory.journal]),
+        whirl=theory.whirl,
         film=C * film_of(machine.bearing).gap(motion.journal / C),
         spectrum=spectrum(motion, last=max(int(_SETTLED * revolutions), 4)),
         points=poincare_points(motion),
         stopped=stopped,
     )
-
-
-@checked
-def linear_motion(machine: Machine, speed: float, start: Start, time: Array) -> Array:
-    """Return the journal's motion by the linear theory, about its rest.
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-    speed : float
-        Running speed, Ω [rad/s].
-    start : Start
-        The state at t = 0.
-    time : array, (n,)
-        t [s].
-
-    Returns
-    -------
-    array, (n, 2)
-        Displacement from rest in X, Y [m].
-    """
-    return _linear(machine, equilibrium(machine, speed), start, time)[0]
-
-
-def _linear(
-    machine: Machine, state: Equilibrium, start: Start, time: Array
-) -> tuple[Array, Array, complex]:
-    """Return the journal's linear motion, its synchronous orbit, and the least damped whirl's λ."""
-    rotor, speed = machine.rotor, float(state.speed)
-    disk, journal = synchronous_response(rotor, state.stiffness, state.damping, speed)
-    shapes = modes.mode_shapes(rotor, state.stiffness, state.damping)
-    rest = resting(machine, state.film.position * machine.bearing.radial_clearance)
-    away = [
-        start.disk - rest.disk - disk.real,
-        start.journal - rest.journal - journal.real,
-        start.disk_velocity - (1j * speed * disk).real,
-        start.journal_velocity - (1j * speed * journal).real,
-    ]
-    values = shapes.eigenvalues
-    kept = {4: (0, 2), 6: (0, 1, 2), 8: (0, 1, 2, 3)}[len(values)]
-    shares = np.linalg.solve(
-        shapes.vectors, np.concatenate([away[i] for i in kept]).astype(complex)
-    )
-    # Each phasor turns at its λ, that of the forced motion at jΩ; of the free motion's conjugate
-    # pairs one stands for both.
-    one = values.imag >= 0.0
-    twice = np.where(values[one].imag > 0.0, 2.0, 1.0)
-    phasors = np.vstack([(twice * shares[one])[:, None] * shapes.journal[one], journal])
-    with np.errstate(over="ignore", invalid="ignore"):
-        turning = np.exp(time[:, None] * np.append(values[one], 1j * speed))
-        motion = np.real(turning @ phasors)
-    return motion, orbit_points(*journal), complex(modes.leading(values))
 
 
 def _drawn(linear: Array, rest: Array, bearing: JournalBearing) -> Array:

@@ -206,7 +206,7 @@ def free_modes(
 
 
 @checked
-def fitted_modes(path: Array, step: float) -> ComplexArray:
+def fitted_modes(path: Array, step: float, *, noise: float = _NOISE) -> ComplexArray:
     """Return the exponents of the exponentials that add up to a path, as `free_modes` does.
 
     Parameters
@@ -215,6 +215,8 @@ def fitted_modes(path: Array, step: float) -> ComplexArray:
         X and Y at even steps of time.
     step : float
         Time from one to the next [s].
+    noise : float
+        Singular values below this share of the largest are taken for noise.
 
     Returns
     -------
@@ -228,7 +230,7 @@ def fitted_modes(path: Array, step: float) -> ComplexArray:
     """
     stride = max(1, len(path) // _MOST_ROWS)
     path = path[::stride]
-    factors = _pencil(path)
+    factors = _pencil(path, noise)
     values: ComplexArray = np.asarray(np.log(factors) / (stride * step), dtype=complex)
     shares = _shares(factors, path)
     values = values[np.argsort(-shares)]
@@ -321,7 +323,7 @@ def _line(order: Array, size: Array, within: tuple[float, float]) -> tuple[float
     return float(order[top] + side * d * spacing), peak * (height if d < 1.0 else 2.0)
 
 
-def _pencil(path: Array) -> ComplexArray:
+def _pencil(path: Array, noise: float) -> ComplexArray:
     """Return the factors e^{λΔt} of the exponentials that add up to a path, (n, 2)."""
     n = len(path)
     length = n // 3
@@ -330,7 +332,7 @@ def _pencil(path: Array) -> ComplexArray:
     if not np.abs(table).max() > 0.0:
         raise ValueError("motion: is at rest, and no mode can be measured")
     _, sizes, across = np.linalg.svd(table, full_matrices=False)
-    modes = int(np.sum(sizes > _NOISE * sizes[0]))
+    modes = int(np.sum(sizes > noise * sizes[0]))
     space = across[: min(modes, _MOST_MODES)].T
     return np.linalg.eigvals(np.linalg.pinv(space[:-1]) @ space[1:]).astype(complex)
 

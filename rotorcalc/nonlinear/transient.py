@@ -30,6 +30,7 @@ from rotorcalc.films import film_of
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.equations import Equations, Motion, Start, integrated, resting
 from rotorcalc.nonlinear.limit_cycles import bifurcation
+from rotorcalc.nonlinear.linear_motion import linear_theory, started
 
 __all__ = [
     "MOST_REVOLUTIONS",
@@ -174,7 +175,8 @@ def start_on_mode(machine: Machine, speed: float, amplitude: float) -> Start:
     speed : float
         Running speed, Ω [rad/s].
     amplitude : float
-        Largest displacement of the journal in the mode [m].
+        Largest displacement in the mode of the journal, or of a part of the film that moves
+        farther [m].
 
     Returns
     -------
@@ -189,22 +191,17 @@ def start_on_mode(machine: Machine, speed: float, amplitude: float) -> Start:
     """
     if not 0.0 < amplitude < math.inf:
         raise ValueError(f"amplitude = {amplitude} m: must be positive and finite")
-    state = equilibrium(machine, _checked_speed("speed", speed))
-    shapes = modes.mode_shapes(machine.rotor, state.stiffness, state.damping)
-    mode = modes.leading_place(shapes.eigenvalues)
-    if shapes.eigenvalues[mode].imag <= 0.0:
+    theory = linear_theory(machine, _checked_speed("speed", speed))
+    mode = modes.leading_place(theory.eigenvalues)
+    lam, shape = theory.eigenvalues[mode], theory.vectors[: len(theory.forced), mode]
+    if lam.imag <= 0.0:
         raise ValueError(f"machine: none of its modes oscillates at {speed:.6g} rad/s")
-    lam, disk, journal = shapes.eigenvalues[mode], shapes.disk[mode], shapes.journal[mode]
+    journal = shape[theory.journal]
     # The phase at which the journal's displacement is largest: (x·x) real and positive.
     scale = amplitude * np.exp(-0.5j * np.angle(np.sum(journal**2)))
-    scale /= np.linalg.norm((journal * scale / abs(scale)).real)
-    rest = resting(machine, state.film.position * machine.bearing.radial_clearance)
-    return Start(
-        journal=rest.journal + (scale * journal).real,
-        disk=rest.disk + (scale * disk).real,
-        journal_velocity=(lam * scale * journal).real,
-        disk_velocity=(lam * scale * disk).real,
-    )
+    inner = np.abs(shape[theory.journal.stop :]).max(initial=0.0)
+    scale /= max(float(np.linalg.norm((journal * scale / abs(scale)).real)), float(inner))
+    return started(machine, speed, (scale * shape).real, (lam * scale * shape).real)
 
 
 @checked

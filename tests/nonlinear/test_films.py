@@ -10,8 +10,11 @@ from scipy.linalg import expm
 from rotorcalc import analyse, energy_balance, simulate
 from rotorcalc.coefficients import dynamics
 from rotorcalc.films import film_of
-from rotorcalc.nonlinear.equations import Start
-from rotorcalc.nonlinear.transient import last_state
+from rotorcalc.nonlinear.equations import Start, resting
+from rotorcalc.nonlinear.linear_motion import linear_motion, linear_theory
+from rotorcalc.nonlinear.measured_onset import measured_growth
+from rotorcalc.nonlinear.release import release
+from rotorcalc.nonlinear.transient import last_state, start_on_mode
 from tests.films.models import BEARINGS
 from tests.machines import ROTORS, SHEET, C
 
@@ -130,3 +133,39 @@ def test_inner_states_of_another_number_are_refused(inner, words):
     start = Start(still, still, still, still, inner=inner)
     with pytest.raises(ValueError, match=words):
         simulate(machine, SPEED, revolutions=1, start=start)
+
+
+@ALL
+@KINDS
+def test_the_linear_motion_is_that_of_the_pencil_and_of_the_small_motion(name, kind):
+    machine = machine_on(name, kind, 1e-5 * C)
+    rest = analyse(machine, SPEED).journal_position
+    if math.isnan(linear_theory(machine, SPEED).whirl.real):  # no mode oscillates
+        start = resting(machine, rest + np.array([2e-5 * C, 0.0]))
+    else:
+        start = start_on_mode(machine, SPEED, 2e-5 * C)
+    motion = simulate(machine, SPEED, revolutions=2, start=start)
+    expected = linear_motion(machine, SPEED, start, motion.time)
+    size = np.abs(expected).max()
+    assert np.abs(motion.journal - rest - expected).max() < 1e-3 * size
+
+
+@ALL
+@KINDS
+def test_growth_is_measured_on_every_film(name, kind):
+    machine = machine_on(name, kind)
+    whirl = linear_theory(machine, SPEED).whirl
+    measured = measured_growth(machine, SPEED)
+    if math.isnan(whirl.real):  # no mode oscillates
+        assert math.isnan(measured)
+    else:
+        assert measured == pytest.approx(whirl.real, abs=1e-5 * abs(whirl))
+
+
+@ALL
+def test_a_release_is_followed_on_every_film(name):
+    machine = machine_on(name, "massless journals", 0.02 * C)
+    found = release(machine, SPEED, kick=1e-3 * C, revolutions=16, tolerance=1e-6)
+    assert found.stopped == ""
+    assert found.film.min() > 0.0
+    assert np.abs(found.linear - found.motion.journal).max() < 0.05 * found.size.max()
