@@ -16,7 +16,9 @@ _TO_COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(_NODES, _POINTS - 1))
 _NOTHING = 1e-13
 
 
-def narrow_root(values: Callable[[Array], Array], low: float, high: float) -> float:
+def narrow_root(
+    values: Callable[[Array], Array], low: float, high: float, *, noise: float = _NOTHING
+) -> float:
     """Return the place between two near ones at which a function changes sign.
 
     Parameters
@@ -25,11 +27,13 @@ def narrow_root(values: Callable[[Array], Array], low: float, high: float) -> fl
         The function: values (n,) at places (n,).
     low, high : float
         Places at which its values differ in sign, or one of them is zero.
+    noise : float
+        Rounding errors of the function over its largest value between the two.
 
     Returns
     -------
     float
-        The root, to about 1e-14 of itself.
+        The root, to about 1e-14 of itself, or to the noise times the distance of the two.
 
     Notes
     -----
@@ -43,7 +47,7 @@ def narrow_root(values: Callable[[Array], Array], low: float, high: float) -> fl
     """
     middle, half = 0.5 * (low + high), 0.5 * (high - low)
     series = _TO_COEFFICIENTS @ values(middle + half * _NODES)
-    if np.all(np.abs(series[-2:]) <= _NOTHING * np.abs(series).max()):
+    if np.all(np.abs(series[-2:]) <= noise * np.abs(series).max()):
         of_series = (series.tolist(),)
         ends = _clenshaw(-1.0, *of_series), _clenshaw(1.0, *of_series)
         if min(ends) < 0.0 < max(ends):

@@ -33,6 +33,8 @@ _INNER, _RISES = 10.0, 60
 # How near to an onset, relative, there is no doubt below it that the machine is stable, and none
 # above it that it is not.
 _SURE = 1e-9
+# Rounding of Hurwitz's determinant, over its largest value between two speeds of the search.
+_NOISE = 1e-11
 # Newton's steps from a root that is all but right, and how near to the axis one then lies.
 _REFINEMENTS, _ON_AXIS = 3, 1e-8
 
@@ -143,7 +145,7 @@ def _in_floats(
     if routh.determinant(decays) <= 0.0 or not routh.surely_crossed(grows):
         return None
     low, high = sorted((stable, unstable))
-    root = narrow_root(lambda speed: routh.determinant(polynomials(speed)), low, high)
+    root = narrow_root(lambda speed: routh.determinant(polynomials(speed)), low, high, noise=_NOISE)
     aside = math.copysign(_SURE, unstable - stable)
     before, there, after = polynomials(root * np.array([1.0 - aside, 1.0, 1.0 + aside]))
     if routh.margin_bounds(before)[1] > 0.0 or not routh.surely_crossed(after):
