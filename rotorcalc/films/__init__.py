@@ -1,7 +1,7 @@
-"""Film models: where the journal sits, and how the film holds it.
+"""Film models: the journal's equilibrium position, and the film's forces on it.
 
-`film_of(bearing)` is the one door: it gives the film of a bearing, which answers as
-`films.model.Film` says. A bearing names its model; `MODELS` knows which class that is.
+`film_of(bearing)` is the only entry: it returns the film of a bearing, with the interface of
+`films.model.Film`. A bearing names its film model; `MODELS` maps that name to a class.
 """
 
 import functools
@@ -37,7 +37,7 @@ __all__ = [
     "short",
 ]
 
-# By the kind of a bearing's geometry and the name of its film model.
+# Keys: the kind of a bearing's geometry and the name of its film model.
 MODELS: dict[tuple[str, str], Callable[[JournalBearing], Film]] = {("plain", "short"): ShortFilm}
 
 
@@ -60,7 +60,7 @@ def film_of(bearing: JournalBearing) -> Film:
 
 @checked
 def journal_motion(bearing: JournalBearing) -> FilmMotion:
-    """Return the force of a bearing's film on a journal that moves, where it depends on no more.
+    """Return the force of a bearing's film on a moving journal, for films without inner states.
 
     Parameters
     ----------
@@ -75,13 +75,13 @@ def journal_motion(bearing: JournalBearing) -> FilmMotion:
     Raises
     ------
     ValueError
-        Where the film has parts that move by themselves, or no force for a journal that moves.
+        Where the film has inner coordinates, or the model has no force on a moving journal.
     """
     motion = film_of(bearing).motion()
     if not isinstance(motion, FilmMotion):
         raise ValueError(
-            f"bearing = {bearing.geometry.kind}: its film has parts that move by themselves, "
-            "which this computation does not follow"
+            f"bearing = {bearing.geometry.kind}: its film has inner coordinates, parts that move "
+            "on their own, which this computation does not include"
         )
     return motion
 
@@ -124,7 +124,7 @@ def film_coefficients(bearing: JournalBearing, sommerfeld: ArrayLike) -> tuple[A
     Returns
     -------
     stiffness, damping : array, (..., 2, 2)
-        In X, Y, in μΩRL³/C³ and μRL³/C³: those of `film_state`, sooner, for it computes no more.
+        In X, Y, in μΩRL³/C³ and μRL³/C³: those of `film_state`, without its other results.
 
     Raises
     ------
@@ -134,6 +134,7 @@ def film_coefficients(bearing: JournalBearing, sommerfeld: ArrayLike) -> tuple[A
     film = film_of(bearing)
     points = OperatingPoints.at_sommerfeld(bearing, sommerfeld)
     if film.inner:
+        # `state` has eliminated the inner coordinates at ν = 1; `dynamics` still holds them.
         state = film.state(points)
         return state.stiffness, state.damping
     dynamics = film.dynamics(points)

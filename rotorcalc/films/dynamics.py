@@ -1,9 +1,9 @@
-"""The film's linear forces where it has coordinates of its own, and without them at one frequency.
+"""The film's linear forces with inner coordinates, and their reduction to the journal alone.
 
-A film with parts that move, pads that tilt or a ring that floats, answers a small motion q of the
+A film with moving parts, tilting pads or a floating ring, reacts to a small motion q of the
 journal and of its inner coordinates with −(K q + C q̇ + m q̈), in the order X, Y, inner ones. At a
-whirl of one frequency ω the inner coordinates follow the journal, and what is left is a 2×2
-impedance Z(ω) of the journal alone.
+single whirl frequency ω the inner coordinates can be eliminated, which leaves a 2×2 impedance Z(ω)
+of the journal alone.
 """
 
 from dataclasses import dataclass
@@ -44,7 +44,7 @@ NO_INERTIA: Array = np.zeros(0)
 
 @checked
 def reduced(dynamics: FilmDynamics, frequency: ArrayLike) -> tuple[Array, Array]:
-    """Return the stiffness and damping that a journal feels which whirls at one frequency.
+    """Return the film's stiffness and damping for a journal that whirls at one frequency.
 
     Z = Z_qq − Z_qi Z_ii⁻¹ Z_iq with Z = K + jωC − ω²m; then K = Re Z and C = Im Z/ω.
 
@@ -63,7 +63,9 @@ def reduced(dynamics: FilmDynamics, frequency: ArrayLike) -> tuple[Array, Array]
     omega = real_array("frequency", frequency)[..., None, None]
     if dynamics.inner == 0:
         return dynamics.stiffness, dynamics.damping
+    # Zeros in front: the film has no inertia at the journal itself, the rotor's is not its part.
     mass = np.diag(np.concatenate([np.zeros(2), dynamics.inertia]))
     Z: ComplexArray = dynamics.stiffness + 1j * omega * dynamics.damping - omega**2 * mass
+    # No force acts on the inner coordinates: Z_iq q + Z_ii q_i = 0 gives q_i.
     left = Z[..., :2, :2] - Z[..., :2, 2:] @ np.linalg.solve(Z[..., 2:, 2:], Z[..., 2:, :2])
     return left.real, left.imag / omega

@@ -1,9 +1,9 @@
-"""What a film model is: the seam between bearings and all that uses them.
+"""The interface of a film model: all that the rest of the program knows of a bearing's film.
 
-A film is an object made once for each bearing. It is asked at operating points, arrays of oil,
-speed and load, and answers in the film's units (`films.units`). Nothing above it may assume a
-circular bore, an eccentricity below 1, an attitude below 90°, a closed form, whirl without load, or
-coefficients that do not depend on the whirl's frequency.
+A film is an object made once for each bearing. It takes operating points, arrays of viscosity,
+speed and load, and returns results in the film's units (`films.units`). No caller may assume a
+circular bore, ε below 1, an attitude angle below 90°, a closed form, whirl at zero load, or
+coefficients independent of the whirl frequency.
 """
 
 from collections.abc import Callable, Hashable, Mapping
@@ -19,7 +19,7 @@ from rotorcalc.machine import JournalBearing
 
 
 class Velocity(Protocol):
-    """The velocity of a journal from its place and the film's force on it."""
+    """The velocity of a journal from its position and the film's force on it."""
 
     def __call__(  # noqa: D102 - see FilmMotion
         self, x: float, y: float, f_x: float, f_y: float, near: list[float] | None = ...
@@ -31,23 +31,23 @@ Force: TypeAlias = Callable[[float, float, float, float], tuple[float, float]]
 
 @dataclass(frozen=True)
 class FilmMotion:
-    """The force of a film without inner coordinates on a journal that moves, in plain floats.
+    """The force of a film without inner coordinates on a moving journal, in plain floats.
 
     Attributes
     ----------
     force : callable
         (f_x, f_y) in μΩRL³/C² from x, y in C and x', y' in CΩ.
     velocity : callable
-        (x', y') from (x, y, f_x, f_y), and if need be a list that carries from one search to the
-        next what makes it short, empty at first.
+        (x', y') from (x, y, f_x, f_y), and optionally a list, empty at first, in which one search
+        leaves the starting value of the next.
     """
 
     force: Force
     velocity: Velocity
 
 
-# (x, y, x', y') or (x, y, f_x, f_y), inner states, viscosity [Pa·s] and speed [rad/s] of the moment
-# → (f_x, f_y) or (x', y'), and the rates of the inner states by the angle of rotation.
+# (x, y, x', y') or (x, y, f_x, f_y), inner states, instantaneous viscosity [Pa·s], speed [rad/s]
+# → (f_x, f_y) or (x', y'), and the derivatives of the inner states by the angle of rotation.
 InnerRates: TypeAlias = Callable[
     [tuple[float, float, float, float], list[float], float, float],
     tuple[float, float, list[float]],
@@ -56,19 +56,19 @@ InnerRates: TypeAlias = Callable[
 
 @dataclass(frozen=True)
 class InnerMotion:
-    """The force of a film with inner coordinates on a journal that moves, in plain floats.
+    """The force of a film with inner coordinates on a moving journal, in plain floats.
 
     Attributes
     ----------
     states : int
-        Number of inner states: the places of all inner coordinates, then the velocities of those
+        Number of inner states: the positions of all inner coordinates, then the velocities of those
         with a mass.
     rest : callable
         The inner states in static equilibrium at operating points, (..., states), in C and CΩ.
     force : callable
-        Force on the journal and rates of the inner states from the journal's place and velocity.
+        Force on the journal and rates of the inner states from the journal's position and velocity.
     velocity : callable
-        Velocity of the journal and the same rates from its place and the force on it.
+        Velocity of the journal and the same rates from its position and the force on it.
     """
 
     states: int
@@ -79,16 +79,16 @@ class InnerMotion:
 
 @dataclass(frozen=True)
 class Limit:
-    """One bound of a film model's own validity, in the words of the validity panel.
+    """One limit of a film model's validity, as the validity panel words it.
 
     Attributes
     ----------
     name : str
         What is checked, in words with its symbol.
     value : float
-        The number that is judged [-].
+        The number compared with the two bounds [-].
     caution, outside : float
-        Above these the model is strained, and fails.
+        Above the first the model is doubtful, above the second it fails.
     reason : str
         What goes wrong, in a sentence.
     """
@@ -102,7 +102,7 @@ class Limit:
 
 @dataclass(frozen=True)
 class Source:
-    """Where a film's result comes from: for captions and for the popover beside a number.
+    """The source of a film's result, for captions and for the popover beside a number.
 
     Attributes
     ----------
@@ -126,11 +126,12 @@ class Film(Protocol):
     inner : int
         Number of inner coordinates, n.
     can_whirl : bool
-        False where the film has no cross-coupling at any load, so that no rotor whirls in it.
+        False where the film has no cross-coupling at any load, so that no rotor on it can whirl.
     curve : hashable or None
-        Equal for bearings whose k and c are one function of σ; None where these depend on more.
+        Equal for bearings whose k and c are the same function of σ; None where they depend on more.
     sommerfeld_range : (float, float)
-        σ below which no rotor whirls, and σ from which on the film no longer changes in its units.
+        σ below which no rotor whirls, and σ above which the film's coefficients, in its own units,
+        hardly change.
     limits : tuple of Limit
         What the model assumes of the bearing.
     sources : mapping of str to Source
@@ -153,7 +154,7 @@ class Film(Protocol):
     def sources(self) -> Mapping[str, Source]: ...  # noqa: D102
 
     def state(self, points: OperatingPoints) -> FilmState:
-        """Return the film in static equilibrium; what the model does not know is not a number."""
+        """Return the film in static equilibrium; NaN for what the model does not give."""
         ...
 
     def dynamics(self, points: OperatingPoints) -> FilmDynamics:
@@ -165,17 +166,17 @@ class Film(Protocol):
         ...
 
     def added_mass(self, points: OperatingPoints) -> Array:
-        """Return I_ij, (..., 2, 2), or raise ValueError in words where the model has none."""
+        """Return I_ij, (..., 2, 2), or raise ValueError where the model has no fluid inertia."""
         ...
 
     def motion(self) -> FilmMotion | InnerMotion:
-        """Return the force on a moving journal, or raise ValueError in words."""
+        """Return the force on a moving journal, or raise ValueError where the model has none."""
         ...
 
     def gap(self, position: ArrayLike) -> Array:
-        """Return the thinnest film around a journal anywhere, (...), of positions (..., 2) in C."""
+        """Return the minimum film thickness at positions (..., 2) of the journal, (...), in C."""
         ...
 
     def outline(self, angle: ArrayLike) -> Array:
-        """Return where the journal's centre touches the wall in a direction, (..., 2), in C."""
+        """Return where the journal's centre is at contact, in directions Θ, (..., 2), in C."""
         ...

@@ -1,4 +1,4 @@
-"""What a film is asked, and what it answers, dimensionless.
+"""The operating points of a film and the film's state there, dimensionless.
 
 Nothing that reads these records may assume a circular bearing: the journal's position is (x, y),
 not an eccentricity alone.
@@ -18,7 +18,7 @@ from rotorcalc.machine import JournalBearing
 
 @dataclass(frozen=True, eq=False)
 class OperatingPoints:
-    """Where a film is asked: arrays that broadcast to one shape (...).
+    """Operating points of a film: arrays that broadcast to one shape (...).
 
     Attributes
     ----------
@@ -43,19 +43,20 @@ class OperatingPoints:
     ) -> "OperatingPoints":
         """Return the points of a bearing at speeds and loads."""
         mu, omega, F = (np.asarray(one, dtype=float) for one in (viscosity, speed, load))
-        with np.errstate(divide="ignore"):
-            sigma = FilmUnits(bearing, mu, omega).force / (4.0 * F)
+        with np.errstate(divide="ignore"):  # without load σ = ∞, the centred journal
+            sigma = FilmUnits(bearing, mu, omega).force / (4.0 * F)  # Eq. 5.8
         return cls(sommerfeld=np.asarray(sigma), viscosity=mu, speed=omega, load=F)
 
     @classmethod
     def at_sommerfeld(
         cls, bearing: JournalBearing, sommerfeld: ArrayLike, *, viscosity: float = 1.0
     ) -> "OperatingPoints":
-        """Return the points at which a bearing that turns at 1 rad/s has these σ, or ValueError."""
+        """Return points of a bearing at 1 rad/s with these σ, positive, or raise ValueError."""
         sigma = real_array("sommerfeld", sommerfeld)
         if sigma.size and not sigma.min() > 0.0:
             worst = sigma[~(sigma > 0.0)].flat[0]
             raise ValueError(f"sommerfeld = {worst}: must be positive")
+        # Dimensionless results of a fixed bore depend on σ alone: any speed will do, the load fits.
         unit = FilmUnits(bearing, viscosity, 1.0).force
         return cls(
             sommerfeld=sigma,
@@ -118,14 +119,14 @@ class FilmState(Result):
 
         It carries the load, F_r = −F_o cos φ and F_t = F_o sin φ (Eq. 5.4).
         """
-        load = 0.25 / self.sommerfeld
+        load = 0.25 / self.sommerfeld  # F_o = μΩRL³/(4σC²), Eq. 5.8
         return vector(-load * np.cos(self.attitude_angle), load * np.sin(self.attitude_angle))
 
     @property
     def k(self) -> Array:
         """Stiffness in units of the load, k = K·C/F_o [-] (Eq. 5.32), shape (..., 2, 2).
 
-        Not a number, or infinite, without load.
+        NaN or infinite without load.
         """
         return self._per_load(self.stiffness)
 
@@ -133,13 +134,13 @@ class FilmState(Result):
     def c(self) -> Array:
         """Damping in units of the load, c = C·ΩC/F_o [-] (Eq. 5.32), shape (..., 2, 2).
 
-        Not a number, or infinite, without load.
+        NaN or infinite without load.
         """
         return self._per_load(self.damping)
 
     def _per_load(self, coefficients: Array) -> Array:
         # F_o = μΩRL³/(4σC²), so one film unit is 4σ units of the load.
-        with np.errstate(invalid="ignore"):
+        with np.errstate(invalid="ignore"):  # ∞ · 0 = NaN where a coefficient vanishes without load
             return 4.0 * self.sommerfeld[..., None, None] * coefficients
 
 
@@ -158,7 +159,7 @@ class FilmField(Result):
     pressure : array, (...)
         Pressure above ambient, in μΩ(L/C)².
     cavitated : boolean array, (...)
-        Whether the film is broken there.
+        Whether the film is cavitated there.
     """
 
     angle: Array

@@ -1,4 +1,4 @@
-"""The film's units: what makes a dimensionless film that of a bearing with oil, at a speed.
+"""The film's units: the scales between dimensionless results and a bearing at a speed.
 
 Position and thickness in C, force in μΩRL³/C², stiffness in μΩRL³/C³, damping in μRL³/C³, pressure
 in μΩ(L/C)², flow in ΩRLC, torque in μΩR³L/C, added mass in ρRL³/(12C). σ = μΩRL³/C²/(4F_o) is a

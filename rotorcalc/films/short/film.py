@@ -1,4 +1,4 @@
-"""The short bearing as a film model: what the rest of the program asks of it."""
+"""The short bearing as a film model (interface in `films.model`)."""
 
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
@@ -31,8 +31,8 @@ from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
 from rotorcalc.frames import vector
 from rotorcalc.machine import JournalBearing
 
-# The film of a rotor that rests deeper than ε = 0.7560 feeds no whirl; beyond σ = 10 the journal is
-# all but centred, and the film in its own units that of the centre to a part in 5000.
+# Above ε = 0.7560 (σ = 0.066385) the film cannot sustain whirl; above σ = 10 the journal is nearly
+# centred, and the coefficients in film units equal those of the centre within 1 part in 5000.
 _WHIRLS_ABOVE, _CENTRED_ABOVE = 0.066385, 10.0
 
 _SOURCES: dict[str, Source] = {
@@ -77,12 +77,12 @@ class ShortFilm:
 
     @property
     def limits(self) -> tuple[Limit, ...]:
-        """What the model leaves out of a long bearing."""
+        """Length over diameter: the model neglects circumferential pressure flow."""
         return (
             Limit(
                 "Length over diameter, L/D", self.bearing.length / self.bearing.diameter, 0.5, 1.0,
-                "the short bearing leaves out the pressure flow around the journal; it overrates "
-                "the force of longer ones",
+                "the short bearing neglects the circumferential pressure flow; it overestimates  "
+                "the force of longer bearings",
             ),
         )  # fmt: skip
 
@@ -92,7 +92,7 @@ class ShortFilm:
         Raises
         ------
         ValueError
-            Where σ is so small that the film is thinner than the arithmetic can tell.
+            Where σ is so small that ε rounds to 1.
         """
         eps = _eccentricity(points)
         phi = attitude_angle(eps)
@@ -106,11 +106,11 @@ class ShortFilm:
             side_flow=side_flow(eps),
             drag=drag(eps, length_to_radius=self.bearing.length / self.bearing.radius),
             peak_pressure=peak_pressure(eps),
-            peak_angle=phi + np.pi + peak_position(eps),
+            peak_angle=phi + np.pi + peak_position(eps),  # θ = 0 lies at Θ = φ + π
         )
 
     def dynamics(self, points: OperatingPoints) -> FilmDynamics:
-        """Return stiffness and damping alone, in half the time of `state`."""
+        """Return stiffness and damping only, in half the time of `state`."""
         eps = _eccentricity(points)
         s2 = s_squared(eps)
         units = film_units(eps, s2)
@@ -148,7 +148,7 @@ class ShortFilm:
         return FilmMotion(force=motion.force, velocity=motion.velocity)
 
     def gap(self, position: ArrayLike) -> Array:
-        """Return the thinnest film around a journal anywhere, 1 − ε (Eq. 5.19)."""
+        """Return the minimum film thickness, 1 − ε (Eq. 5.19)."""
         place = np.asarray(position, dtype=float)
         return 1.0 - np.hypot(place[..., 0], place[..., 1])
 
@@ -158,7 +158,7 @@ class ShortFilm:
 
 
 def _eccentricity(points: OperatingPoints) -> Array:
-    """Return ε where it is less than 1."""
+    """Return ε, or raise ValueError where it rounds to 1."""
     eps = eccentricity_ratio(points.sommerfeld)
     if eps.size and eps.max() == 1.0:
         raise ValueError(

@@ -1,13 +1,13 @@
-"""The short film under a moving journal, point by point: what a time integration asks of it.
+"""The short film's force on a moving journal, one point at a time, for time integration.
 
-The same force as `short.film_force`, in plain floats: an integration asks one point at a time,
-thousands of times, and NumPy's overhead would be all its cost. The film's force is linear in the
-size V of the journal's velocity relative to half speed whirl, so it is V times an impedance (g_a,
-g_b) that depends on that velocity's direction only; and its inverse, the velocity for a force, is
-one equation for that direction.
+The same force as `short.film_force`, in plain floats: an integration evaluates single points,
+thousands of times, and NumPy's overhead would dominate. The film's force is linear in the
+magnitude V of the journal's velocity relative to half-speed whirl, so it is V times an impedance
+(g_a, g_b) that depends on that velocity's direction only; and its inverse, the velocity for a
+given force, is one equation for that direction.
 
-The power that the film takes is V² g_b, and its force is the gradient of half of that by the
-velocity (c_ij = c_ji at any position), so one function of b makes both: with W = g_b,
+The power that the film absorbs is V² g_b, and its force is the gradient of half of that with
+respect to velocity (c_ij = c_ji at any position), so W = g_b, a function of b alone, gives both:
 
     g_a = (a/2) W',    dg_b/dα = −a W' = −2 g_a,    dg_a/dα = (b W' − a² W'')/2.
 
@@ -16,18 +16,18 @@ Units and axes as in `short`: position in C, velocity in CΩ, force in μΩRL³/
 
 import math
 
-# Nearer to the wall than κ² = 1 − x² − y² = 1e-10 the force is the one at that distance: only trial
+# Closer to the wall than κ² = 1 − x² − y² = 1e-10 the force is held at its value there: only trial
 # steps come there, which the integrator then rejects.
 _LEAST_KAPPA2 = 1e-10
 # The n-th coefficients of W'/2 and of W in powers of (κ/b)², from the highest down (Horner).
 _SERIES = tuple((3.0 / (2 * n + 1) - 1.0, 3.0 / (2 * n + 1) - 1.0 / (2 * n - 1), n)
                 for n in reversed(range(2, 16)))  # fmt: skip
-# κ/b below which W comes from the series: there differences in the closed form cancel (it errs by
-# 1e-12 at 0.2, by 1e-8 at 0.02), and the terms left out are below rounding.
+# κ/b below which W is summed as a series: there the closed form suffers cancellation (it errs by
+# 1e-12 at 0.2, by 1e-8 at 0.02), and the terms omitted are below rounding.
 _SLACK = 0.2
 # Halving alone takes 50 steps from π down to the tolerance, some ten roundings of π.
 _MOST_ITERATIONS, _TOLERANCE = 120, 4e-15
-# Newton's steps square: after one as short as √1e-15 the next would be a rounding error.
+# Newton's method converges quadratically: after a step of √1e-15 the next is a rounding error.
 _LAST_STEP = 3e-8
 
 
@@ -48,7 +48,7 @@ def force(x: float, y: float, dx: float, dy: float) -> tuple[float, float]:
     """
     A, B = dx + 0.5 * y, dy - 0.5 * x
     V = math.hypot(A, B)
-    if V == 0.0:
+    if V == 0.0:  # half-speed whirl about the centre: no wedge, no squeeze
         return 0.0, 0.0
     W, half_slope, _ = _impedance(-(x * A + y * B) / V, 1.0 - x * x - y * y)
     g_a = (y * A - x * B) / V * half_slope
@@ -67,8 +67,8 @@ def velocity(
     f_x, f_y : float
         Force of the film in X and Y, in μΩRL³/C².
     near : list or None
-        Memory of the last search, where this one begins, and which it updates; empty at first. The
-        closer the two points, the fewer steps it takes.
+        Solution of the last search, from which this one starts and which it replaces; empty at
+        first. The closer the two points, the fewer steps are needed.
 
     Returns
     -------
@@ -78,17 +78,17 @@ def velocity(
     Raises
     ------
     ArithmeticError
-        Where the search does not end, as for a force that is no number.
+        Where the search does not converge, as for a force of NaN.
 
     Notes
     -----
-    What is sought is the angle ψ = arg f − α by which the axis a lies below the force: there g_a
-    and g_b are in the ratio of cos ψ and sin ψ. As g_b is positive ψ lies between 0 and π; Newton's
-    steps that leave the bracket or do not halve the last step give way to halving the bracket. Over
-    a motion ψ changes more slowly than either direction, so it is what a memory holds.
+    The unknown is the angle ψ = arg f − α from the axis a to the force, at which g_a and g_b are in
+    the ratio of cos ψ and sin ψ. As g_b is positive, ψ lies between 0 and π; a Newton step that
+    leaves the bracket or is longer than half the last one is replaced by bisection. In the course
+    of a motion ψ changes more slowly than either direction, so ψ is what `near` keeps.
     """
     size = math.hypot(f_x, f_y)
-    if size == 0.0:
+    if size == 0.0:  # half-speed whirl about the centre, A = B = 0
         return -0.5 * y, 0.5 * x
     kappa2 = 1.0 - x * x - y * y
     along, beside = (x * f_x + y * f_y) / size, (y * f_x - x * f_y) / size
@@ -103,11 +103,12 @@ def velocity(
         step = error / ((W + slope_a) * sin - g_a * cos)
         if error > 0.0:
             low = psi
-        elif error <= 0.0:  # NaN moves neither end, so that its search ends in the error below
+        elif error <= 0.0:  # NaN moves neither end, so that the search ends in the error below
             high = psi
         if abs(step) <= _LAST_STEP or high - low <= _TOLERANCE:
             if near is not None:
                 near[:] = (psi + step,)
+            # The last step to first order in all that depends on ψ, instead of one more evaluation.
             cos, sin = cos - step * sin, sin + step * cos
             g = math.hypot(g_a + step * slope_a, W + step * 2.0 * g_a)
             return (f_y * cos - f_x * sin) / g - 0.5 * y, 0.5 * x - (f_x * cos + f_y * sin) / g
@@ -118,10 +119,10 @@ def velocity(
 
 
 def _impedance(b: float, kappa2: float) -> tuple[float, float, float]:
-    """Return W, W'/2 and W'': g_b, the force against the velocity at V = 1, and what makes g_a."""
+    """Return W, W'/2 and W'': g_b, the force against the velocity at V = 1, and its derivatives."""
     kappa2 = kappa2 if kappa2 > _LEAST_KAPPA2 else _LEAST_KAPPA2  # noqa: FURB136 - max is slow
     kappa = math.sqrt(kappa2)
-    if kappa < _SLACK * b:  # differences of nearly equal terms: by their series
+    if kappa < _SLACK * b:  # nearly equal terms would cancel; b < 0 adds them, at any κ
         return _slack_impedance(b, kappa2 / (b * b))
     G, q, half = 2.0 / kappa * math.atan2(kappa, b), b / (kappa2 + b * b), 0.5 / (kappa2 * kappa2)
     slack, bq = 3.0 * (b * G - 2.0), 2.0 * b * q
@@ -130,7 +131,7 @@ def _impedance(b: float, kappa2: float) -> tuple[float, float, float]:
 
 
 def _slack_impedance(b: float, t2: float) -> tuple[float, float, float]:
-    """Return the same where κ ≪ b, from t² = κ²/b²: W in powers of t, and its derivatives."""
+    """Return the same for κ ≪ b as power series in t² = κ²/b²."""
     value = half_slope = bend = 0.0
     for slope_n, value_n, n in _SERIES:
         value = value_n - t2 * value

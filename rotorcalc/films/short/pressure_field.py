@@ -61,7 +61,8 @@ def pressure(eps: ArrayLike, theta: ArrayLike, zeta: ArrayLike = 0.0) -> Array:
     if not np.all(np.abs(zeta) <= 0.5):
         raise ValueError("zeta = z/L: must lie within the bearing, -0.5 to 0.5")
     H = film_thickness(eps, theta)
-    wedge = np.maximum(np.sin(theta), 0.0)  # cavitated where the film diverges
+    # Half Sommerfeld (Gümbel) condition: ambient pressure where the film diverges, θ > π.
+    wedge = np.maximum(np.sin(theta), 0.0)
     return 3.0 * eps * wedge / H**3 * (0.25 - zeta**2)
 
 
@@ -86,6 +87,7 @@ def peak_position(eps: ArrayLike) -> Array:
         Where ε lies outside [0, 1].
     """
     eps = checked_eccentricity(eps)
+    # 2ε cos²θ − cos θ − 3ε = 0; the other root exceeds 1. Rationalised, so that ε = 0 gives π/2.
     return np.arccos(-6.0 * eps / (1.0 + np.sqrt(1.0 + 24.0 * eps**2)))
 
 
@@ -113,8 +115,8 @@ def peak_pressure(eps: ArrayLike) -> Array:
 def side_flow(eps: ArrayLike) -> Array:
     """Return the oil that leaves at both ends together: ε, in ΩRLC.
 
-    The converging film takes in ½ΩRL·C(1+ε) at θ = 0 and hands on ½ΩRL·C(1−ε) at θ = π; the
-    difference leaves at the ends. Source: continuity with the flow of Eq. 5.22.
+    A flow of ½ΩRL·C(1+ε) enters the converging film at θ = 0, ½ΩRL·C(1−ε) leaves it at θ = π; the
+    difference leaves at the two ends. Source: continuity with the flow of Eq. 5.22.
 
     Parameters
     ----------
@@ -138,9 +140,9 @@ def side_flow(eps: ArrayLike) -> Array:
 def drag(eps: ArrayLike, *, length_to_radius: float) -> Array:
     """Return the film's torque on the journal: 2π/s + ½ε f_t (L/R)², in μΩR³L/C.
 
-    The first term is the shear of the turning surface, over the whole circumference; the second
-    is half the couple of the load, ½e·F_o sin φ, which the pressure flow takes. Torque times
-    speed is all the energy that the film turns into heat.
+    The first term is the shear of Couette flow over the whole circumference; the second, half the
+    couple of the load, ½e·F_o sin φ, is the dissipation of the axial pressure flow. Torque times
+    speed is the whole power that the film dissipates.
 
     Parameters
     ----------
@@ -160,6 +162,8 @@ def drag(eps: ArrayLike, *, length_to_radius: float) -> Array:
         Where ε lies outside [0, 1).
     """
     eps, s2 = below_one(eps)
+    # ∫ dθ/H over the full circumference.
     shear = 2.0 * np.pi / np.sqrt(s2)
+    # e·F_t is in CΩμRL³/C² = (L/R)² of the unit of torque.
     couple = 0.5 * eps * static_force(eps)[..., 1]
     return shear + couple * length_to_radius**2

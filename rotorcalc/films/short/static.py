@@ -8,15 +8,14 @@ from numpy.typing import ArrayLike
 from rotorcalc.arrays import Array, real_array
 from rotorcalc.frames import vector
 
-# Points of ln(ε/s) on whose chords the search for ε begins. Beyond ±12 the curve is straight, so
-# one point at either end, past the largest and the smallest double, serves for the rest.
+# Table of ln(ε/s) from which the search for ε starts, by linear interpolation. Beyond ±12 the curve
+# is straight, so one point at either end, past the smallest and the largest double, is enough.
 _LN_W = np.concatenate([[-800.0], np.linspace(-12.0, 12.0, 2401), [200.0]])
 
-
-# A step of ln(ε/s) as small as this is the last: it leaves an error below 12 times its square.
+# A step of ln(ε/s) no longer than this is the last: the error left is below 12 times its square.
 _TOLERANCE = 1e-8
 
-# Two tangents suffice for σ = 1e-12 … 1e12; more mean that something is wrong.
+# Two of Newton's steps suffice for σ = 1e-12 … 1e12; this many mean that something is wrong.
 _MOST_ITERATIONS = 50
 
 
@@ -47,7 +46,7 @@ def modified_sommerfeld(eps: ArrayLike) -> Array:
     """
     eps = checked_eccentricity(eps)
     s2 = s_squared(eps)
-    with np.errstate(divide="ignore"):
+    with np.errstate(divide="ignore"):  # σ = ∞ in the centre
         return s2**2 / (eps * np.sqrt(load_square(eps, s2)))
 
 
@@ -67,9 +66,9 @@ def eccentricity_ratio(sigma: ArrayLike) -> Array:
     Raises
     ------
     ValueError
-        Where σ is negative or not a number.
+        Where σ is negative or NaN.
     RuntimeError
-        Where the search does not end.
+        Where the search does not converge.
 
     Notes
     -----
@@ -77,9 +76,9 @@ def eccentricity_ratio(sigma: ArrayLike) -> Array:
 
         g = ln w + ln((1+w²)√(π²+16w²)) + ln σ.
 
-    g is convex and rises with a slope between 1 and 4. So wherever Newton's tangents begin, they
-    are right of the root from the first on and fall towards it, and a residual g brackets it: it
-    lies between ln w and ln w − g. They begin on a chord of the curve.
+    g is convex and increases with a slope between 1 and 4. So from any start Newton's first step
+    lands to the right of the root and all later ones descend to it, and the residual g brackets the
+    root: it lies between ln w and ln w − g. The start is interpolated in a table.
 
     Examples
     --------
@@ -123,6 +122,7 @@ def attitude_angle(eps: ArrayLike) -> Array:
         Where ε lies outside [0, 1].
     """
     eps = checked_eccentricity(eps)
+    # arctan2: 90° in the centre, where tan φ is infinite. f_r < 0 < f_t, hence the sign.
     return np.arctan2(np.pi * np.sqrt(s_squared(eps)), 4.0 * eps)
 
 
@@ -155,6 +155,7 @@ def _curve() -> Array:
 
 def _ln_load(ln_w: Array) -> tuple[Array, Array]:
     """Return ln(1/σ) of Eq. 5.8 and its slope over ln w, w = ε/s."""
+    # 1/σ = w(1+w²)√(π²+16w²): Eq. 5.8 with ε = w/√(1+w²). Its slope is 1 + 2w²/a + 16w²/b.
     w2 = np.exp(2.0 * ln_w)
     a, b = 1.0 + w2, np.pi**2 + 16.0 * w2
     return ln_w + np.log(a * np.sqrt(b)), 4.0 - 2.0 / a - np.pi**2 / b
@@ -170,7 +171,7 @@ def checked_eccentricity(eps: ArrayLike) -> Array:
 
 
 def below_one(eps: ArrayLike) -> tuple[Array, Array]:
-    """Return ε and s² = 1 − ε² where ε < 1, as the forces need it."""
+    """Return ε and s² = 1 − ε², or raise ValueError where ε reaches 1 and forces are infinite."""
     eps = checked_eccentricity(eps)
     if eps.size and eps.max() == 1.0:
         raise ValueError("eps = 1: the journal touches the wall, the film's force is infinite")
@@ -179,6 +180,7 @@ def below_one(eps: ArrayLike) -> tuple[Array, Array]:
 
 def s_squared(eps: Array) -> Array:
     """Return s² = 1 − ε², without cancellation as ε tends to 1."""
+    # 1 − ε is exact near ε = 1, the square of ε would be rounded.
     return (1.0 - eps) * (1.0 + eps)
 
 
