@@ -140,4 +140,4 @@ def written(value: Value) -> str:
     if value is None or isinstance(value, str):
         return value or "none"
     short = f"{value:g}"
-    return short if float(short) == value or math.isnan(value) else f"{value:.17g}"
+    return short if float(short) == value or math.isnan(value) else repr(value)

@@ -41,3 +41,17 @@ def quoted(word: object) -> str:
     """Return what a visitor typed, short, and with nothing that a page could take for markup."""
     text = reprlib.repr(word).replace("`", "'")
     return f"`{text}`"
+
+
+def typed_number(word: object) -> float:
+    """Return what a visitor wrote as a number, or raise ValueError in words.
+
+    Infinity is written as such: a number too large for this program is not meant so.
+    """
+    try:
+        value = float(str(word))
+    except ValueError:
+        raise ValueError("is no number") from None
+    if math.isinf(value) and any(digit.isdigit() for digit in str(word)):
+        raise ValueError("is too large a number for this program")
+    return value

@@ -14,7 +14,7 @@ from rotorcalc import PRESETS, JournalBearing, Machine, Oil, Preset, Rotor
 from rotorcalc.figures import style
 from rotorcalc.units import SI, Unit, Units
 from ui.bearing import Values, bearing_values, shape_of
-from ui.format import quoted
+from ui.format import quoted, typed_number
 
 # The least of a positive value: below it what is divided by it has no room.
 _LEAST = 1e-290
@@ -56,7 +56,7 @@ class Input:
         """Return a visitor's reading as it is kept."""
         if units is SI:
             return reading
-        return float(self.unit(SI).of(self.unit(units).to_si(reading)))
+        return _tidy(float(self.unit(SI).of(self.unit(units).to_si(reading))))
 
     def name(self, units: Units) -> str:
         """Return label, symbol and unit, as beside a slider."""
@@ -69,9 +69,9 @@ class Input:
         Raises ValueError in words where it is no number or lies outside the range.
         """
         try:
-            reading = math.inf if self.infinite and sent == self.infinite else float(str(sent))
-        except ValueError:
-            raise ValueError(f"{self.label}: {quoted(sent)} is no number") from None
+            reading = math.inf if self.infinite and sent == self.infinite else typed_number(sent)
+        except ValueError as error:
+            raise ValueError(f"{self.label}: {quoted(sent)} {error}") from None
         value = self.stored(reading, units)
         if problem := self.problem(value):
             raise ValueError(f"{self.name(units)} = {reading:g} {problem}")

@@ -88,6 +88,13 @@ def test_every_input_has_a_group_a_name_and_an_explanation() -> None:
             assert item.unit(units).name in item.name(units)
 
 
+@pytest.mark.parametrize("word", ["1e999", "9" * 400, "-1e999"])
+def test_a_number_too_large_for_any_is_not_taken_for_a_rigid_shaft(word: str) -> None:
+    with pytest.raises(ValueError, match="too large a number"):
+        INPUTS["k"].taken(word, SI)
+    assert INPUTS["k"].taken("rigid", SI) == INPUTS["k"].taken("inf", SI) == math.inf
+
+
 def test_a_missing_value_is_named() -> None:
     with pytest.raises(ValueError, match="Radial clearance"):
         machine_of(PRESET_VALUES["sheet-1e8"] | {"C": None})

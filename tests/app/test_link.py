@@ -8,7 +8,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from rotorcalc import PRESETS
-from rotorcalc.units import SYSTEMS
+from rotorcalc.units import SYSTEMS, US
 from tests.films.models import BEARINGS
 from ui.bearing import KIND, Values, bearing_values, fields_of
 from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, Input, machine_of
@@ -65,14 +65,37 @@ def test_a_presets_link_names_only_the_preset(preset: str) -> None:
 def test_a_value_that_cannot_be_used_is_named_and_the_rest_is_kept(key: str, word: str) -> None:
     other = "T" if key != "T" else "D"
     read = address.read({key: word, other: "77"})
-    if key == "k" and word in ("1e999", "9" * 400):
-        assert read.values["k"] == math.inf  # beyond every float: the word for a rigid shaft
-        return
     (problem,) = read.problems
     assert INPUTS[key].label in problem
     assert f"({key} = " in problem
     assert len(problem) < 250
     assert read.values == PRESET_VALUES[DEFAULT_PRESET] | {other: 77.0}
+
+
+@pytest.mark.parametrize("word", ["inf", "Infinity"])
+def test_a_rigid_shaft_is_written_as_infinity(word: str) -> None:
+    read = address.read({"k": word})
+    assert (read.values["k"], read.problems) == (math.inf, [])
+    assert address.write(read.preset, read.values, "SI") == {"k": "inf"}
+
+
+@pytest.mark.parametrize("key", INPUTS)
+@given(data=st.data())
+def test_a_link_holds_what_a_visitor_read_in_other_units_and_no_rounding(
+    key: str, data: st.DataObject
+) -> None:
+    item = INPUTS[key]
+    low, high = item.shown(item.low, US), item.shown(item.high, US)
+    reading = float(f"{data.draw(st.floats(low, high)):.3g}")
+    values = PRESET_VALUES[DEFAULT_PRESET] | {key: item.stored(reading, US)}
+    word = address.write(DEFAULT_PRESET, values, "SI").get(key, "0")
+    mantissa = word.split("e")[0].replace(".", "").strip("-0")
+    assert len(mantissa) <= 14
+
+
+def test_three_and_a_half_mil_are_88_9_micrometres_in_a_link() -> None:
+    values = PRESET_VALUES[DEFAULT_PRESET] | {"C": INPUTS["C"].stored(3.5, US)}
+    assert address.write(DEFAULT_PRESET, values, "SI") == {"C": "88.9"}
 
 
 @pytest.mark.parametrize("key", INPUTS)

@@ -21,7 +21,7 @@ from ui.bearing import (
     without_shape,
     written,
 )
-from ui.format import quoted
+from ui.format import quoted, typed_number
 from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, machine_of
 
 
@@ -144,9 +144,9 @@ def _value(key: str, word: object) -> tuple[float | None, str]:
     if key == "load" and word in ("weight", None):
         return None, ""
     try:
-        value = float(word)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
-        return None, "is no number"
+        value = typed_number(word)
+    except ValueError as error:
+        return None, f"{error}"
     return value, INPUTS[key].problem(value)
 
 
