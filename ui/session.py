@@ -7,6 +7,7 @@ survives a change of page, whether it was moved or came with a link.
 import secrets
 from contextlib import suppress
 from dataclasses import dataclass, field
+from typing import Any, TypeVar
 
 import streamlit as st
 
@@ -15,6 +16,8 @@ from ui.bearing import Value, Values
 from ui.inputs import PRESET_VALUES
 from ui.preview import Preview
 from ui.sharing import address
+
+Number = TypeVar("Number", int, float)
 
 _KEY = "rotorcalc"
 
@@ -39,6 +42,11 @@ class Session:
     whole: bool = False
     # How often a page's frame was drawn: whether sliders or preview know better what a value is.
     frame: int = 0
+    # Long computations: what a visitor has asked for, by its button, and those not yet ended.
+    asked: dict[str, str] = field(default_factory=dict)
+    begun: set[str] = field(default_factory=set)
+    # What was chosen beside the machine, as far as a page on which it is not shown needs it.
+    chosen: dict[str, float] = field(default_factory=dict)
     # The page whose sidebar was drawn last, and whether the visitor has just come to another.
     page: str = ""
     arriving: bool = True
@@ -71,6 +79,54 @@ class Session:
         if self.baseline is not None:
             self.values, self.baseline = self.baseline, self.values
 
+    def ask_for(self, work: str, name: str) -> None:
+        """Ask for a long computation; `name` tells it from others of its kind."""
+        self.asked[work] = name
+        self.begun.discard(work)
+
+    def ask_no_more(self, work: str) -> None:
+        """Forget that a long computation was asked for."""
+        self.asked.pop(work, None)
+        self.begun.discard(work)
+
+    def kept(self) -> dict[str, Any]:
+        """Return what the browser keeps, beside the address bar, for a server without this session.
+
+        All of it is text and finite numbers, which JSON can hold.
+        """
+        pinned = self.baseline
+        shown = {key: st.session_state[key] for key in self.chosen if key in st.session_state}
+        self.chosen |= shown
+        return {
+            "pinned": None if pinned is None else address.write(self.preset, pinned, "SI"),
+            "typed": self.typed, "image_format": self.image_format,
+            "asked": self.asked, "chosen": self.chosen,
+        }  # fmt: skip
+
+    def recall(self, kept: object) -> None:
+        """Take over what a browser kept, as far as it can be used: it may be anything."""
+        given: dict[str, Any] = kept if isinstance(kept, dict) else {}
+        if isinstance(pinned := given.get("pinned"), dict):
+            self.baseline = address.read({key: str(word) for key, word in pinned.items()}).values
+        self.typed = given.get("typed") is True
+        self.image_format = "svg" if given.get("image_format") == "svg" else "png"
+        self.asked = _words(given.get("asked"), str)
+        self.begun = set(self.asked)
+        self.chosen = _words(given.get("chosen"), (int, float))
+
+    def choice(self, key: str, default: Number, low: Number, high: Number) -> Number | None:
+        """Return with what a widget of a key begins: nothing where it is there already."""
+        if key in st.session_state:
+            return None
+        value = self.chosen.setdefault(key, default)
+        return type(default)(value) if low <= value <= high else default
+
+
+def _words(given: object, kind: type | tuple[type, ...]) -> dict[str, Any]:
+    """Return those of a mapping's values that are of a kind."""
+    items = given.items() if isinstance(given, dict) else ()
+    return {key: value for key, value in items if isinstance(value, kind)}
+
 
 def session() -> Session:
     """Return this session's state; a new session's comes from the address bar."""
@@ -83,14 +139,13 @@ def session() -> Session:
     return visitor
 
 
-def write_address_bar() -> None:
-    """Put the whole machine into the address bar, where it is not there yet."""
+def write_address_bar() -> dict[str, str]:
+    """Put the whole machine into the address bar, where it is not there yet; return it."""
     visitor = session()
-    if visitor.dragging:
-        return
     params = address.write(visitor.preset, visitor.values, visitor.units_name)
-    if st.query_params.to_dict() != params:
+    if not visitor.dragging and st.query_params.to_dict() != params:
         st.query_params.from_dict(params)
+    return params
 
 
 def mirror(key: str, value: object) -> bool:

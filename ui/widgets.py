@@ -63,6 +63,11 @@ def show_preview(preview: Preview | None) -> None:
     )  # fmt: skip
 
 
+def show_connection(kept: dict[str, Any] | None) -> object:
+    """Tell the browser what to keep of the session; return what it kept for a server without it."""
+    return None if settings.live() == "off" else _live().show_connection(kept)
+
+
 def chart_key(key: str) -> str:
     """Return the key under which the preview knows a chart."""
     return f"chart_{key}"
@@ -92,12 +97,11 @@ def _own(item: Input) -> None:
         "label": item.name(units), "key": key, "help": item.help, "on_change": _keep,
         "args": (item, key, units),
     }  # fmt: skip
-    if visitor.typed:
-        _typed(item, shown, units, common)
-    elif item.log:
-        _log_slider(item, shown, units, common)
-    else:
-        _slider(item, shown, units, common)
+    draw = _typed if visitor.typed else _log_slider if item.log else _slider
+    found = draw(item, shown, units, common)
+    # What a browser brings to a server without its session is no change to Streamlit.
+    if visitor.frame == 1 and not math.isclose(found, shown):
+        visitor.set_value(item.key, item.stored(found, units))
 
 
 def _shown(item: Input, values: Values, units: Units) -> float:
@@ -158,36 +162,48 @@ def _moved(name: str, units: Units, value: object, *, dragging: bool) -> None:
         visitor.problems[:] = [f"{error}; it was left as it is."]
 
 
-def _slider(item: Input, shown: float, units: Units, common: dict[str, Any]) -> None:
+def _begin(key: str, value: float, default: float | None) -> float | None:
+    """Return with what a widget begins.
+
+    In a session's first run it begins with what the browser shows, or with a value. Later the value
+    is written, and Streamlit would warn of two; where it stands already, any will do.
+    """
+    if session().frame == 1:
+        return value
+    return None if mirror(key, value) else default
+
+
+def _slider(item: Input, shown: float, units: Units, common: dict[str, Any]) -> float:
     low, high = item.shown(item.low, units), item.shown(item.high, units)
     step = _round_step(item.shown(item.low + item.step, units) - low)
-    written = mirror(common["key"], float(min(max(shown, low), high)))
     decimals = max(0, -math.floor(math.log10(step)))
-    st.slider(
+    return st.slider(
         min_value=float(low), max_value=float(high), step=step, format=f"%.{decimals}f",
-        # Without a value Streamlit looks through the whole session for one; after a write it
-        # would warn of two.
-        value=None if written else float(low), **common,
+        # Without a value Streamlit looks through the whole session for one.
+        value=_begin(common["key"], float(min(max(shown, low), high)), float(low)), **common,
     )  # fmt: skip
 
 
-def _log_slider(item: Input, shown: float, units: Units, common: dict[str, Any]) -> None:
+def _log_slider(item: Input, shown: float, units: Units, common: dict[str, Any]) -> float:
     low, high = item.shown(item.low, units), item.shown(item.high, units)
     number = round(math.log10(high / low) * item.step) + 1
     options = {float(f"{value:.3g}") for value in np.geomspace(low, high, number)} | {shown}
     if item.infinite:
         options.add(math.inf)
-    mirror(common["key"], shown)
-    st.select_slider(
-        options=sorted(options), format_func=lambda value: _word(item, value), **common
-    )
+    return st.select_slider(
+        options=sorted(options), value=_begin(common["key"], shown, None),
+        format_func=lambda value: _word(item, value), **common,
+    )  # fmt: skip
 
 
-def _typed(item: Input, shown: float, units: Units, common: dict[str, Any]) -> None:
+def _typed(item: Input, shown: float, units: Units, common: dict[str, Any]) -> float:
     low, high = item.shown(item.low, units), item.shown(item.high, units)
     step = float(low) if item.log else _round_step(item.shown(item.low + item.step, units) - low)
-    mirror(common["key"], float(min(shown, high)))
-    st.number_input(min_value=float(low), max_value=float(high), step=step, format="%.6g", **common)
+    value = _begin(common["key"], float(min(shown, high)), None)
+    return st.number_input(
+        min_value=float(low), max_value=float(high), step=step, format="%.6g",
+        value="min" if value is None else value, **common,
+    )  # fmt: skip
 
 
 def _word(item: Input, value: float) -> str:

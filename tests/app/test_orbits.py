@@ -77,7 +77,7 @@ def test_cancel_ends_the_computation() -> None:
     at = visit(ORBITS)
     open_part(at, "orbits_tab", "Limit cycles")
     press(at, "orbits_cycles")
-    del at.session_state["orbits_cycles_asked"]  # as the button's callback does
+    session_of(at).ask_no_more("orbits_cycles")  # as the button's callback does
     at.run()
     assert charts(at) == {}
     assert at.button(key="orbits_cycles")
@@ -120,3 +120,13 @@ def test_a_pinned_machine_that_allows_no_release_is_left_out() -> None:
     at.slider(key="orbits_kick").set_value(0.9).run()
     assert not at.exception
     assert charts(at)
+
+
+def test_a_computation_that_was_interrupted_says_so() -> None:
+    at = visit(ORBITS)
+    open_part(at, "orbits_tab", "Limit cycles")
+    at.button(key="orbits_cycles").click()
+    session_of(at).begun.add("orbits_cycles")
+    at.run()
+    assert "interrupted" not in said(at)  # asked for anew, it begins for the first time
+    assert session_of(at).begun == set()

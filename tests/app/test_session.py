@@ -278,3 +278,35 @@ def test_a_machine_read_from_values_is_the_machine() -> None:
     machine = machine_of(values)
     assert Machine.from_json(machine.to_json()) == machine
     assert values_of(machine, 1.0, 2.0)["C"] == values["C"]
+
+
+def test_what_a_browser_kept_makes_a_session_that_its_server_has_lost() -> None:
+    at = visit(HOME, C="71", preset="sheet-1e7")
+    visitor = session_of(at)
+    visitor.pin()
+    visitor.typed, visitor.image_format = True, "svg"
+    visitor.ask_for("orbits_run_up", "name")
+    visitor.chosen["orbits_kick"] = 0.5
+    kept = json.loads(json.dumps(visitor.kept(), allow_nan=False))
+    other = session_of(visit(HOME, C="72"))
+    other.recall(kept)
+    assert other.baseline == visitor.baseline
+    assert (other.typed, other.image_format) == (True, "svg")
+    assert (other.asked, other.begun) == ({"orbits_run_up": "name"}, {"orbits_run_up"})
+    assert other.choice("orbits_kick", 0.3, 0.0, 1.2) == 0.5
+
+
+@pytest.mark.parametrize(
+    "kept",
+    [
+        None, 1, "kept", [], {}, {"pinned": 1, "typed": "yes", "image_format": [], "asked": 2},
+        {"pinned": {"C": [], "k": {}, "__class__": None}, "asked": {"a": 1}, "chosen": {"b": "c"}},
+        {"pinned": None, "chosen": {"orbits_kick": 1e300}, "image_format": "exe"},
+    ],
+)  # fmt: skip
+def test_what_a_browser_says_it_kept_may_be_anything(kept: object) -> None:
+    visitor = session_of(visit(HOME, C="72"))
+    visitor.recall(kept)
+    assert visitor.baseline in (None, PRESET_VALUES["sheet-1e8"])
+    assert (visitor.typed, visitor.image_format, visitor.asked) == (False, "png", {})
+    assert visitor.choice("orbits_kick", 0.3, 0.0, 1.2) == 0.3

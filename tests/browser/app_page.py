@@ -35,7 +35,8 @@ _AT_REST = """() => {
       + '.live-slider[data-busy], .live-chart[data-moved]')
     && !window.rotorcalcDrawing
     && [...document.querySelectorAll('.stBidiComponent')].every(
-      component => component.querySelector('.live-slider, .live-chart, .live-preview'))
+      component => component.querySelector(
+        '.live-slider, .live-chart, .live-preview, .live-connection'))
     && [...document.querySelectorAll('[data-testid="stPlotlyChart"], .live-chart')].every(
       chart => chart.offsetParent === null
         || chart.querySelector('.overplot path, .shapelayer path, .annotation'));

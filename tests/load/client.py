@@ -26,6 +26,7 @@ from websockets.exceptions import ConnectionClosed
 
 TIMEOUT = 30.0  # seconds for a run; one takes a few hundredths
 SLIDERS, PREVIEW = "rotorcalc.sliders", "rotorcalc.preview"
+CONNECTION = "rotorcalc.connection"
 _SUCCESS = ForwardMsg.FINISHED_SUCCESSFULLY, ForwardMsg.FINISHED_FRAGMENT_RUN_SUCCESSFULLY
 # As streamlit/components/v2/bidi_component/main.py names the widget of a component's triggers.
 _TRIGGERS = "$$STREAMLIT_INTERNAL_KEY_{}__events"
@@ -72,6 +73,7 @@ class Visitor:
         self._touched: set[tuple[int, ...]] = set()
         self._parts: dict[tuple[int, ...], str] = {}  # the fragment that drew what is shown
         self._run_parts: list[str] = []  # the fragments that run, none where the whole page does
+        self._by_themselves: set[str] = set()  # the fragments that run from time to time
         self._answers: HTTPConnection | None = None
         self._socket: ClientConnection | None = None
         self._reading: asyncio.Task[None] | None = None
@@ -92,11 +94,18 @@ class Visitor:
         await self._run()
 
     async def reconnect(self) -> None:
-        """Come back after a lost connection, as the browser does: same tab, same address bar."""
+        """Come back after a lost connection, as the browser does: same tab, same address bar.
+
+        Streamlit's script then asks for a run only where one was under way, the last one was a
+        fragment's, or something runs by itself.
+        """
+        asks = self.tally.under_way or self._run_parts or self._by_themselves
         await self.close()
         self._page_name = ""
+        self._keep()
         await self._connect({})
-        await self._run()
+        if asks:
+            await self._run()
 
     async def close(self) -> None:
         """Close the tab."""
@@ -257,6 +266,13 @@ class Visitor:
             self.cookies |= {key: morsel.value for key, morsel in SimpleCookie(header).items()}
         self._reading = asyncio.create_task(self._read(self._socket))
 
+    def _keep(self) -> None:
+        """Do as connection.js: give the next run what the server told it to keep."""
+        for component, _ in self._components(CONNECTION):
+            if (kept := json.loads(component.json)["kept"]) is not None:
+                state = WidgetState(id=component.id, json_value=json.dumps({"kept": kept}))
+                self._widgets[component.id] = state
+
     async def _trigger(self, component: BidiComponent, part: str, value: dict[str, Any]) -> None:
         key = _TRIGGERS.format(component.id)
         sent = json.dumps([{"event": "moved", "value": value}])
@@ -300,11 +316,14 @@ class Visitor:
 
     def _take(self, message: ForwardMsg) -> None:
         kind = message.WhichOneof("type")
+        self._by_themselves |= {message.auto_rerun.fragment_id} - {""}
         if kind == "delta":
             self._place(message)
         elif kind == "new_session":
             self._touched.clear()
             self._run_parts = list(message.metadata.run.fragment_ids)
+            if not self._run_parts:
+                self._by_themselves.clear()
             self.session_id = message.new_session.initialize.session_id or self.session_id
         elif kind == "navigation":
             self._page_hash = message.navigation.page_script_hash

@@ -2,7 +2,9 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from datetime import timedelta
 from pathlib import Path
+from typing import NamedTuple
 
 import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
@@ -15,7 +17,7 @@ from ui.results.row import show_results
 from ui.serving import one_at_a_time, version
 from ui.session import session, write_address_bar
 from ui.sharing import popover
-from ui.widgets import chart_key, is_dark, show_chart, show_preview
+from ui.widgets import chart_key, is_dark, show_chart, show_connection, show_preview
 from ui.words import validity
 
 _ICON = str(Path(__file__).with_name("icon.svg"))
@@ -104,6 +106,13 @@ class Page:
         self.preview.rows.append(keys)
 
 
+class Places(NamedTuple):
+    """Where in the frame something stands that changes while sliders move."""
+
+    navigation: DeltaGenerator
+    foot: DeltaGenerator
+
+
 def show(
     title: str, sentence: str, content: Callable[[Page], None], *, has_preview: bool = True
 ) -> None:
@@ -113,17 +122,17 @@ def show(
     then the content runs for each value, for charts that take long and show their progress.
     """
     with one_at_a_time.PAGES.through():
-        foot = _frame(title, sentence)
+        places = _frame(title, sentence)
         visitor = session()
         whole, visitor.whole = visitor.whole, False
         if whole:
-            _content(content, foot, has_preview=has_preview, whole=True)
+            _content(content, places, has_preview=has_preview, whole=True)
         else:
-            st.fragment(_content)(content, foot, has_preview=has_preview, whole=False)
+            st.fragment(_content)(content, places, has_preview=has_preview, whole=False)
 
 
-def _frame(title: str, sentence: str) -> DeltaGenerator:
-    """Draw what stands while sliders move; return the sidebar's place for what does not."""
+def _frame(title: str, sentence: str) -> Places:
+    """Draw what stands while sliders move; return the places for what does not."""
     st.set_page_config(
         page_title=f"{title} · rotorcalc",
         page_icon=_ICON,
@@ -132,6 +141,10 @@ def _frame(title: str, sentence: str) -> DeltaGenerator:
     )
     st.html(_STYLE)
     visitor = session()
+    kept = show_connection(visitor.kept() if visitor.frame else None)
+    if not visitor.frame:
+        visitor.recall(kept)
+    _run_when_reconnected()
     visitor.frame += 1
     visitor.arriving = visitor.page != title
     with st.sidebar:
@@ -142,46 +155,58 @@ def _frame(title: str, sentence: str) -> DeltaGenerator:
         foot = st.container()
         st.caption(version.label())
     visitor.page = title
-    _navigation()
+    navigation = st.container()
     st.header(title, anchor=False)
     st.markdown(sentence)
-    return foot
+    return Places(navigation, foot)
+
+
+# The browser's longest timer is 24 days.
+@st.fragment(run_every=timedelta(days=20))
+def _run_when_reconnected() -> None:
+    """Draw nothing: where anything runs by itself, a browser runs the page when it is back.
+
+    Else it waits for a visitor's first action, which a server without the session would lose.
+    """
 
 
 def _content(
-    content: Callable[[Page], None], foot: DeltaGenerator, *, has_preview: bool, whole: bool
+    content: Callable[[Page], None], places: Places, *, has_preview: bool, whole: bool
 ) -> None:
     with one_at_a_time.PAGES.through():
-        content(replace(_page(foot, has_preview=has_preview), whole=whole))
+        content(replace(_page(places, has_preview=has_preview), whole=whole))
 
 
-def _page(foot: DeltaGenerator, *, has_preview: bool) -> Page:
+def _page(places: Places, *, has_preview: bool) -> Page:
     """Return the page's machine and draw what depends on it everywhere; stop where there is none.
 
-    A fragment may write into the sidebar's foot where it has done so when the whole page ran; the
+    A fragment may write into the places where it has done so when the whole page ran; the
     preview, through which a better value comes, is written in any case.
     """
     visitor = session()
-    write_address_bar()
+    params = write_address_bar()
+    with places.navigation:
+        _navigation(params)
     for problem in visitor.problems:
         st.warning(problem)
     try:
         computed = computed_from(visitor.values)
         pinned = None if visitor.baseline is None else computed_from(visitor.baseline)
     except ValueError as error:
-        with foot:
+        with places.foot:
             show_preview(None)
         st.error(f"{error}", title=NO_MACHINE)
         st.stop()
     visitor.preview = Preview(dict(visitor.values), pinned, visitor.units, dark=is_dark())
-    with foot:
+    with places.foot:
         validity.draw(computed)
         show_preview(visitor.preview if has_preview else None)
     baseline.draw_differences(visitor.units)
     return Page(computed=computed, baseline=pinned, units=visitor.units, preview=visitor.preview)
 
 
-def _navigation() -> None:
+def _navigation(params: dict[str, str]) -> None:
+    """Draw the links between pages, each with the whole machine."""
     with st.container(horizontal=True, gap="small"):
         for path, label in PAGES.items():
-            st.page_link(path, label=label)
+            st.page_link(path, label=label, query_params=params)

@@ -12,6 +12,8 @@ const STYLE = `
   opacity: 0.35;}
 `;
 
+// Milliseconds: a connection can die without a word. Sliders then send through Streamlit.
+const PATIENCE = 5000;
 const MARK = "\u200b"; // takes no room
 
 function textOf(element) {
@@ -35,7 +37,8 @@ class Preview {
     const asked = new URLSearchParams({ name, value });
     let answer;
     try {
-      answer = await fetch(`${this.address}?${asked}`, { headers: { "X-Rotorcalc-Page": this.token } });
+      answer = await fetch(`${this.address}?${asked}`,
+        { headers: { "X-Rotorcalc-Page": this.token }, signal: AbortSignal.timeout(PATIENCE) });
     } catch {
       return false;
     }

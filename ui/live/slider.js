@@ -51,6 +51,16 @@ function running() {
   return (app?.dataset.testScriptState ?? "notRunning") !== "notRunning";
 }
 
+function connected() {
+  return document.querySelector('[data-testid="stApp"]')?.dataset.testConnectionState === "CONNECTED";
+}
+
+// Which of the page's frames is shown, and of which session.
+function drawing() {
+  const preview = window.rotorcalcPreview;
+  return preview && `${preview.token} ${preview.frame}`;
+}
+
 class Slider {
   constructor() {
     const id = `live-slider-${crypto.randomUUID?.() ?? Math.random()}`;
@@ -155,20 +165,26 @@ class Slider {
     return previewed;
   }
 
-  // Ends when Streamlit's answer is drawn, or after ten seconds: it can be lost with its connection.
-  ask(message) {
-    const number = performance.now();
-    const send = running() ? this.send : (window.rotorcalcPreview?.send ?? this.send);
-    send("moved", { ...message, name: this.data.name, number });
-    return new Promise((resolve) => {
-      const look = () => {
-        const echoed = this.data.echo === number || window.rotorcalcPreview?.echo === number;
-        const answered = echoed && !running() && !window.rotorcalcDrawing;
-        if (answered || performance.now() - number > 10000) resolve();
-        else requestAnimationFrame(look);
-      };
-      requestAnimationFrame(look);
-    });
+  // Ends when Streamlit's answer is drawn. What was lost with its connection is asked again when the page has run
+  // for the new one, as is what has no answer after ten seconds, unless something newer waits.
+  async ask(message) {
+    for (let lost = true; lost && this.root.isConnected; lost &&= this.waiting === null) {
+      const number = performance.now();
+      const send = running() ? this.send : (window.rotorcalcPreview?.send ?? this.send);
+      send("moved", { ...message, name: this.data.name, number });
+      lost = await this.lost(number, drawing());
+    }
+  }
+
+  // Whether a message has been lost, as soon as that is certain; false where its answer is drawn or the slider gone.
+  async lost(number, before) {
+    for (let cut = false; this.root.isConnected; await new Promise(requestAnimationFrame)) {
+      cut ||= !connected();
+      if (!connected() || running() || window.rotorcalcDrawing) continue;
+      if (this.data.echo === number || window.rotorcalcPreview?.echo === number) return false;
+      if (cut ? drawing() !== before : performance.now() - number > 10000) return true;
+    }
+    return false;
   }
 }
 

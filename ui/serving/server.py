@@ -19,6 +19,7 @@ from streamlit.url_util import make_url_path
 from rotorcalc import __version__
 from ui.jobs import queue
 from ui.serving import health, log, settings, version
+from ui.serving.own_origin import OwnOrigin
 
 _HEADER = b"x-rotorcalc-replica"
 # What the pages import, for the first visitor not to wait for it.
@@ -63,7 +64,8 @@ def routes() -> list[Route]:
 def middleware() -> list[Middleware]:
     """Return what stands between the server and its visitors."""
     name = settings.replica()
-    return [Middleware(NamedReplica, name=name)] if name else []
+    named = [Middleware(NamedReplica, name=name)] if name else []
+    return [*named, Middleware(OwnOrigin)]
 
 
 async def answer_health(_: Request) -> JSONResponse:

@@ -1,5 +1,6 @@
 """What the orbits page asks of the core: releases, run-ups, limit cycles, and words for them."""
 
+import hashlib
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -71,8 +72,7 @@ _three = cache.Cached(work.three_onsets, entries=16, megabytes=4)
 
 def choose_release(computed: Computed) -> Ask:
     """Show the demonstrations, kick and length; return what is asked for."""
-    st.session_state.setdefault(_KICK, 0.30)
-    st.session_state.setdefault(_REVOLUTIONS, 40)
+    visitor = session()
     with st.container(horizontal=True, gap="small"):
         for demo, (label, _, _) in _DEMOS.items():
             st.button(
@@ -82,13 +82,15 @@ def choose_release(computed: Computed) -> Ask:
     left, right = st.columns(2)
     with left:
         kick = st.slider(
-            "Journal let go above its rest by, over C [-]", 0.0, 1.2, step=0.01, key=_KICK,
-            persist_state="session", help="Against the load, at rest, the shaft with its sag.",
+            "Journal let go above its rest by, over C [-]", 0.0, 1.2,
+            visitor.choice(_KICK, 0.30, 0.0, 1.2), 0.01, key=_KICK, persist_state="session",
+            help="Against the load, at rest, the shaft with its sag.",
         )  # fmt: skip
     with right:
         turns = st.slider(
-            "Revolutions [-]", 20, 600, step=20, key=_REVOLUTIONS, persist_state="session"
-        )
+            "Revolutions [-]", 20, 600, visitor.choice(_REVOLUTIONS, 40, 20, 600), 20,
+            key=_REVOLUTIONS, persist_state="session",
+        )  # fmt: skip
     return Ask(kick, turns)
 
 
@@ -243,19 +245,24 @@ def on_demand(
     runs, a bar shows how far it is, and a button ends it: its click makes the page run anew, and
     the next word of progress ends the old run.
     """
-    asked, done, place = f"{key}_asked", f"{key}_done", st.empty()
-    if st.session_state.get(asked) != token:
-        place.button(label, key=key, on_click=lambda: st.session_state.update({asked: token}))
+    visitor, done, place = session(), f"{key}_done", st.empty()
+    name = hashlib.sha256(repr(token).encode()).hexdigest()
+    if visitor.asked.get(key) != name:
+        place.button(label, key=key, on_click=visitor.ask_for, args=(key, name))
         return None
-    if st.session_state.get(done) == token:
+    if st.session_state.get(done) == name:
         return work(None)
     page.run_whole()
     with place.container():
+        if key in visitor.begun:
+            st.info("This computation was interrupted, and has begun again.")
         bar = st.progress(0.0, "Computing …")
-        st.button("Cancel", key=f"{key}_cancel", on_click=lambda: st.session_state.pop(asked, None))
+        st.button("Cancel", key=f"{key}_cancel", on_click=visitor.ask_no_more, args=(key,))
+    visitor.begun.add(key)
     result = work(bar.progress)
     place.empty()
-    st.session_state[done] = token
+    visitor.begun.remove(key)
+    st.session_state[done] = name
     return result
 
 

@@ -1,0 +1,282 @@
+"""A browser whose server goes, or whose network does: nothing is lost, and the next action works.
+
+Each visitor has done something else last. All of them are there at once, so that a server need not
+be killed for each.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+import pytest
+from playwright.sync_api import BrowserContext, expect
+
+from tests.browser.app_page import AppPage
+from tests.browser.conftest import browser_type_launch_args, chromium, desk
+from tests.deploy.line import Line
+from tests.load.replicas import Replica
+
+__all__ = ["browser_type_launch_args", "chromium", "desk"]
+
+_STATE = "document.querySelector('[data-testid=stApp]').dataset.testConnectionState"
+CLEARANCE = "Radial clearance"
+
+# Several pages are opened at once, and servers started.
+pytestmark = pytest.mark.timeout(300)
+
+
+# --- What visitors do -------------------------------------------------------------------------
+
+
+def nothing(_: AppPage) -> None:
+    """Look at the page."""
+
+
+def slide(tab: AppPage) -> None:
+    """Move a slider by one step."""
+    before = tab.query()["C"]
+    tab.press(CLEARANCE, "ArrowRight")
+    assert float(tab.query()["C"]) == float(before) + 1
+
+
+def open_a_tab(tab: AppPage) -> None:
+    tab.open_tab("Forces")
+
+
+def pin(tab: AppPage) -> None:
+    """Pin the machine, where it is not, and pin it for good by a look at another page."""
+    if not tab.page.get_by_role("button", name="Unpin A").count():
+        with tab.run():
+            tab.page.get_by_role("button", name="Pin this machine").click()
+
+
+def type_a_value(tab: AppPage) -> None:
+    """Type a clearance one above."""
+    value = float(tab.query()["C"]) + 1
+    with tab.run():
+        fill_in(tab, value)
+    assert float(tab.query()["C"]) == value
+
+
+def fill_in(tab: AppPage, value: float) -> None:
+    """Write into the field of the clearance, and leave it."""
+    field = tab.page.get_by_role("spinbutton", name=CLEARANCE)
+    field.fill(f"{value:g}")
+    field.press("Enter")
+
+
+def choose_typing(tab: AppPage) -> None:
+    """Have fields instead of sliders."""
+    tab.open_popover("Units and settings")
+    with tab.run():
+        tab.page.get_by_text("Type values instead of sliding").click()
+    tab.close_popover()
+
+
+def kick(tab: AppPage) -> None:
+    """Let the journal go from further up."""
+    tab.slider("Journal let go").focus()
+    with tab.run():
+        tab.slider("Journal let go").press("ArrowRight")
+
+
+# --- What must still be there -----------------------------------------------------------------
+
+
+def machine(tab: AppPage) -> object:
+    return tab.query(), tab.metrics()
+
+
+def tab_open(tab: AppPage) -> object:
+    return tab.query(), tab.page.locator("[role=tab][aria-selected=true]").inner_text()
+
+
+def pinned(tab: AppPage) -> object:
+    return tab.metrics(), tab.page.get_by_test_id("stMetricDelta").all_inner_texts()
+
+
+def field(tab: AppPage) -> object:
+    return tab.page.get_by_role("spinbutton", name=CLEARANCE).input_value()
+
+
+def height(tab: AppPage) -> object:
+    return tab.slider("Journal let go").evaluate("handle => handle.value ?? handle.ariaValueNow")
+
+
+@dataclass(frozen=True)
+class Visit:
+    """A visitor's page, what was done there last, what must still be there, the next action."""
+
+    page: str
+    last: Callable[[AppPage], None]
+    there: Callable[[AppPage], object]
+    then: Callable[[AppPage], None] = slide
+    first: Callable[[AppPage], None] = nothing
+
+
+VISITS = {
+    "nothing": Visit("Equilibrium", nothing, machine),
+    "a slider": Visit("Machine", slide, machine),
+    "a tab": Visit("Equilibrium", open_a_tab, tab_open),
+    "a pin": Visit("Stability", pin, pinned, first=pin),
+    "a typed value": Visit("Machine", type_a_value, field, type_a_value, first=choose_typing),
+    "a kick": Visit("Orbits", kick, height, kick),
+}
+
+
+# --- Where it happens -------------------------------------------------------------------------
+
+
+class Place:
+    """A server, and the line by which visitors reach it."""
+
+    def __init__(self) -> None:
+        self.server = Replica().wait()
+        self.line = Line(self.server.port)
+
+    @property
+    def address(self) -> str:
+        return f"http://127.0.0.1:{self.line.port}"
+
+    def mend(self) -> None:
+        """Start a server where there is none, and let visitors reach it."""
+        if self.server.process.poll() is not None:
+            self.server = Replica(port=self.server.port).wait()
+        self.line.mend()
+
+
+@pytest.fixture(scope="module")
+def place() -> Iterator[Place]:
+    here = Place()
+    with here.line:
+        yield here
+    here.server.stop()
+
+
+@pytest.fixture(scope="module")
+def tabs(desk: BrowserContext, place: Place) -> Iterator[dict[str, AppPage]]:
+    """A tab for each visitor."""
+    opened = {name: AppPage(desk.new_page(), place.address) for name in VISITS}
+    for name, tab in opened.items():
+        tab.open(VISITS[name].page, C="70", D="160")
+        VISITS[name].first(tab)
+    yield opened
+    for tab in opened.values():
+        tab.page.close()
+
+
+def lost(tab: AppPage) -> None:
+    """Wait until the browser knows that its connection is lost."""
+    tab.page.wait_for_function(f"{_STATE} !== 'CONNECTED'")
+
+
+def back(tab: AppPage) -> None:
+    """Wait until it has another, and the page has run for it."""
+    tab.page.wait_for_function(f"{_STATE} === 'CONNECTED'")
+    tab.rest()
+
+
+@pytest.mark.parametrize("goes", ["kill", "stop", "cut"])
+def test_whatever_was_done_last_is_there_and_the_next_action_works(
+    goes: str, place: Place, tabs: dict[str, AppPage]
+) -> None:
+    """A crash, a restart, and a network that is gone for a moment."""
+    there = {}
+    for name, tab in tabs.items():
+        VISITS[name].last(tab)
+        there[name] = VISITS[name].there(tab)
+    {"kill": place.server.kill, "stop": place.server.stop, "cut": place.line.cut}[goes]()
+    for tab in tabs.values():
+        lost(tab)
+    place.mend()
+    for name, tab in tabs.items():
+        back(tab)
+        assert VISITS[name].there(tab) == there[name], name
+        VISITS[name].then(tab)
+
+
+def test_a_value_under_way_is_not_lost(place: Place, tabs: dict[str, AppPage]) -> None:
+    """It is sent, and the server is gone before it comes; or moved while there is no server."""
+    sliding, typing = tabs["a slider"], tabs["a typed value"]
+    wanted = [float(tab.query()["C"]) + step for tab, step in ((sliding, 2), (typing, 1))]
+    place.line.fall_silent()
+    sliding.slider(CLEARANCE).press("ArrowRight")
+    fill_in(typing, wanted[1])
+    place.server.kill()
+    place.line.cut()
+    for tab in (sliding, typing):
+        lost(tab)
+    sliding.slider(CLEARANCE).press("ArrowRight")
+    place.mend()
+    for tab in tabs.values():
+        back(tab)
+    assert [float(tab.query()["C"]) for tab in (sliding, typing)] == wanted
+    assert field(typing) == f"{wanted[1]:g}"
+
+
+def test_a_computation_under_way_begins_again_and_says_so(
+    place: Place, tabs: dict[str, AppPage]
+) -> None:
+    tab = tabs["a kick"]
+    tab.open_tab("Run-up")
+    tab.page.get_by_role("button", name="Run up to the top speed").click()
+    expect(tab.page.get_by_role("button", name="Cancel")).to_be_visible()
+    place.server.kill()
+    lost(tab)
+    place.mend()
+    expect(tab.page.get_by_text("This computation was interrupted")).to_be_visible()
+    back(tab)
+    assert tab.page.locator(".live-chart").count()
+
+
+def test_a_link_to_another_page_holds_the_machine(tabs: dict[str, AppPage]) -> None:
+    tab = tabs["a slider"]
+    slide(tab)
+    link = tab.page.get_by_test_id("stMain").get_by_role("link", name="Response", exact=True)
+    query = tab.query()
+    with tab.page.context.expect_page() as opened:
+        link.click(modifiers=["ControlOrMeta"])
+    other = AppPage(opened.value, tab.url)
+    other.rest()
+    assert other.query() == query == {"C": query["C"], "D": "160"}
+    other.page.close()
+
+
+# --- Long breaks: the browser's clock is put forward ------------------------------------------
+
+
+@pytest.fixture
+def clocked(desk: BrowserContext, place: Place) -> Iterator[AppPage]:
+    """A tab whose clock a test puts forward."""
+    tab = AppPage(desk.new_page(), place.address)
+    tab.page.clock.install()
+    tab.open("Equilibrium", C="70")
+    yield tab
+    tab.page.close()
+
+
+def pass_time(tab: AppPage, seconds: float, *, until: str = "") -> bool:
+    """Put the browser's clock forward, and let it answer what comes meanwhile; see if it holds."""
+    for _ in range(round(seconds * 4)):
+        tab.page.clock.run_for(250)
+        tab.page.wait_for_timeout(60)
+        if until and tab.page.evaluate(until):
+            return True
+    return False
+
+
+@pytest.mark.parametrize("how", ["cut", "silent"])
+def test_after_a_long_break_it_is_back_within_two_seconds(
+    how: str, place: Place, clocked: AppPage
+) -> None:
+    """Streamlit alone looks up to four seconds apart, and waits fifteen for who is silent."""
+    {"cut": place.line.cut, "silent": place.line.fall_silent}[how]()
+    assert pass_time(clocked, 12, until=f"{_STATE} !== 'CONNECTED'")
+    now = "performance.now()"
+    start = clocked.page.evaluate(now)
+    with clocked.page.expect_event("requestfailed", lambda asked: "host-config" in asked.url):
+        while clocked.page.evaluate(now) < start + 20e3:
+            pass_time(clocked, 1)
+    place.line.mend()
+    assert pass_time(clocked, 2, until=f"{_STATE} === 'CONNECTED'")
+    back(clocked)
+    slide(clocked)
