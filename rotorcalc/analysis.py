@@ -1,4 +1,4 @@
-"""The whole chain in one call: from load, oil, clearance and shaft to eigenvalues and orbits.
+"""The whole calculation in one call: from load, oil, clearance and shaft to orbits.
 
 Follows the calculation sheet of the notes, vectorised over running speed.
 """
@@ -26,7 +26,7 @@ from rotorcalc.unbalance_response import synchronous_response
 if TYPE_CHECKING:
     import pandas as pd  # pyright: ignore[reportMissingTypeStubs]
 
-# The film of a σ at which what the load changes of it is below rounding.
+# σ of a load so light that its effect on k_eq, whirl ratio and p_s² is below rounding (order ε²).
 _LIGHTEST = 1e10
 
 Axes: TypeAlias = Literal["XY", "rt"]
@@ -69,7 +69,7 @@ class Sweep(Result):
     whirl_ratio : array, (n,)
         ω̄ [-] (Eq. 5.46); 0 where the film cannot whirl.
     critical_mass : array, (n,)
-        M_c [kg], per bearing: with more the rotor is unstable at this speed; infinite where the
+        M_c [kg], per bearing: a heavier rotor is unstable at this speed; infinite where the
         film cannot whirl.
     rigid_threshold, flexible_threshold : array, (n,)
         Ω_s and Ω_sf [rad/s] (Eqs. 5.45 to 5.50) at this speed's equilibrium; the machine is
@@ -102,7 +102,7 @@ class Sweep(Result):
 
     @cached_property
     def dynamics(self) -> FilmDynamics:
-        """The film with its inner coordinates, on which free motions depend [N/m], [N·s/m], [kg].
+        """The film with its inner coordinates, which govern free motion [N/m], [N·s/m], [kg].
 
         Without inner coordinates it is `stiffness` and `damping`.
         """
@@ -112,7 +112,7 @@ class Sweep(Result):
 
     @cached_property
     def rigid_eigenvalues(self) -> ComplexArray:
-        """λ of the rigid rotor [1/s], (n, 4), and of inner coordinates; when first asked for."""
+        """λ of the rigid rotor [1/s], (n, 4), and of inner coordinates; computed on first use."""
         return self._eigenvalues(flexible=False)
 
     @cached_property
@@ -123,7 +123,7 @@ class Sweep(Result):
         return self._eigenvalues(flexible=True)
 
     def mode_shapes(self, *, flexible: bool = True) -> modes.ModeShapes:
-        """Return the free motions at each speed, of a shaft that bends or not."""
+        """Return the free motions at each speed, of a flexible or a rigid shaft."""
         film, rotor = self.dynamics, self.machine.rotor
         return modes.mode_shapes(
             rotor, film.stiffness, film.damping, inertia=film.inertia, flexible=flexible
@@ -136,15 +136,15 @@ class Sweep(Result):
         )
 
     def to_dataframe(self) -> "pd.DataFrame":
-        """Return the sweep as a table of pandas: a row a speed, a column a number.
+        """Return the sweep as a pandas table: one row per speed, one column per number.
 
         Returns
         -------
         pandas.DataFrame
             Columns "speed [rad/s]", "stiffness_XY [N/m]" and so on. Responses stand as amplitude
             [m], zero to peak, and phase lag [rad], of X behind cos Ωt and of Y behind sin Ωt,
-            unwrapped over the sweep: what a Bode plot shows. The flexible rotor's eigenvalues
-            stand as real and imaginary part, each followed over the sweep.
+            unwrapped over the sweep, as in a Bode plot. The flexible rotor's eigenvalues
+            stand as real and imaginary parts, each mode followed over the sweep.
 
         Raises
         ------
@@ -187,6 +187,7 @@ def analyse(machine: Machine, speed: ArrayLike) -> Sweep:
     # K and ΩC share the unit N/m, so k_eq is K_eq and p_s² is M_c Ω².
     onset = whirl_onset(K, C * state.speed[..., None, None])
     K_eq = onset.equivalent_stiffness
+    # p_s is here √(M_c)Ω, so Ω_s = p_s/√M (Eq. 5.45).
     rigid_threshold = onset.threshold_speed / np.sqrt(rotor.half_mass)
     disk, journal = synchronous_response(rotor, K, C, state.speed)
     return Sweep(
@@ -232,7 +233,7 @@ class FilmCurves(Result):
 
 @checked
 def film_curves(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmCurves:
-    """Return what the notes draw against the modified Sommerfeld number, for one bearing.
+    """Return a bearing's film and threshold over the modified Sommerfeld number (Figs. 5.5 to 5.9).
 
     Parameters
     ----------
@@ -255,14 +256,14 @@ def film_curves(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmCurves:
     film = film_state(bearing, sommerfeld)
     loaded = film
     if np.any(np.isinf(film.sommerfeld)):
-        # In units of the load nothing is finite without it: the limit is that of a light load.
+        # k and c are in units of the load, which vanishes: the limit is taken at a very light load.
         loaded = film_state(bearing, np.minimum(film.sommerfeld, _LIGHTEST))
     return FilmCurves(film=film, onset=whirl_onset(loaded.k, loaded.c))
 
 
 @dataclass(frozen=True, eq=False)
 class ForceCoefficients(Result):
-    """A film's force coefficients in one frame, all with dimensions or all without.
+    """A film's force coefficients in one frame, either with dimensions or without.
 
     Attributes
     ----------
@@ -286,7 +287,7 @@ class ForceCoefficients(Result):
 
 @checked
 def force_coefficients(source: Sweep | FilmCurves, *, axes: Axes) -> ForceCoefficients:
-    """Return force coefficients in the load's frame, X and Y, or in that of the line of centres.
+    """Return force coefficients in the frame of the load, X and Y, or of the line of centres.
 
     Parameters
     ----------
@@ -329,6 +330,6 @@ def _in_radial_axes(found: ForceCoefficients, phi: Array) -> ForceCoefficients:
     return replace(
         found,
         axes="rt",
-        stiffness=rotate(found.stiffness, -phi),  # Eq. 5.16 backwards
+        stiffness=rotate(found.stiffness, -phi),  # Eq. 5.16, inverse
         damping=rotate(found.damping, -phi),
     )

@@ -1,9 +1,9 @@
-"""Arguments that a function's annotations rule out are refused, in words.
+"""Refusal of arguments that contradict a function's annotations, with a clear message.
 
-A notebook's user calls with what is at hand: a text for a machine, "rigid" for a bool, a list for
-a number. Python would fail somewhere inside, or take a word for true. `checked` reads a function's
-annotations once and looks at every argument before the function begins. An argument annotated as
-array_like is left to the function, which reads it by `arrays.real_array`.
+A notebook's user may pass a text for a machine, "rigid" for a bool, a list for a number. Python
+would fail somewhere inside, or take a word for true. `checked` reads a function's annotations once
+and checks every argument before the call. An argument annotated as array_like is left to the
+function, which converts it by `arrays.real_array`.
 """
 
 import functools
@@ -32,12 +32,12 @@ from rotorcalc.arrays import shown
 
 P = ParamSpec("P")
 R = TypeVar("R")
-# Raises ValueError of a name and a value that it does not admit.
+# Takes an argument's name and value; raises ValueError where the value is not admitted.
 _Check: TypeAlias = Callable[[str, Any], object]
 
 
 class _Kind(NamedTuple):
-    """A kind of value: what admits it, the words for it, and types that need no closer look."""
+    """A kind of value: its test, the words for it, and types that need no test."""
 
     admits: Callable[[Any], bool]
     words: str
@@ -45,7 +45,7 @@ class _Kind(NamedTuple):
 
 
 class _Rule(NamedTuple):
-    """What an argument must pass, unless its type is one of those that surely do."""
+    """The check of one argument, skipped for types that always pass."""
 
     name: str
     place: int
@@ -54,7 +54,7 @@ class _Rule(NamedTuple):
 
 
 def checked(function: Callable[P, R]) -> Callable[P, R]:
-    """Return a function that refuses the arguments which its annotations rule out.
+    """Return a function that refuses arguments which contradict its annotations.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
     Returns
     -------
     callable
-        The same function. Before it begins it raises ValueError, naming argument and value.
+        The same function, which first raises ValueError naming a wrong argument and its value.
 
     Examples
     --------
@@ -80,7 +80,7 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
     @functools.wraps(function)
     def call(*args: P.args, **kwargs: P.kwargs) -> R:
         nonlocal rules
-        if rules is None:  # at the first call: an annotation may name what is defined further down
+        if rules is None:  # at the first call, as annotations may name classes defined further down
             rules = _rules(function)
         for name, place, surely, check in rules:
             if place < len(args):
@@ -97,7 +97,7 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
 
 
 def _rules(function: Callable[..., Any]) -> list[_Rule]:
-    """Return the rules of a function's parameters, keyword-only ones at a place past all others."""
+    """Return the rules of a function's parameters; keyword-only ones get a place past the end."""
     code = cast("types.FunctionType", function).__code__
     places = {name: place for place, name in enumerate(code.co_varnames[: code.co_argcount])}
     found: list[_Rule] = []
@@ -109,13 +109,13 @@ def _rules(function: Callable[..., Any]) -> list[_Rule]:
 
 
 def _rule(hint: Any) -> tuple[tuple[type, ...], _Check] | None:
-    """Return the types that pass and the check of the others; None where the function looks."""
+    """Return the types that always pass and the check of others; None where there is no rule."""
     if get_origin(hint) is Annotated:
         return (), get_args(hint)[1].check  # a Bound or a Choice, as in the fields of a record
     union = get_origin(hint) in (Union, types.UnionType)
     kinds = [_kind(member) for member in (get_args(hint) if union else (hint,))]
     known = [kind for kind in kinds if kind is not None]
-    if len(known) < len(kinds):
+    if len(known) < len(kinds):  # one member of the union, such as ArrayLike, is not known here
         return None
 
     def check(name: str, value: Any) -> None:
@@ -129,7 +129,7 @@ def _rule(hint: Any) -> tuple[tuple[type, ...], _Check] | None:
 
 
 def _kind(hint: Any) -> _Kind | None:
-    """Return the kind of value that an annotation admits, None where it is not known here."""
+    """Return the kind of value that an annotation admits, or None where it is not known here."""
     origin, args = get_origin(hint), get_args(hint)
     if hint in _PLAIN or origin in _PLAIN:
         return _PLAIN[origin or hint]
@@ -146,7 +146,7 @@ def _record(cls: type) -> _Kind:
 
 
 def _sequence(element: Any, length: int | None = None) -> _Kind | None:
-    """Return a list of elements, of so many where a length is given."""
+    """Return the kind of a list of elements, of a fixed length where one is given."""
     kind = _kind(element)
     if kind is None:
         return None
@@ -176,7 +176,7 @@ def _among(words: tuple[str, ...]) -> Callable[[Any], bool]:
 
 
 def _is_number(value: Any) -> bool:
-    if isinstance(value, np.ndarray):  # of no dimension, as the results at one speed are
+    if isinstance(value, np.ndarray):  # a result at one speed is an array without dimensions
         given = cast("np.ndarray[Any, Any]", value)
         return given.ndim == 0 and given.dtype.kind in "iuf"
     return not isinstance(value, bool) and isinstance(value, numbers.Real)

@@ -1,4 +1,4 @@
-"""The array types of the package's signatures, how input becomes one, how an error shows it."""
+"""Array types of the package's signatures, conversion of input to them, and error texts."""
 
 import reprlib
 from typing import Any, TypeAlias
@@ -13,13 +13,13 @@ IntArray: TypeAlias = NDArray[np.intp]
 
 
 def real_array(name: str, values: ArrayLike, *, ends: tuple[int, ...] = ()) -> Array:
-    """Return `values` as an array of floats, or raise ValueError naming what they are.
+    """Return `values` as an array of floats, or raise ValueError showing them.
 
     NumPy alone would read "6000", True and None as numbers. `ends` is the shape of each value, (2,)
     of vectors and (2, 2) of matrices.
     """
     if type(values) is np.ndarray and values.dtype == np.float64 and not ends:
-        return values  # as most are, sooner
+        return values  # the common case, without the checks below
     return _numbers(name, values, "fiu", ends).astype(float, copy=False)
 
 
@@ -33,6 +33,7 @@ def _numbers(name: str, values: ArrayLike, kinds: str, ends: tuple[int, ...]) ->
         array = np.asarray(values)
     except ValueError as error:  # rows of different lengths
         raise ValueError(f"{name} = {shown(values)}: must be an array of numbers") from error
+    # An empty array holds nothing that could be wrong, whatever NumPy calls its kind.
     if array.dtype.kind not in kinds and array.size > 0:
         raise ValueError(f"{name} = {shown(values)}: must be a number or an array of numbers")
     if ends and array.shape[-len(ends) :] != ends:
@@ -42,7 +43,7 @@ def _numbers(name: str, values: ArrayLike, kinds: str, ends: tuple[int, ...]) ->
 
 
 def shown(value: object) -> str:
-    """Return a value as an error shows it: short, and whatever it is."""
+    """Return a short text of any value for an error message."""
     try:
         return reprlib.repr(value)
     except ValueError:  # Python refuses to write out integers of thousands of digits

@@ -1,6 +1,6 @@
 """The film's static equilibrium, pressure and force coefficients of a machine, with dimensions.
 
-Scales the dimensionless answer of the film model by this machine's oil, bearing, load and speed.
+Scales the film model's dimensionless results by this machine's oil, bearing, load and speed.
 Coefficients are K_ij = −∂F_i/∂X_j and C_ij = −∂F_i/∂Ẋ_j in X, Y (Eq. 5.14), per bearing.
 Source: San Andrés, Notes 5, Eqs. 5.5, 5.8, 5.30 and 5.31.
 """
@@ -24,7 +24,7 @@ from rotorcalc.films import (
 )
 from rotorcalc.machine import Machine
 
-# Factors α_m of the film's inertia: a parabolic velocity profile, and a flat one.
+# Factors α_m of the film's inertia: 6/5 for a parabolic velocity profile, 1 for a flat one.
 LAMINAR, BULK_FLOW = 6.0 / 5.0, 1.0
 
 
@@ -86,7 +86,7 @@ class PressureField(Result):
     pressure : array, (m, n)
         Pressure above ambient, p [Pa].
     cavitated : boolean array, (m,)
-        Whether the film is broken there, in the middle plane.
+        Whether the film is cavitated there, in the middle plane.
     load_theta : array, scalar
         θ at which the load points [rad].
     peak_theta : array, scalar
@@ -125,7 +125,7 @@ class FilmForces(Result):
 
 @dataclass(frozen=True, eq=False)
 class AddedMass(Result):
-    """The mass of oil that moves with the journal, and what it weighs against.
+    """The film's added mass, and its size relative to rotor and damping.
 
     Attributes
     ----------
@@ -148,7 +148,7 @@ class AddedMass(Result):
 
 @dataclass(frozen=True, eq=False)
 class Unloading(Result):
-    """A film's coefficients on the way to the centre: its load varied, speed and oil as they are.
+    """A film's coefficients as its load is removed, at constant speed and viscosity.
 
     Attributes
     ----------
@@ -191,7 +191,7 @@ def equilibrium(machine: Machine, speed: ArrayLike) -> Equilibrium:
     units = FilmUnits(bearing, machine.viscosity, speed)
     film = film_of(bearing).state(operating_points(machine, speed))
     drag_torque = film.drag * units.torque
-    with np.errstate(divide="ignore"):
+    with np.errstate(divide="ignore"):  # f = ∞ without load
         friction = drag_torque / (bearing.radius * np.float64(machine.static_load))
     return Equilibrium(
         speed=speed,
@@ -209,7 +209,7 @@ def equilibrium(machine: Machine, speed: ArrayLike) -> Equilibrium:
 
 @checked
 def operating_points(machine: Machine, speed: ArrayLike) -> OperatingPoints:
-    """Return where a machine's film is asked.
+    """Return the operating points of a machine's film.
 
     Parameters
     ----------
@@ -282,7 +282,7 @@ def stiffness_and_damping(machine: Machine, speed: ArrayLike) -> tuple[Array, Ar
     -------
     K, C : array, (..., 2, 2)
         Stiffness [N/m] and damping [N·s/m] in X, Y, in synchronous motion: those of
-        `equilibrium`, in half its time.
+        `equilibrium`, in half the time.
 
     Raises
     ------
@@ -323,6 +323,7 @@ def film_field(
     model = film_of(bearing)
     film = model.state(points)
     theta, zeta = np.atleast_1d(real_array("theta", theta)), np.atleast_1d(real_array("zeta", zeta))
+    # θ counts from the thickest film, Θ = φ + π; the film model takes angles Θ from X.
     opposite = film.attitude_angle + np.pi
     angle = opposite + theta
     middle = model.field(points, angle=angle, zeta=0.0)
@@ -341,7 +342,7 @@ def film_field(
 
 @checked
 def film_forces(machine: Machine, speed: ArrayLike, *, sommerfeld: ArrayLike) -> FilmForces:
-    """Return the static forces of a machine's film wherever its journal may sit (Eq. 5.5).
+    """Return the static forces of a machine's film at any equilibrium position (Eq. 5.5).
 
     Parameters
     ----------
@@ -377,8 +378,8 @@ def film_forces(machine: Machine, speed: ArrayLike, *, sommerfeld: ArrayLike) ->
 def added_mass(machine: Machine, speed: ArrayLike, *, factor: float = LAMINAR) -> AddedMass:
     """Return the film's added mass in static equilibrium, M_ij = α_m ρRL³/(12C)·I_ij.
 
-    Temporal inertia only, of the half of the film that carries. Everything else in the program
-    leaves it out, as the notes do.
+    Temporal inertia only, of the half film under pressure. The rest of the program neglects it,
+    as the notes do.
 
     Parameters
     ----------
@@ -387,7 +388,7 @@ def added_mass(machine: Machine, speed: ArrayLike, *, factor: float = LAMINAR) -
     speed : array_like, (...)
         Running speed, Ω [rad/s], positive.
     factor : float
-        α_m [-] for the velocity's profile across the film: 6/5 in laminar flow, 1 in bulk flow.
+        α_m [-] of the velocity profile across the film: 6/5 in laminar flow, 1 in bulk flow.
 
     Returns
     -------
@@ -408,6 +409,7 @@ def added_mass(machine: Machine, speed: ArrayLike, *, factor: float = LAMINAR) -
     return AddedMass(
         speed=state.speed,
         mass=M,
+        # Traces do not depend on the frame, so means of the direct terms stand for M and C.
         to_rotor=_trace(M) / 2.0 / machine.rotor.half_mass,
         to_damping=state.speed * _trace(M) / _trace(state.damping),
     )
@@ -415,7 +417,7 @@ def added_mass(machine: Machine, speed: ArrayLike, *, factor: float = LAMINAR) -
 
 @checked
 def unloading(machine: Machine, speed: float, *, sommerfeld: ArrayLike) -> Unloading:
-    """Return how the film's coefficients change as the load is taken off (Eqs. 5.36 and 5.37).
+    """Return how the film's coefficients change as the load is removed (Eqs. 5.36 and 5.37).
 
     Parameters
     ----------
@@ -442,6 +444,7 @@ def unloading(machine: Machine, speed: float, *, sommerfeld: ArrayLike) -> Unloa
     return Unloading(
         eccentricity_ratio=film.eccentricity_ratio,
         stiffness=film.stiffness * units.stiffness,
+        # (Ω/2)·C: the unit of damping times Ω is the unit of stiffness.
         whirl_damping=film.damping * units.stiffness / 2.0,
     )
 
@@ -471,7 +474,7 @@ def modified_sommerfeld(machine: Machine, speed: ArrayLike) -> Array:
 
 
 def rising_speed(speed: ArrayLike, *, name: str = "speed") -> Array:
-    """Return speeds [rad/s] that rise, (n,), or raise ValueError where they do not."""
+    """Return speeds [rad/s], (n,), or raise ValueError where they do not rise."""
     speeds = checked_speed(speed)
     if speeds.ndim != 1 or len(speeds) < 2:
         raise ValueError(f"{name}: must be two or more rising speeds, (n,), has {speeds.shape}")
@@ -486,7 +489,7 @@ def rising_speed(speed: ArrayLike, *, name: str = "speed") -> Array:
 
 
 def checked_speed(speed: ArrayLike) -> Array:
-    """Return speeds [rad/s] as an array, or raise ValueError where one is not positive, finite."""
+    """Return speeds [rad/s] as an array, or raise ValueError unless all are positive and finite."""
     speeds = real_array("speed", speed)
     good = np.isfinite(speeds) & (speeds > 0.0)
     if not np.all(good):

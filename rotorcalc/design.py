@@ -1,7 +1,7 @@
-"""What if: how the onset speed follows from the inputs, for many machines at once.
+"""Design studies: how the onset speed depends on the inputs, over many machines.
 
-Whole grids of machines are solved at once where a closed form holds, by their characteristic
-polynomials where none does, and one by one where these leave doubt.
+Whole grids of machines are solved together where a closed form holds, otherwise by their
+characteristic polynomials, and one by one where rounding leaves these uncertain.
 
 Inputs are named by the fields of the records, "bearing.radial_clearance" or "radial_clearance".
 
@@ -23,7 +23,7 @@ from rotorcalc.onset.closed_form import covers
 from rotorcalc.onset.many import onset_speeds
 from rotorcalc.variation import address, value_of, varied
 
-# What moves an onset: the inputs that `sensitivities` moves.
+# The inputs that affect the onset: what `sensitivities` varies.
 INPUTS = (
     "rotor.mass",
     "load",
@@ -37,21 +37,14 @@ INPUTS = (
     "rotor.disk_damping",
     "rotor.journal_mass",
 )
-
-
-# A temperature has no natural zero of which to take a share: it is moved by degrees.
+# A share of a temperature in °C means nothing, as its zero is arbitrary: it is varied by degrees.
 TEMPERATURE_STEP = 5.0
-
-
-# Blocks of rows, or one more, by which a map that is not solved in one go tells its progress.
+# A map that is not solved in one go reports its progress after each of 3 or 4 blocks of rows: fewer
+# blocks are faster, as the machines of a block are solved together.
 _BLOCKS = 3
-
-
-# Values at which `solve_onset` looks before it closes in: where the onset is cheap, where not.
+# Values at which `solve_onset` scans the onset before it refines: in closed form, and without.
 _SCAN, _SLOW_SCAN = 200, 24
-
-
-# An onset this near to the target, relative, is the target.
+# A root whose onset is farther from the target than this, relative, is a jump past the target.
 _HIT = 1e-6
 
 
@@ -66,7 +59,7 @@ class OnsetMap(Result):
     xs, ys : array, (n,), (m,)
         Their values.
     speed : array, (m, n)
-        Onset speed, Ω_s [rad/s]; not a number where the values make no machine.
+        Onset speed, Ω_s [rad/s]; NaN where the values are not a valid machine.
     """
 
     x: str
@@ -78,7 +71,7 @@ class OnsetMap(Result):
 
 @dataclass(frozen=True)
 class Sensitivity:
-    """How the onset follows one input.
+    """How the onset depends on one input.
 
     Attributes
     ----------
@@ -99,7 +92,7 @@ class Sensitivity:
 
 @dataclass(frozen=True)
 class Sensitivities:
-    """How the onset follows each input.
+    """How the onset depends on each input.
 
     Attributes
     ----------
@@ -108,8 +101,8 @@ class Sensitivities:
     inputs : tuple of Sensitivity
         The input that moves the onset most comes first.
     left_out : tuple of str
-        Inputs that could not be moved: at zero or infinite they have no share of their value, or
-        one of the values moved to makes no machine.
+        Inputs that could not be varied: those at zero or infinity, of which a share means nothing,
+        and those for which a varied value is not a valid machine.
     """
 
     onset: float
@@ -128,7 +121,7 @@ class OnsetSolution(Result):
     target : float
         Onset speed asked for [rad/s].
     solutions : array, (k,)
-        All values that give it, rising; none where the onset never takes the target's value.
+        All values that give it, rising; empty where the onset never equals the target.
     values : array, (n,)
         Values over the range that was searched.
     onset : array, (n,)
@@ -168,7 +161,7 @@ def onset_map(  # noqa: PLR0913 - two axes, each a name and its values
     xs, ys : array_like, (n,), (m,)
         Their values in SI.
     progress : callable, optional
-        Told the share that is done, 0 to 1, after each block of rows.
+        Called with the share done, 0 to 1, after each block of rows.
 
     Returns
     -------
@@ -190,7 +183,7 @@ def onset_map(  # noqa: PLR0913 - two axes, each a name and its values
     made = [row_machine for row in rows for row_machine in row if row_machine is not None]
     whole = all(covers(one) for one in made)
     speed = np.empty((len(ys), len(xs)))
-    # In one go where that is cheapest, else by blocks of rows, so that the progress can be told.
+    # In one go in closed form, else by blocks of rows, so that progress can be reported.
     height = max(1, len(ys) if whole else len(ys) // _BLOCKS)
     for top in range(0, len(ys), height):
         part = slice(top, top + height)
@@ -204,23 +197,23 @@ def onset_map(  # noqa: PLR0913 - two axes, each a name and its values
 def sensitivities(
     machine: Machine, *, share: float = 0.10, inputs: Iterable[str] = INPUTS
 ) -> Sensitivities:
-    """Return how far the onset moves with each input by itself.
+    """Return how far the onset moves when each input alone is varied.
 
     Parameters
     ----------
     machine : Machine
         The machine.
     share : float
-        By how much of its value each input is moved, down and up [-]. A temperature in °C has no
-        natural zero and is moved by `TEMPERATURE_STEP` instead.
+        Share of its value by which each input is varied, down and up [-]. A temperature is varied
+        by `TEMPERATURE_STEP` instead.
     inputs : iterable of str
-        The inputs. One at zero or infinite has no share of its value and is left out; so is one
-        whose value up or down makes no machine, such as a journal's mass near half the rotor's.
+        The inputs. One at zero or infinity is left out; so is one for which a varied value is not
+        a valid machine, such as a journal mass near half the rotor's.
 
     Returns
     -------
     Sensitivities
-        Sorted, the input that moves the onset most first. Where the load follows the rotor's
+        Sorted by effect, the largest first. Where the load follows the rotor's
         weight, the mass moves both, and "load" moves the load alone.
 
     Raises
@@ -232,7 +225,7 @@ def sensitivities(
     pairs = [
         (step, [_machine_or_none(machine, {step[0]: value}) for value in step[1:]])
         for step in moved
-        if step[1] < step[2] < np.inf
+        if step[1] < step[2] < np.inf  # at 0 or ∞ a share moves nothing
     ]
     steps = [step for step, pair in pairs if None not in pair]
     machines = [one for _, pair in pairs if None not in pair for one in pair if one is not None]
@@ -257,8 +250,8 @@ def solve_onset(
 ) -> OnsetSolution:
     """Return all values of one input that put the onset at a speed.
 
-    The onset need not rise or fall throughout: it is scanned over the range, and each crossing of
-    the target closed in on, also those that hide beside an extreme between two values of the scan.
+    The onset need not be monotonic: it is scanned over the range, and each crossing of the target
+    refined, including pairs of crossings at an extreme between two values of the scan.
 
     Parameters
     ----------
@@ -274,12 +267,12 @@ def solve_onset(
     Returns
     -------
     OnsetSolution
-        The solutions, and what the scan saw of the onset.
+        The solutions, and the onset over the scan.
 
     Raises
     ------
     ValueError
-        Where there is no such input, the range is empty or its ends make no machine, or the
+        Where there is no such input, the range is empty or an end is not a valid machine, or the
         target is not positive and finite.
     """
     if not 0.0 < target < np.inf:
@@ -306,7 +299,7 @@ def solve_onset(
         )
         for i in np.flatnonzero(above[1:] != above[:-1])
     ]
-    # Where the onset jumps past the target, no value gives it.
+    # Where the onset jumps past the target, between two branches, no value gives it.
     hits = [root for root in roots if abs(onset(root) / target - 1.0) < _HIT]
     return OnsetSolution(
         field=vary, target=target, solutions=np.array(hits), values=values, onset=onsets
@@ -318,7 +311,7 @@ def _machine_or_none(machine: Machine, values: Mapping[str, float]) -> Machine |
         return varied(machine, values)
     except ValueError:
         for field in values:
-            # An unknown input is an error; values that make no machine are not.
+            # An unknown input is an error, raised here; values of an invalid machine give None.
             address(machine, field)
         return None
 
@@ -331,7 +324,7 @@ def _onsets_where_made(rows: Sequence[Sequence[Machine | None]]) -> Array:
 
 
 def _moved(machine: Machine, field: str, share: float) -> tuple[str, float, float]:
-    """Return an input with the values to which it is moved, down and up."""
+    """Return an input with its two varied values, lower and higher."""
     value = value_of(machine, field)
     if address(machine, field)[-1] in ("temperature", "reference_temperature"):
         return field, value - TEMPERATURE_STEP, value + TEMPERATURE_STEP
@@ -339,7 +332,7 @@ def _moved(machine: Machine, field: str, share: float) -> tuple[str, float, floa
 
 
 def _movement(one: Sensitivity, onset: float) -> float:
-    """Return the larger of an input's two movements of the onset; 0 from infinite to infinite."""
+    """Return the larger of an input's two changes of the onset; ∞ − ∞ counts as 0."""
     ends = (one.onset_low, one.onset_high)
     return max(0.0 if end == onset else abs(end - onset) for end in ends)
 
@@ -353,7 +346,7 @@ def _scan_values(machine: Machine, field: str, low: float, high: float) -> Array
 def _with_extremes(
     values: Array, onsets: Array, onset: Callable[[float], float]
 ) -> tuple[Array, Array]:
-    """Return a scan with its local extremes added, each where it truly lies."""
+    """Return a scan with its local extremes added, each refined between its neighbours."""
     before, here, after = onsets[:-2], onsets[1:-1], onsets[2:]
     tops = np.flatnonzero((here > before) & (here >= after) & np.isfinite(here))
     bottoms = np.flatnonzero((here < before) & (here <= after))
@@ -379,5 +372,6 @@ def _extreme(onset: Callable[[float], float], sign: float, low: float, high: flo
 
 
 def _beside(onset: float, target: float) -> float:
-    """Return a measure of an onset that is 0 at the target and finite also where it is infinite."""
+    """Return a measure of an onset, zero at the target and finite where the onset is infinite."""
+    # Ω/(Ω+Ω_t) − ½ rises with Ω from −½ to ½, so that a bracketing search may start at Ω = ∞.
     return 0.5 if np.isinf(onset) else onset / (onset + target) - 0.5

@@ -1,8 +1,8 @@
-"""How results show themselves in a notebook: a few lines of text, or a table in HTML.
+"""How results are displayed in a notebook: a few lines of text, or a table in HTML.
 
-A result is a frozen record of arrays, which written out in full would fill pages. Shown are each
-field's shape, the range of its values and its unit, and in HTML what it is. Unit and meaning are
-those of the record's docstring, so that they stand in one place.
+A result is a frozen record of arrays, which printed in full would fill pages. The text gives each
+field's shape, the range of its values and its unit, the HTML table its meaning as well. Unit and
+meaning are read from the record's docstring, so that they are written in one place.
 """
 
 import functools
@@ -17,24 +17,26 @@ from typing import Any, NamedTuple, cast
 
 import numpy as np
 
+# A text no wider than a code line and short enough to stay on screen with the cell above it.
 WIDTH, LINES = 100, 12
+# "[N·s/m]" in a docstring, and the line that opens an attribute, "semi_major, semi_minor : array".
 _UNIT = re.compile(r"\[([^\]]*)\]")
 _ATTRIBUTE = re.compile(r"(\w+(?:, \w+)*) : ")
-# Arrays of no more numbers than this are written out.
+# Arrays of at most this many numbers are printed in full: a vector, or three modes.
 _FEW = 3
 
 
 class Result:
-    """A record of arrays that shows itself briefly; its subclasses are frozen dataclasses."""
+    """A record of arrays with a short repr; its subclasses are frozen dataclasses."""
 
     def __init_subclass__(cls) -> None:
-        """Keep `dataclass` from giving a subclass a text with every number of its arrays."""
-        cls.__repr__ = Result.__repr__  # a class that has one keeps it
+        """Keep `dataclass` from giving a subclass a repr with every number of its arrays."""
+        cls.__repr__ = Result.__repr__  # `dataclass` leaves a repr alone that the class defines
 
     def __repr__(self) -> str:
         """Return at most `LINES` lines of at most `WIDTH` columns."""
         rows = list(_rows(self))
-        # All fields where they fit, else as many as leave two lines for the others' names.
+        # All fields where they fit, else as many as leave two lines for the names of the others.
         shown = rows if len(rows) < LINES else rows[: LINES - 3]
         lines = [type(self).__name__, *_columns(shown)]
         if rest := [row.field for row in rows[len(shown) :]]:
@@ -60,7 +62,7 @@ class _Row(NamedTuple):
 
 
 def _rows(record: Result, prefix: str = "") -> Iterator[_Row]:
-    """Yield a row a field; the fields of a result within a result have dotted names."""
+    """Yield one row per field; fields of a result within a result have dotted names."""
     _, described = _described(type(record))
     for field in fields(record):  # pyright: ignore[reportArgumentType] - a dataclass, as they all
         name, value = prefix + field.name, getattr(record, field.name)
@@ -72,7 +74,7 @@ def _rows(record: Result, prefix: str = "") -> Iterator[_Row]:
 
 
 def _columns(rows: list[_Row]) -> Iterator[str]:
-    """Yield rows as lines whose columns stand below each other, without the meaning."""
+    """Yield rows as lines of aligned columns, without the meaning."""
     widths = [max(len(row[i]) for row in rows) for i in range(3)]
     for row in rows:
         cells = [cell.ljust(width) for cell, width in zip(row, widths, strict=False)]
@@ -84,7 +86,7 @@ def _cell(text: str) -> str:
 
 
 def units(record: type) -> dict[str, str]:
-    """Return the unit of each field of a record, as its docstring tells it."""
+    """Return the unit of each field of a record, from its docstring."""
     _, described = _described(record)
     return {field.name: described.get(field.name, ("", ""))[0] for field in fields(record)}
 
@@ -113,7 +115,7 @@ def _with_units(names: list[str], text: str, title: str) -> list[tuple[str, str]
     found = _UNIT.findall(text) or _UNIT.findall(title)  # "..., each of shape (n,) [J]."
     if len(found) == 1:
         found = found * len(names)
-    # Where a field has one unit or another, as the record's maker had it, none is told.
+    # A field with alternative units, such as K_ij with or without dimensions, is given none.
     return list(zip(names, found if len(found) == len(names) else [""] * len(names), strict=True))
 
 
@@ -135,8 +137,8 @@ def _values(value: Any) -> str:
 
 
 def _range(values: Any) -> str:
-    """Return the numbers of an array where they are few, else the smallest and the largest."""
-    if values.dtype.kind not in "fc":
+    """Return all numbers of an array where they are few, else the smallest and the largest."""
+    if values.dtype.kind not in "fc":  # booleans and texts are counted: "3 False, 5 True"
         found, counts = np.unique(values, return_counts=True)
         return ", ".join(f"{count} {each}" for each, count in zip(found, counts, strict=True))
     if values.size <= _FEW:

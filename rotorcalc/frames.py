@@ -37,14 +37,14 @@ def vector(x: ArrayLike, y: ArrayLike) -> Array:
 
 
 def rotate(coefficients: ArrayLike, angle: ArrayLike) -> Array:
-    """Return force coefficients in a frame turned back by an angle (Eq. 5.16).
+    """Return force coefficients in (X, Y) from those in (r, t) (Eq. 5.16).
 
     Parameters
     ----------
     coefficients : array_like, (..., 2, 2)
         Stiffness, damping or added mass in (r, t).
     angle : array_like, (...)
-        Angle from X to r, φ [rad]. With −φ the function leads from (X, Y) to (r, t).
+        Angle from X to r, φ [rad]. With −φ the function converts from (X, Y) to (r, t).
 
     Returns
     -------
@@ -53,5 +53,6 @@ def rotate(coefficients: ArrayLike, angle: ArrayLike) -> Array:
     """
     phi = real_array("angle", angle)
     cos, sin = np.cos(phi), np.sin(phi)
+    # The columns of Q are the unit vectors r and t in X, Y.
     Q = matrix(cos, -sin, sin, cos)
     return Q @ real_array("coefficients", coefficients, ends=(2, 2)) @ Q.swapaxes(-1, -2)

@@ -1,8 +1,8 @@
-"""The shape of a bearing's bore, one record a kind.
+"""The shape of a bearing's bore, one record class per kind.
 
 A kind of bearing is a `Geometry`: a frozen record of what shapes its bore besides diameter, length
-and clearance. Its word, `kind`, stands in files and links. `models` names the film models that
-answer for it; the first is the one that a bearing uses unless it is told another.
+and clearance. Its word, `kind`, is used in files and links. `models` names the film models that
+apply to it; the first is the default.
 """
 
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from rotorcalc.records import Kind
 
 @dataclass(frozen=True, kw_only=True)
 class Geometry(Kind):
-    """The shape of a bore; every kind of bearing is a record below this one."""
+    """The shape of a bore; every kind of bearing is a subclass."""
 
     models: ClassVar[tuple[str, ...]] = ()
 

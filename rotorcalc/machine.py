@@ -19,10 +19,11 @@ from rotorcalc.arrays import Array, real_array, shown
 from rotorcalc.geometry import Geometry, Plain
 from rotorcalc.records import Bound, Choice, Record, from_tree, parsed, to_tree
 
+# Version 2 added the bearing's geometry and leaves defaults out; version 1 is still read.
 FORMAT_VERSION = 2
 _PLAIN = Plain()
-# The widest clearance over the radius: bearings have 0.0005 to 0.005, and Reynolds' equation holds
-# for films that are thin beside the radius.
+# Largest C/R accepted. Bearings have 0.0005 to 0.005, and Reynolds' equation assumes a film thin
+# against the radius; a larger ratio is nearly always a clearance in the wrong unit.
 _WIDEST = 0.1
 
 
@@ -69,7 +70,7 @@ class Oil(Record):
         Raises
         ------
         ValueError
-            Where a temperature is no finite number.
+            Where a temperature is not finite.
 
         Examples
         --------
@@ -97,13 +98,12 @@ class JournalBearing(Record):
     length : float
         Axial length, L [m], positive.
     radial_clearance : float
-        Radial clearance, C [m], positive: in every kind of bore that which its pads are machined
-        with.
+        Radial clearance, C [m], positive; in every kind of bore the machined clearance of a pad.
     geometry : Geometry
-        The shape of the bore; a circle of 360° unless another is given.
+        The shape of the bore; by default a full circle.
     film : str or None
-        The film model that answers for this bearing: "short" is the short bearing in closed form.
-        None for the geometry's own choice.
+        The film model of this bearing: "short" is the short bearing in closed form.
+        None for the geometry's default.
 
     Raises
     ------
@@ -141,7 +141,7 @@ class JournalBearing(Record):
 
     @property
     def model(self) -> str:
-        """Name of the film model that answers for this bearing."""
+        """Name of this bearing's film model."""
         return self.geometry.models[0] if self.film is None else self.film
 
 
@@ -231,7 +231,7 @@ class Machine(Record):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        with np.errstate(over="ignore", under="ignore"):
+        with np.errstate(over="ignore", under="ignore"):  # 0 and inf are refused in words below
             viscosity = self.viscosity
         if not 0.0 < viscosity < math.inf:
             raise ValueError(
@@ -276,12 +276,12 @@ class Machine(Record):
         Raises
         ------
         ValueError
-            Where the text is no JSON, a key is unknown, missing or given twice, a value has the
-            wrong type or lies out of its bound, or the version is not this program's.
+            Where the text is not JSON, a key is unknown, missing or given twice, a value has the
+            wrong type or lies outside its bound, or the version is unknown.
         """
         document = parsed(text)
         version = document.pop("version", None)
-        if isinstance(version, bool) or version not in (1, FORMAT_VERSION):
+        if isinstance(version, bool) or version not in (1, FORMAT_VERSION):  # True == 1
             raise ValueError(
                 f"version = {shown(version)}: this program reads versions 1 and {FORMAT_VERSION}"
             )
@@ -291,7 +291,7 @@ class Machine(Record):
 
 
 def _drop_the_one_film(document: dict[str, Any]) -> None:
-    """Take the film's name out of a document of version 1, which knew one film only."""
+    """Remove the film's name from a document of version 1, which had one film model only."""
     if isinstance(document.get("bearing"), dict):
         bearing = cast("dict[str, Any]", document["bearing"])
         if bearing.get("film") == "short":

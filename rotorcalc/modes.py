@@ -1,13 +1,13 @@
-"""Free motion about equilibrium: state matrices, eigenvalues, and what they say of each mode.
+"""Free motion about equilibrium: eigenvalues, mode shapes, frequencies and damping of each mode.
 
 Model: the film's linear stiffness and damping at one running speed; the rotor as one disk on a
 massless shaft, the whole per bearing. States, X and Y of each: a rigid rotor has the journal's
 position and velocity (4); a flexible one the disk's position and velocity and the journal's
 position (6), and with journal mass the journal's velocity too (8). A film with inner coordinates
-adds their places, and the velocities of those that have a mass.
+adds their positions, and the velocities of those that have a mass.
 
 Source: San Andrés, Notes 5, Eq. 5.38 (rigid), and the calculation sheet (flexible); midspan damping
-and journal mass are the two extensions that the sheet leaves to its reader.
+and journal mass are the two extensions that the sheet leaves to the reader.
 """
 
 from collections.abc import Callable
@@ -26,18 +26,19 @@ from rotorcalc.films.dynamics import NO_INERTIA
 from rotorcalc.machine import Rotor
 
 _I = np.eye(2)
-# Newton's steps from an eigenvalue that is all but right, at most, and the size of the last of
-# them, relative to λ: where there is no need of another, and where λ is none. Of two modes that lie
-# close together each is known the worse.
+# Newton's steps from a good first guess, at most, and the size of the last step relative to λ:
+# below the first no further step is needed, above the second λ has not converged. Between them lie
+# modes close together, each of which is ill-conditioned.
 _REFINEMENTS = 8
 _NO_NEED, _SETTLED = 1e-14, 1e-9
-# Rows of a sweep that `follow_branches` compares at once.
+# Rows of a sweep that `follow_branches` compares at once: NumPy's overhead is spread over them, and
+# few are compared in vain where two branches cross.
 _ROWS_AT_ONCE = 32
 
 
 @dataclass(frozen=True, eq=False)
 class ModeShapes(Result):
-    """The free motions e^{λt} of a machine: eigenvalues λ, and what moves how in each.
+    """The free motions e^{λt} of a machine: eigenvalues λ and mode shapes.
 
     A mode's motion is Re{P e^{λt}}, P its phasors here. Each mode is scaled so that the largest of
     its displacements is 1, inner coordinates included.
@@ -154,6 +155,7 @@ def mode_shapes(
     A = state_matrix(rotor, K, C, inertia=inertia, flexible=flexible)
     values, vectors = np.linalg.eig(A)
     rigid = rotor.is_rigid or not flexible
+    # Scaled by displacements alone: velocities are λ times as large, in another unit.
     positions = vectors[..., : K.shape[-1] + (0 if rigid else 2), :]
     largest = np.argmax(np.abs(positions), axis=-2)[..., None, :]
     vectors = vectors / np.take_along_axis(positions, largest, axis=-2)
@@ -171,11 +173,11 @@ def mode_shapes(
 def refined_eigenvalues(
     rotor: Rotor, K: Array, C: Array, *, inertia: Array = NO_INERTIA, flexible: bool = True
 ) -> ComplexArray:
-    """Return the eigenvalues λ of the free motion, each to a rounding error of its own.
+    """Return the eigenvalues λ of the free motion, each to its own rounding error.
 
-    A matrix eigenvalue is good to a rounding error of the matrix's largest entries, which for a
-    light load, a stiff shaft or a light journal is far more than a mode grows or decays. Here
-    Newton's method on the impedance of the machine takes that error out.
+    A matrix eigenvalue has a rounding error of the matrix's largest entries, which for a light
+    load, a stiff shaft or a light journal is far more than a mode's growth rate. Newton's method on
+    the impedance of the machine removes that error.
 
     Parameters
     ----------
@@ -191,16 +193,16 @@ def refined_eigenvalues(
     Returns
     -------
     complex array, (..., m)
-        λ [1/s], in no particular order, m > n as in `state_matrix`. Some stand there more than
-        once, and one that Newton's method does not settle on is not a number.
+        λ [1/s], in no particular order, m > n as in `state_matrix`. Some occur more than once; NaN
+        where Newton's method does not converge.
 
     Notes
     -----
     With Z = K + λC + λ²M_j I for film and journal, z = λ²m_d + λC_s for the disk and s = 1/K_rot
     for the shaft, the free motion's journal j obeys W j = (Z + z I + s z Z) j = 0, as the
     synchronous response does with jΩ for λ. Newton's step for det W = 0 is −1/tr(W⁻¹ dW/dλ). It
-    starts from the matrix eigenvalues, and from those of simpler machines, to which the ones that
-    the matrix tells least tend: with massless journals, and, of the slow ones, K + λ(C + C_s I).
+    starts from the matrix eigenvalues, and from those of simpler machines, which are the limits of
+    the least accurate ones: with massless journals, and, of the slow ones, K + λ(C + C_s I).
     """
     values = _first_guesses(rotor, K, C, inertia, flexible)
     step = values
@@ -233,7 +235,7 @@ def characteristic_polynomial(rotor: Rotor, K: Array, C: Array, *, flexible: boo
     -------
     array, (..., n+1)
         Coefficients from the constant to that of λⁿ, n as in `state_matrix`. Where det K, det C
-        and so on are positive each is a sum of positive terms, and as good as they are.
+        and so on are positive, each is a sum of positive terms and has their relative error.
     """
     return film_terms(K, C) @ rotor_terms(rotor, flexible=flexible)
 
@@ -251,9 +253,10 @@ def rotor_terms(
 ) -> NDArray[Any]:
     """Return the rotor's part in `characteristic_polynomial`: of D², D N and N², (6, n+1).
 
-    In floats, or in what else `number` makes of them, such as `decimal.Decimal`.
+    In floats, or in another type of number, such as `decimal.Decimal`.
     """
     bends = flexible and not rotor.is_rigid
+    # s = 0 for the rigid shaft lowers the degree to 4, so one set of terms serves all rotors.
     s = 1 / number(rotor.shaft_stiffness) if bends else number(0.0)
     m_j, C_s = number(rotor.journal_mass), number(rotor.disk_damping)
     m_d = number(rotor.mass) / 2 - m_j
@@ -272,7 +275,7 @@ def rotor_terms(
 
 
 def leading(eigenvalues: ArrayLike) -> ComplexArray:
-    """Return the eigenvalue of the least damped mode that oscillates: of the whirl.
+    """Return the eigenvalue of the least damped oscillating mode, the whirl.
 
     Parameters
     ----------
@@ -282,8 +285,7 @@ def leading(eigenvalues: ArrayLike) -> ComplexArray:
     Returns
     -------
     complex array, (...)
-        Of those with Im λ > 0 the one that decays slowest, or grows fastest; not a number where
-        none oscillates.
+        The one with Im λ > 0 that decays slowest, or grows fastest; NaN where none oscillates.
     """
     values = complex_array("eigenvalues", eigenvalues)
     place = leading_place(values)[..., None]
@@ -293,7 +295,7 @@ def leading(eigenvalues: ArrayLike) -> ComplexArray:
 
 @checked
 def leading_place(eigenvalues: ComplexArray) -> IntArray:
-    """Return the place of `leading` among eigenvalues, (...); among all where none oscillates."""
+    """Return the index of `leading`, (...); of the largest real part where none oscillates."""
     waves = eigenvalues.imag > 0.0
     counts = waves | ~np.any(waves, axis=-1, keepdims=True)
     return np.argmax(np.where(counts, eigenvalues.real, -np.inf), axis=-1)
@@ -360,7 +362,7 @@ def undamped_frequency(stiffness: ArrayLike, mass: ArrayLike) -> Array:
     Returns
     -------
     array, (...)
-        ω [rad/s]; not a number where the stiffness is negative.
+        ω [rad/s]; NaN where the stiffness is negative.
     """
     ratio = real_array("stiffness", stiffness) / real_array("mass", mass)
     return np.sqrt(np.where(ratio < 0.0, np.nan, ratio))
@@ -369,9 +371,9 @@ def undamped_frequency(stiffness: ArrayLike, mass: ArrayLike) -> Array:
 def follow_branches(eigenvalues: ArrayLike) -> ComplexArray:
     """Return eigenvalues reordered so that each column is one mode followed over the sweep.
 
-    Each step extrapolates every branch along its last step and pairs the next eigenvalues with the
-    predictions so that the sum of the distances, each relative to its size, is least. So modes keep
-    their identity where their frequencies cross, beside far larger eigenvalues too.
+    Each step extrapolates every branch linearly and assigns the next eigenvalues to the predictions
+    so that the sum of the relative distances is least. So modes keep their identity where their
+    frequencies cross, even beside far larger eigenvalues.
 
     Parameters
     ----------
@@ -390,7 +392,7 @@ def follow_branches(eigenvalues: ArrayLike) -> ComplexArray:
     branches = np.take_along_axis(branches, order, axis=-1)
     i = 1
     while i < len(branches):
-        # All branches hold to the next row at which one of them lies nearer to another's values.
+        # The order stays until the next row in which a branch is closer to another's value.
         rows = branches[max(i - 2, 0) : i + _ROWS_AT_ONCE]
         distance = _relative_distance(rows if i > 1 else np.concatenate([rows[:1], rows]))
         crossed = _any_crossed(distance)
@@ -414,13 +416,13 @@ def _relative_distance(rows: ComplexArray) -> Array:
 
 
 def _any_crossed(distance: Array) -> BoolArray:
-    """Return whether in a row some branch is nearer to another's value than to its own, (n,)."""
+    """Return whether in a row some branch is closer to another's value than to its own, (n,)."""
     own = np.diagonal(distance, axis1=1, axis2=2)
     return np.any(np.min(distance, axis=2) < own, axis=1)
 
 
 def _bounded(step: ComplexArray, last: ComplexArray) -> ComplexArray:
-    """Return steps no longer than a third of the eigenvalue: a further guess would be none."""
+    """Return steps no longer than a third of the eigenvalue: longer extrapolations mislead."""
     length, most = np.abs(step), np.abs(last) / 3.0
     return step * np.where(length > most, most / np.where(length == 0.0, 1.0, length), 1.0)
 
@@ -440,6 +442,7 @@ def _first_guesses(
 
 def _slow(K: Array, C: Array) -> ComplexArray:
     """Return λ of K + λC: the roots of its determinant, (..., 2)."""
+    # aλ² + 2bλ + c = 0, by the form without cancellation: q = −b ∓ √(b² − ac), λ = q/a and c/q.
     c, twice_b, a = _determinant(K, C)
     b = 0.5 * twice_b
     q = -b - np.copysign(np.sqrt(np.maximum(b * b - a * c, 0.0)), b)
@@ -451,7 +454,7 @@ def _slow(K: Array, C: Array) -> ComplexArray:
 def _determinant(
     K: NDArray[Any], C: NDArray[Any]
 ) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
-    """Return det(K + λC): det K, K : adj C and det C, of λ's powers 0, 1 and 2."""
+    """Return det(K + λC): det K, K : adj C and det C, the coefficients of 1, λ and λ²."""
 
     def both(A: NDArray[Any], B: NDArray[Any]) -> NDArray[Any]:
         return A[..., 0, 0] * B[..., 1, 1] - A[..., 0, 1] * B[..., 1, 0]
@@ -466,9 +469,9 @@ def _trace(A: NDArray[Any]) -> NDArray[Any]:
 def _impedance(
     K: Array, C: Array, inertia: Array, lam: ComplexArray
 ) -> tuple[ComplexArray, ComplexArray]:
-    """Return the film's Z and dZ/dλ as the journal feels it at each λ, (..., m, 2, 2).
+    """Return the film's Z and dZ/dλ of the journal alone at each λ, (..., m, 2, 2).
 
-    Inner coordinates follow the journal, q_i = −Z_ii⁻¹ Z_iq q.
+    The inner coordinates are eliminated, q_i = −Z_ii⁻¹ Z_iq q.
     """
     at = lam[..., None, None]
     mass = np.diag(np.concatenate([np.zeros(2), inertia]))
@@ -491,6 +494,7 @@ def _newton_step(
     flexible: bool,
 ) -> ComplexArray:
     """Return −1/tr(W⁻¹ dW) = −det W/tr(adj W · dW) of the machine's impedance W at each λ."""
+    # W = Z(1 + s z) + (λ²M_j(1 + s z) + z) I and its derivative, in the symbols of the caller.
     s, m = 1.0 / rotor.shaft_stiffness if flexible else 0.0, rotor.journal_mass
     z = lam * (lam * rotor.disk_mass + rotor.disk_damping)
     dz = 2.0 * lam * rotor.disk_mass + rotor.disk_damping

@@ -20,8 +20,8 @@ ISO_VG: dict[str, tuple[float, float]] = {
     "ISO VG 68": (68.0, 8.731),
     "ISO VG 100": (100.0, 11.384),
 }
-# A round value for mineral oils [kg/m³]; it enters through the film's Reynolds number, and turns
-# a grade's kinematic viscosity into the dynamic one.
+# A round value for mineral oils [kg/m³]: it converts a grade's kinematic viscosity to the dynamic
+# one, and enters the film's Reynolds number.
 DENSITY = 860.0
 # The range of the charts of ASTM D341 [°C].
 _COLDEST, _HOTTEST = -70.0, 370.0
@@ -29,14 +29,14 @@ _COLDEST, _HOTTEST = -70.0, 370.0
 
 @checked
 def iso_oil(grade: str, *, temperature: float) -> Oil:
-    """Return the exponential law that has a grade's viscosity and its slope at one temperature.
+    """Return the exponential law with a grade's viscosity and its slope at one temperature.
 
     Parameters
     ----------
     grade : str
         A key of `ISO_VG`.
     temperature : float
-        Temperature at which law and grade touch, T [°C].
+        Temperature at which law and grade agree, T [°C].
 
     Returns
     -------
@@ -46,7 +46,7 @@ def iso_oil(grade: str, *, temperature: float) -> Oil:
     Raises
     ------
     ValueError
-        Where the grade is not known, or the temperature lies outside -70 to 370 °C.
+        Where the grade is unknown, or the temperature lies outside -70 to 370 °C.
 
     Examples
     --------
@@ -66,9 +66,10 @@ def iso_oil(grade: str, *, temperature: float) -> Oil:
     shifted = 10.0**10.0 ** (A - B * math.log10(T))  # ν + 0.7
     nu = shifted - 0.7
     return Oil(
-        reference_viscosity=nu * 1e-6 * DENSITY,
+        reference_viscosity=nu * 1e-6 * DENSITY,  # μ = νρ, ν from mm²/s
         reference_temperature=temperature,
-        temperature_coefficient=shifted * math.log(shifted) * B / (nu * T),  # −d ln ν/dT
+        # −d ln ν/dT, from d log10 log10(ν + 0.7) = −B d log10 T.
+        temperature_coefficient=shifted * math.log(shifted) * B / (nu * T),
         density=DENSITY,
     )
 

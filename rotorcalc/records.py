@@ -39,7 +39,9 @@ class Bound:
             raise ValueError(f"{given}: must be a number in {self.unit}")
         try:
             number = float(value)
-        except OverflowError as error:  # it is finite, so not even a rigid shaft is meant
+        except (
+            OverflowError
+        ) as error:  # an integer beyond 1e308 is finite, so it does not mean a rigid shaft
             raise ValueError(f"{given} {self.unit}: too large for a number") from error
         if math.isnan(number) or (math.isinf(number) and not self.infinite):
             raise ValueError(f"{given} {self.unit}: must be finite")
@@ -66,7 +68,7 @@ class Choice:
 
 @dataclass(frozen=True)
 class Rule:
-    """What a field of a record accepts: a check or a class, whether None, and its default."""
+    """What a field of a record accepts: a check or a class, whether None too, and its default."""
 
     check: "Bound | Choice | type[Record]"
     optional: bool
@@ -102,6 +104,7 @@ class Record:
                 if not isinstance(value, rule.check):
                     raise ValueError(f"{name} = {shown(value)}: must be {rule.check.__name__}")
             else:
+                # Past the frozen dataclass: an integer or a NumPy number is stored as a float.
                 object.__setattr__(self, name, rule.check.check(name, value))
 
 
@@ -110,13 +113,13 @@ R = TypeVar("R", bound=Record)
 
 @dataclass(frozen=True, kw_only=True)
 class Kind(Record):
-    """A record that comes in several kinds, told apart in files by the word in `kind`."""
+    """A record that comes in several kinds, distinguished in files by the word in `kind`."""
 
     kind: ClassVar[str] = ""
 
     @classmethod
     def kinds(cls) -> "dict[str, type[Self]]":
-        """Return the record classes below this one by their words, in the order they were made."""
+        """Return this class's subclasses by their words, in order of definition."""
         found: dict[str, type[Self]] = {cls.kind: cls} if cls.kind else {}
         for below in cls.__subclasses__():
             found |= below.kinds()
@@ -124,7 +127,7 @@ class Kind(Record):
 
 
 def number_paths(record: Record) -> Iterator[tuple[str, ...]]:
-    """Yield where each number of a record stands: its field's name, below those of its records."""
+    """Yield the path of each number of a record: field names from the outermost record inwards."""
     for name, rule in rules(type(record)).items():
         value = getattr(record, name)
         if isinstance(value, Record):
@@ -136,7 +139,7 @@ def number_paths(record: Record) -> Iterator[tuple[str, ...]]:
 def to_tree(record: Record) -> dict[str, object]:
     """Return a record as a tree of JSON values, fields at their default left out.
 
-    JSON has no infinity, so it is the word inf; a record of several kinds says which in "type".
+    JSON has no infinity, so it is written "inf"; a record of several kinds is named in "type".
     """
     tree: dict[str, object] = {"type": record.kind} if isinstance(record, Kind) else {}
     for name, rule in rules(type(record)).items():
@@ -193,11 +196,11 @@ def _value_of(rule: Rule, value: object, *, where: str) -> object:
 
 
 def parsed(text: str) -> dict[str, Any]:
-    """Return the object that JSON text holds, strictly: no NaN, no key twice."""
+    """Return the object in a JSON text, strictly: no NaN, no duplicate key."""
     try:
         document = json.loads(
             text,
-            # As a float at once: an integer of a million digits is then just too large a number.
+            # As a float at once: an integer of a million digits is then inf, refused as too large.
             parse_int=float,
             parse_constant=_refuse_constant,
             object_pairs_hook=_unique_keys,
@@ -210,7 +213,7 @@ def parsed(text: str) -> dict[str, Any]:
 
 
 def _refuse_constant(word: str) -> NoReturn:
-    raise ValueError(f"{word}: no number of JSON; an infinite shaft_stiffness is written 'inf'")
+    raise ValueError(f"{word}: not a JSON number; an infinite shaft_stiffness is written 'inf'")
 
 
 def _unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
@@ -223,5 +226,5 @@ def _unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
 
 
 def _key(key: str) -> str:
-    """Return a key as an error shows it: short, and free of surrogates, which no page can show."""
+    """Return a short text of a key for an error, without surrogates, which no page can display."""
     return key[:80].encode("utf-8", "backslashreplace").decode()

@@ -1,7 +1,7 @@
-"""The root locus: a machine's modes followed over speed, and where they stand at one speed.
+"""The root locus: a machine's modes followed over speed, and their eigenvalues at one speed.
 
-Eigenvalues of a real matrix come as mirror images, λ and its conjugate, which are one motion; the
-locus keeps the half with Im λ ≥ 0. Source: the notes' calculation sheet, eigenvalues over speed.
+Complex eigenvalues of a real matrix come in conjugate pairs, each pair one motion; the locus keeps
+the half with Im λ ≥ 0. Source: the notes' calculation sheet, eigenvalues over speed.
 """
 
 import itertools
@@ -19,7 +19,7 @@ from rotorcalc.modes import ModeShapes, leading_place
 
 @dataclass(frozen=True, eq=False)
 class Locus(Result):
-    """Eigenvalues over speed, a column a mode, and the same modes at the running speed.
+    """Eigenvalues over speed, one column per mode, and the same modes at the running speed.
 
     The modes keep one order in all fields: at the lowest speed the oscillating ones by rising
     frequency, then the others.
@@ -29,7 +29,7 @@ class Locus(Result):
     speed : array, (n,)
         Ω [rad/s].
     branches : complex array, (n, m)
-        λ [1/s]; not a number at speeds at which the mirror image is another column.
+        λ [1/s]; NaN at speeds at which another column holds the conjugate.
     running_speed : float
         Ω [rad/s].
     here : ModeShapes
@@ -69,6 +69,8 @@ def root_locus(
     Locus
         The half with Im λ ≥ 0.
     """
+    # The modes at the running speed are assigned to the branches by their distance at the nearest
+    # speed of the sweep.
     nearest = branches[np.argmin(np.abs(speed - running_speed))]
     _, here = linear_sum_assignment(np.abs(nearest[:, None] - shapes.eigenvalues[None, :]))
     first = branches[0]
@@ -85,9 +87,9 @@ def root_locus(
 
 
 def _images_last(values: ComplexArray) -> NDArray[np.intp]:
-    """Return columns in an order, row by row, in which no mirror image comes before its mode.
+    """Return columns in an order, row by row, in which no conjugate comes before its mode.
 
-    Two real eigenvalues that meet part as a mode and its mirror image; which is which is chance.
+    Where two real eigenvalues meet they leave the axis as a conjugate pair, in arbitrary order.
     """
     n, m = values.shape
     places: NDArray[np.intp] = np.zeros((n, 1), dtype=np.intp) + np.arange(m, dtype=np.intp)

@@ -1,7 +1,7 @@
-"""The matrix A of a machine's free motion, q̇ = A q: the rotor's states, and those of the film.
+"""The matrix A of a machine's free motion, q̇ = A q, over the states of rotor and film.
 
-The state holds the places of disk, journal and the film's inner coordinates, then the velocities of
-those of them that have a mass, as far as the model has them; a rigid rotor's journal is its disk.
+The state holds the positions of disk, journal and the film's inner coordinates, then the velocities
+of those of them that have a mass; a rigid rotor's journal is its disk.
 """
 
 import numpy as np
@@ -15,6 +15,7 @@ _I = np.eye(2)
 def rigid(rotor: Rotor, K: Array, C: Array) -> Array:
     """Return A over (journal, its velocity), (..., 4, 4)."""
     M = rotor.half_mass
+    # Eq. 5.38; on a rigid shaft the midspan damper acts beside the film's damping.
     A = np.zeros((*K.shape[:-2], 4, 4))
     A[..., :2, 2:] = _I
     A[..., 2:, :2] = -K / M
@@ -23,8 +24,9 @@ def rigid(rotor: Rotor, K: Array, C: Array) -> Array:
 
 
 def massless_journals(rotor: Rotor, K: Array, C: Array) -> Array:
-    """Return A over (disk, journal, disk velocity): the journal moves as film and shaft balance."""
+    """Return A over (disk, journal, disk velocity); film and shaft force balance at the journal."""
     k, m = rotor.shaft_stiffness, rotor.disk_mass
+    # Without mass the journal's velocity follows from C ẋ_j = k(x_d − x_j) − K x_j.
     mobility = np.linalg.inv(C)
     A = np.zeros((*K.shape[:-2], 6, 6))
     A[..., :2, 4:] = _I
@@ -39,6 +41,7 @@ def massless_journals(rotor: Rotor, K: Array, C: Array) -> Array:
 def with_journal_mass(rotor: Rotor, K: Array, C: Array) -> Array:
     """Return A over (disk, journal, disk velocity, journal velocity)."""
     k, m, m_j = rotor.shaft_stiffness, rotor.disk_mass, rotor.journal_mass
+    # m ẍ_d = k(x_j − x_d) − C_s ẋ_d and m_j ẍ_j = k(x_d − x_j) − K x_j − C ẋ_j.
     A = np.zeros((*K.shape[:-2], 8, 8))
     A[..., :4, 4:] = np.eye(4)
     A[..., 4:6, :2] = -k / m * _I
@@ -53,8 +56,8 @@ def with_journal_mass(rotor: Rotor, K: Array, C: Array) -> Array:
 def with_inner(rotor: Rotor, K: Array, C: Array, inertia: Array, *, bends: bool) -> Array:
     """Return A of a rotor in a film with inner coordinates.
 
-    What has a mass is accelerated by m q̈ = −(K q + C q̇); what has none moves so that its forces
-    balance, C_bb q̇_b = −K_b q − C_ba q̇_a.
+    Coordinates a with a mass obey m q̈ = −(K q + C q̇); for those without, b, the forces balance,
+    C_bb q̇_b = −K_b q − C_ba q̇_a.
 
     Parameters
     ----------
@@ -75,7 +78,7 @@ def with_inner(rotor: Rotor, K: Array, C: Array, inertia: Array, *, bends: bool)
     mass, stiffness, damping = (_coupled if bends else _rigidly)(rotor, K, C, inertia)
     heavy, light = np.flatnonzero(mass > 0.0), np.flatnonzero(mass == 0.0)
     n, m = len(mass), len(heavy)
-    # q̇ = R q + S v, v the velocities of what has a mass.
+    # q̇ = R q + S v, v the velocities of the coordinates with a mass.
     R, S = np.zeros((*K.shape[:-2], n, n)), np.zeros((*K.shape[:-2], n, m))
     S[..., heavy, np.arange(m)] = 1.0
     if light.size:

@@ -1,7 +1,7 @@
-"""Results as tables: a row a speed, a column a number, its unit in the column's name.
+"""Results as tables: one row per speed, one column per number, the unit in the column's name.
 
-Vectors and matrices become a column an element, phasors amplitude and phase lag, as one measures
-them. Units are those of the record's docstring.
+Vectors and matrices take one column per element, phasors an amplitude and a phase lag, as they are
+measured. Units are those of the record's docstring.
 """
 
 from collections.abc import Iterator
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def dataframe(columns: dict[str, Array]) -> "pd.DataFrame":
-    """Return columns of numbers as a table of pandas, which is imported only here.
+    """Return columns of numbers as a pandas table; pandas is imported only here.
 
     Raises
     ------
@@ -26,7 +26,7 @@ def dataframe(columns: dict[str, Array]) -> "pd.DataFrame":
         Where pandas is not installed.
     """
     try:
-        # Only who asks for a table needs it.
+        # Imported on use: pandas is optional, and slow to import.
         import pandas as pd  # noqa: PLC0415 # pyright: ignore[reportMissingTypeStubs]
     except ImportError as error:
         raise ImportError("to_dataframe needs pandas: pip install pandas") from error
@@ -66,7 +66,7 @@ def eigenvalue_columns(branches: ComplexArray) -> dict[str, Array]:
 
 
 def _numbers(value: object) -> Array | None:
-    """Return a field as an array, None where it is something else."""
+    """Return a field as an array, or None where it is not one."""
     return cast("Array", value) if isinstance(value, np.ndarray | np.generic) else None
 
 
@@ -79,7 +79,7 @@ def _elements(
         yield from ((name + end, unit, column) for end, column in zip(ends, values.T, strict=True))
         return
     amplitude = np.abs(values)
-    lag = np.where(amplitude > 0.0, phase_lag(values), np.nan)  # where nothing moves nothing lags
+    lag = np.where(amplitude > 0.0, phase_lag(values), np.nan)  # a body at rest has no phase
     for end, size, angle in zip(ends, amplitude.T, lag.T, strict=True):
         yield f"{name}{end}_amplitude", unit, size
         yield f"{name}{end}_lag", "rad", angle

@@ -1,10 +1,11 @@
-"""What imbalance does to a machine over speed: curves, orbits, and what else the rotor could be.
+"""The steady response over speed: curves, orbits, and the responses of modified rotors.
 
-Prepares the steady response for its readers: amplitude, phase and ellipse of disk and journal,
-orbits point by point, the journal's orbit in its clearance, and the responses of rotors that differ
-in midspan damping or journal mass (the extensions that the calculation sheet leaves to its reader).
+Prepares the steady response for charts: amplitude, phase and ellipse of disk and journal, orbits
+point by point, the journal's orbit in its clearance, and the responses of rotors that differ in
+midspan damping or journal mass (the extensions that the calculation sheet leaves to the reader).
 
-Source: San Andrés, Notes 5, Eq. 5.38, and the calculation sheet. Axes and signs as in `response`.
+Source: San Andrés, Notes 5, Eq. 5.38, and the calculation sheet. Axes and signs as in
+`unbalance_response`.
 """
 
 import math
@@ -33,10 +34,12 @@ from rotorcalc.unbalance_response import (
     synchronous_response,
 )
 
+# A point every 5°: the chords of a circle then lie within 0.1 % of its radius.
 _ORBIT_POINTS = 73
-# Points around a peak, in spacings of the sweep: without much damping it is narrower than one.
+# Points around a peak, in spacings of the sweep, halving towards it: a lightly damped peak is
+# narrower than one spacing.
 _NEAR = np.concatenate([-(0.5 ** np.arange(1, 10)), [0.0], 0.5 ** np.arange(9, 0, -1)])
-# What `damping_variants` and `journal_mass_variants` give, as fractions of their references.
+# Variants of midspan damping and of journal mass, as shares of critical damping and of half mass.
 _DAMPING = (0.0, 0.05, 0.1, 0.2, 0.5)
 _JOURNAL_MASS = (0.0, 0.05, 0.1, 0.2, 0.4)
 
@@ -50,7 +53,7 @@ class BodyResponse(Result):
     amplitude : array, (..., 2)
         Of X and Y, zero to peak [m].
     lag : array, (..., 2)
-        By how much X lags cos Ωt and Y lags sin Ωt [rad].
+        Lag of X behind cos Ωt and of Y behind sin Ωt [rad].
     ellipse : OrbitEllipse
         The orbit's axes [m], each of shape (...).
     """
@@ -76,9 +79,9 @@ class ResponseCurves(Result):
         First and last speed of the ranges where the machine is unstable [rad/s]: no response is
         steady there.
     running_speed : array, scalar
-        Ω [rad/s].
+        Running speed, Ω [rad/s].
     disk_here, journal_here : BodyResponse
-        At the running speed; the lag is that turn's which continues the curve.
+        At the running speed; the lag continues the curve's unwrapped one.
     is_rigid : bool
         Whether disk and journal are one.
     """
@@ -121,21 +124,21 @@ class Orbits(Result):
 
 @dataclass(frozen=True, eq=False)
 class ClearanceOrbit(Result):
-    """The journal's orbit where it runs, in its clearance.
+    """The journal's orbit about its static equilibrium, within the clearance.
 
     Attributes
     ----------
     clearance : float
         Radial clearance, C [m].
     wall : array, (p, 2)
-        Where the journal's centre would touch the wall, all the way round, in X, Y [m].
+        Positions of the journal's centre at contact, all the way round, in X, Y [m].
     centre : array, (2,)
         Static equilibrium of the journal's centre [m].
     path : array, (p, 2)
         The orbit from the bearing's centre [m].
     closest : float
-        Thinnest film on the orbit over the clearance [-]: below 0 the linear theory takes the
-        journal through the wall.
+        Smallest film thickness on the orbit over the clearance [-]; negative where the linear
+        theory predicts an orbit through the wall.
     """
 
     clearance: float
@@ -154,7 +157,7 @@ class ResponseFamily(Result):
     rotors : tuple of Rotor
         The m rotors.
     speed : array, (n,)
-        Ω [rad/s]: those asked for, and more around the peaks of each rotor.
+        Ω [rad/s]: those given, and more around the peaks of each rotor.
     disk, journal : array, (m, n)
         Semi-major axes [m].
     unstable : boolean array, (m, n)
@@ -240,9 +243,9 @@ def orbits(sweep: Sweep, *, points: int = _ORBIT_POINTS, every: int = 1) -> Orbi
     sweep : Sweep
         A machine over speed, or at one speed.
     points : int
-        Points of each orbit; the last is the first again.
+        Points of each orbit; the last equals the first.
     every : int
-        Of a sweep, take each so many-th speed, so that the last stays.
+        Stride through a sweep's speeds, counted so that the last is taken.
 
     Returns
     -------
@@ -273,7 +276,7 @@ def clearance_orbit(point: Sweep) -> ClearanceOrbit:
     Returns
     -------
     ClearanceOrbit
-        Wall, equilibrium, path, and how near the path comes to the wall.
+        Wall, equilibrium, path, and the smallest film thickness on the path.
     """
     film, C = film_of(point.machine.bearing), point.machine.bearing.radial_clearance
     journal = point.journal_response
@@ -333,7 +336,7 @@ def response_family(
 
 @checked
 def damping_reference(machine: Machine) -> float:
-    """Return a damping to measure midspan damping by [N·s/m].
+    """Return a reference value of midspan damping [N·s/m].
 
     Parameters
     ----------
@@ -343,18 +346,19 @@ def damping_reference(machine: Machine) -> float:
     Returns
     -------
     float
-        Critical damping of the disk on its shaft, 2√(K_rot m_d); where the shaft is rigid the
-        centred film's direct damping, beside which the damper then acts.
+        Critical damping of the disk on its shaft, 2√(K_rot m_d); for a rigid shaft the centred
+        film's direct damping, to which the damper's is then added.
     """
     rotor = machine.rotor
     if rotor.is_rigid:
+        # The centred film's damping does not depend on speed: any speed will do.
         return float(equilibrium(replace(machine, load=0.0), 1.0).damping[0, 0])
     return 2.0 * math.sqrt(rotor.shaft_stiffness * rotor.disk_mass)
 
 
 @checked
 def damping_variants(machine: Machine) -> tuple[Rotor, ...]:
-    """Return the machine's rotor, then it with midspan damping of 0 to ½ `damping_reference`."""
+    """Return the rotor, then variants with midspan damping of 0 to ½ `damping_reference`."""
     rotor, unit = machine.rotor, damping_reference(machine)
     dampings = [float(f"{share * unit:.2g}") for share in _DAMPING]
     others = (replace(rotor, disk_damping=value) for value in dampings)
@@ -363,7 +367,7 @@ def damping_variants(machine: Machine) -> tuple[Rotor, ...]:
 
 @checked
 def journal_mass_variants(machine: Machine) -> tuple[Rotor, ...]:
-    """Return the machine's rotor, then the same with journals of 0 to 40 % of half its mass."""
+    """Return the rotor, then variants with a journal mass of 0 to 40 % of half its mass."""
     rotor = machine.rotor
     masses = [float(f"{share * rotor.half_mass:.2g}") for share in _JOURNAL_MASS]
     others = (replace(rotor, journal_mass=value) for value in masses)
@@ -379,7 +383,7 @@ def _body(response: ComplexArray) -> BodyResponse:
 def _body_on(
     curve: BodyResponse, speeds: Array, response: ComplexArray, speed: Array
 ) -> BodyResponse:
-    """Return a response at one speed, its lag on the same turn as the curve's."""
+    """Return a response at one speed, its lag unwrapped to the same turn as the curve's."""
     lag = phase_lag(response[None, :])[0]
     near = np.array([float(np.interp(speed, speeds, curve.lag[:, i])) for i in range(2)])
     lag = lag + 2.0 * np.pi * np.rint((near - lag) / (2.0 * np.pi))
@@ -387,6 +391,6 @@ def _body_on(
 
 
 def _near(speeds: Array, peaks: Array) -> Array:
-    """Return speeds around each peak within rising speeds, denser than those."""
+    """Return speeds around each peak, denser than the given ones and within their range."""
     near = peaks[:, None] + (speeds[1] - speeds[0]) * _NEAR
     return near[(near > 0.0) & (near <= speeds[-1])]

@@ -1,10 +1,10 @@
 """Peaks of the response to imbalance over speed, however narrow.
 
-A mode of the free motion that turns at the running speed answers the imbalance in resonance, over a
-band as wide as it decays: |Re λ| where |Im λ| = Ω. With light damping that is a millionth of what
-lies between two speeds of a sweep. So each such crossing is sought along the eigenvalues, the sweep
-is made denser around it, and the maxima of the denser sweep are sought to the last digit. A peak
-that no crossing belongs to is wide, and a maximum of the sweep as it is.
+A mode whose frequency equals the running speed, |Im λ| = Ω, is in resonance with the imbalance, in
+a band of width |Re λ|. With light damping that may be a millionth of the spacing of a sweep. So
+each such crossing is located along the eigenvalues, the sweep is refined around it, and the maxima
+of the refined sweep are computed to full precision. A peak without a crossing is wide, and a
+maximum of the sweep as it is.
 
 Source: San Andrés, Notes 5, Eq. 5.38, as in `unbalance_response`.
 """
@@ -28,16 +28,17 @@ from rotorcalc.unbalance_response import Rotors, orbit_sizes, synchronous_respon
 # The film's synchronous stiffness and damping over speed, each (n, 2, 2).
 _Film: TypeAlias = tuple[Array, Array]
 
-# Speeds of a sweep at which eigenvalues are asked, evenly by their ratio: between two of them a
-# mode's frequency crosses the running speed once or not at all.
+# Speeds of a sweep, in equal ratios, at which eigenvalues are computed: between two of them a
+# mode's frequency is taken to cross the running speed at most once.
 _ASKED = 16
-# A resonance wider than so many spacings of the sweep needs none of this.
+# A resonance wider than this many spacings of the sweep shows in the sweep itself.
 _WIDE = 4.0
-# A crossing is known where the frequency is off by this share of |Re λ|, or to rounding.
+# A crossing is located where the frequency is off by this share of |Re λ|, or to rounding.
 _CLOSE, _ROUNDING = 0.1, 1e-14
-# Speeds around a crossing, in |Re λ|: two modes close together move their peaks by a few.
+# Speeds around a crossing, in units of |Re λ|, densest in the middle: where two modes lie close
+# together their peaks are displaced by a few units.
 _AROUND = 16.0 * np.sinh(np.linspace(-4.0, 4.0, 33)) / np.sinh(4.0)
-# The search for a peak: zooms, each into this many points.
+# Each zoom narrows the interval 32 times; after two, a parabola through the top is exact enough.
 _ZOOMS, _ZOOM_POINTS = 2, 65
 
 
@@ -67,7 +68,7 @@ def response_peaks(machine: Machine, speed: ArrayLike, *, at: str = "disk") -> R
         The machine.
     speed : array_like, (n,)
         Rising speeds, Ω [rad/s]; a peak lies within them. A resonance is found however narrow, a
-        wide maximum where the speeds show it.
+        wide maximum where the speeds resolve it.
     at : str
         Whose orbit, "disk" or "journal".
 
@@ -89,7 +90,7 @@ def response_peaks(machine: Machine, speed: ArrayLike, *, at: str = "disk") -> R
 
 @checked
 def both_peaks(sweep: Sweep) -> tuple[ResponsePeaks, ResponsePeaks]:
-    """Return the peaks of the disk's response and of the journals', found in one search.
+    """Return the peaks of the disk's response and of the journals' from one search.
 
     Parameters
     ----------
@@ -131,7 +132,7 @@ def disk_peak_speeds(
     Parameters
     ----------
     machine : Machine
-        The machine; its own rotor counts by its load only.
+        The machine; of its own rotor only the load is used.
     rotors : sequence of Rotor
         The m rotors.
     speed : array, (n,)
@@ -167,7 +168,7 @@ def _resonances(machine: Machine, rotor: Rotor, speed: Array, film: _Film) -> tu
     """Return the speeds Ω = |Im λ| of narrow resonances within a sweep, and their |Re λ|.
 
     The jth smallest frequency is a continuous function of speed, whichever mode it belongs to, so
-    no mode has to be followed: regula falsi on it, and halving, in turns.
+    no mode has to be followed: regula falsi and bisection on it alternate.
     """
     ratio = np.linspace(0.0, 1.0, _ASKED)
     evenly: Array = speed[0] * (speed[-1] / speed[0]) ** ratio
@@ -181,6 +182,7 @@ def _resonances(machine: Machine, rotor: Rotor, speed: Array, film: _Film) -> tu
     low, high, at_low, at_high = places[i], places[i + 1], above[i, j], above[i + 1, j]
     middle, row, turn = low, np.arange(len(i)), 0
     while len(i):
+        # Bisection every other turn: regula falsi alone creeps where the frequency bends.
         share = 0.5 if turn % 2 else at_low / (at_low - at_high)
         middle = low + share * (high - low)
         here = _by_frequency(rotor, *stiffness_and_damping(machine, middle))[row, j]
@@ -207,7 +209,7 @@ def _by_frequency(rotor: Rotor, K: Array, C: Array) -> ComplexArray:
 def _denser(
     speed: Array, size: Array, near: Array, sizes: Callable[[Array], Array]
 ) -> tuple[Array, Array]:
-    """Return a sweep's speeds, (n,), and sizes, (m, n), with those at more speeds put in."""
+    """Return a sweep's speeds, (n,), and sizes, (m, n), with those at more speeds inserted."""
     if not len(near):
         return speed, size
     dense, order = np.unique(np.concatenate([speed, near]), return_index=True)
@@ -228,9 +230,9 @@ def _tops(
 ) -> Array:
     """Return the speeds of the peaks between two speeds each, all at once.
 
-    `body` is 0 for a peak of the disk, 1 for one of the journal. A zoom goes into the two intervals
-    beside the largest value; a parabola does the rest, for more zooms would lose the flat top in
-    rounding errors.
+    `body` is 0 for a peak of the disk, 1 for one of the journal. A zoom keeps the two intervals
+    beside the largest value; a parabola through it gives the top, as further zooms would lose the
+    flat top in rounding errors.
     """
     columns = np.arange(len(low))
     before = largest = after = np.zeros(len(low))
@@ -240,6 +242,7 @@ def _tops(
         top = size[1:-1].argmax(axis=0) + 1
         low, high = grid[top - 1, columns], grid[top + 1, columns]
         before, largest, after = (size[top + step, columns] for step in (-1, 0, 1))
+    # Vertex of the parabola; where rounding leaves no downward curvature the middle point stays.
     bend = before - 2.0 * largest + after
     shift = (before - after) / np.where(bend < 0.0, bend, -np.inf) / 2.0
     return (low + high) / 2.0 + shift * (high - low) / 2.0

@@ -1,4 +1,4 @@
-"""Steady response to imbalance, and the orbits that it draws.
+"""Steady response to imbalance, and its orbits.
 
 Model: linear film coefficients; the disk's mass centre lies a distance u off the shaft's axis and
 turns forward, (cos Ωt, sin Ωt); the source's (sin, cos) turns backward. A phasor P stands for
@@ -20,13 +20,13 @@ from rotorcalc.coefficients import checked_speed
 from rotorcalc.display import Result
 from rotorcalc.machine import Rotor
 
-# The imbalance (cos Ωt, sin Ωt) as phasors.
+# The imbalance (cos Ωt, sin Ωt) as phasors: Re{−j e^{jΩt}} = sin Ωt.
 _FORWARD = np.array([1.0, -1.0j])
 
 
 @dataclass(frozen=True, eq=False)
 class OrbitEllipse(Result):
-    """The ellipse that two phasors draw, each field of shape (...), lengths in the phasors' unit.
+    """The ellipse traced by two phasors, each field of shape (...), lengths in the phasors' unit.
 
     Attributes
     ----------
@@ -61,14 +61,14 @@ class Rotors(Result):
 
     @classmethod
     def of(cls, rotors: Sequence[Rotor]) -> "Rotors":
-        """Return m rotors over any number of speeds: fields of shape (m, 1)."""
+        """Return m rotors, fields of shape (m, 1), to broadcast over speeds."""
         return cls(**{
             name: np.array([[getattr(rotor, name)] for rotor in rotors])
             for name in cls.__dataclass_fields__
         })  # fmt: skip
 
     def at(self, places: IntArray) -> "Rotors":
-        """Return those of the m rotors at some places, of shape (p,)."""
+        """Return the rotors of some indices, fields of shape (p,)."""
         return Rotors(**{name: values[places, 0] for name, values in vars(self).items()})
 
 
@@ -102,7 +102,7 @@ def synchronous_response(
     which holds for the rigid shaft too, s = 0.
     """
     speed = checked_speed(speed)
-    s = 1.0 / rotor.shaft_stiffness
+    s = 1.0 / rotor.shaft_stiffness  # 0 for the rigid shaft
     z = speed * (1j * rotor.disk_damping - speed * rotor.disk_mass)
     bent, inertia = 1.0 + s * z, speed**2 * rotor.journal_mass
 
@@ -114,12 +114,13 @@ def synchronous_response(
     force = rotor.disk_mass * rotor.imbalance * speed**2
     unit = force / (W_xx * W_yy - W_xy * W_yx)  # times adj W (1, −j)
     x, y = unit * (W_yy + 1j * W_xy), -unit * (W_yx + 1j * W_xx)
+    # d = (I + s Z) j: the shaft carries the film's force and the journal's inertia.
     disk = np.stack([x + s * (Z_xx * x + Z_xy * y), y + s * (Z_yx * x + Z_yy * y)], axis=-1)
     return disk, np.stack([x, y], axis=-1)
 
 
 def orbit_ellipse(x: ArrayLike, y: ArrayLike | None = None) -> OrbitEllipse:
-    """Return the ellipse that the phasors of X and Y draw.
+    """Return the ellipse traced by the phasors of X and Y.
 
     Parameters
     ----------
@@ -130,7 +131,7 @@ def orbit_ellipse(x: ArrayLike, y: ArrayLike | None = None) -> OrbitEllipse:
     Returns
     -------
     OrbitEllipse
-        Axes, inclination, and the forward and backward circles that add up to it. Its fields
+        Axes, inclination, and the forward and backward circles whose sum it is. Its fields
         have the shape (...).
 
     Examples
@@ -158,14 +159,14 @@ def orbit_ellipse(x: ArrayLike, y: ArrayLike | None = None) -> OrbitEllipse:
 
 @checked
 def orbit_points(x: ArrayLike, y: ArrayLike, *, points: int = 73) -> Array:
-    """Return the orbit that the phasors of X and Y draw, point by point over one turn.
+    """Return the orbit of the phasors of X and Y, point by point over one turn.
 
     Parameters
     ----------
     x, y : array_like, (...)
         Complex phasors of X and Y, in any one unit.
     points : int
-        Number of points; the last is the first again.
+        Number of points; the last equals the first.
 
     Returns
     -------
@@ -184,7 +185,7 @@ def orbit_points(x: ArrayLike, y: ArrayLike, *, points: int = 73) -> Array:
 
 
 def phase_lag(response: ArrayLike) -> Array:
-    """Return by how much a response lags the imbalance, unwrapped over the sweep.
+    """Return the phase lag of a response behind the imbalance, unwrapped over the sweep.
 
     Parameters
     ----------
@@ -202,5 +203,6 @@ def phase_lag(response: ArrayLike) -> Array:
 @checked
 def orbit_sizes(disk: ComplexArray, journal: ComplexArray) -> Array:
     """Return the semi-major axes of the disk's orbit and the journal's, (2, ...), of (..., 2)."""
+    # |f| + |b| as in `orbit_ellipse`, without its other fields; |b| = |X − jY|/2.
     x, jy = (np.stack([disk[..., i], journal[..., i]]) * unit for i, unit in ((0, 0.5), (1, 0.5j)))
     return np.abs(x + jy) + np.abs(x - jy)

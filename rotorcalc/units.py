@@ -1,4 +1,4 @@
-"""Units for readers: SI as engineers write it, and US customary. Factors from scipy.constants."""
+"""Units of display: SI as engineers write it, and US customary; factors from scipy.constants."""
 
 from dataclasses import dataclass
 
@@ -16,7 +16,7 @@ _REYN = lbf / inch**2  # Pa·s in a reyn, lbf·s/in²
 
 @dataclass(frozen=True)
 class Unit:
-    """A unit of display: what one SI unit amounts to in it.
+    """A unit of display, and its conversion from SI.
 
     Attributes
     ----------
@@ -43,7 +43,7 @@ class Unit:
 
 @dataclass(frozen=True)
 class Units:
-    """The units in which a reader sees each kind of quantity."""
+    """The unit of display of each kind of quantity."""
 
     name: str
     mass: Unit
@@ -97,6 +97,7 @@ US = Units(
     length=Unit("in", 1 / inch),
     film=Unit("mil", 1 / mil),
     viscosity=Unit("µreyn", 1e6 / _REYN),
+    # A difference of 1 °C is 1.8 °F, so a coefficient takes the factor without the offset.
     temperature=Unit("°F", 1.8, 32.0),
     per_temperature=Unit("1/°F", 1 / 1.8),
     density=Unit("lb/ft³", constants.foot**3 / lb),

@@ -1,6 +1,6 @@
-"""Where the model holds: what a machine asks, at each speed, of the short-bearing, linear theory.
+"""Where the model holds: the assumptions of film and linear theory, checked at each speed.
 
-The program computes outside these limits too; it says so beside the result.
+The program computes outside these limits too, and says so beside the result.
 """
 
 import math
@@ -19,7 +19,7 @@ from rotorcalc.unbalance_response import orbit_ellipse
 
 Level: TypeAlias = Literal["good", "caution", "outside"]
 
-# Composite roughness of ground or honed surfaces [m], an assumption.
+# Composite roughness of ground or honed surfaces [m]; assumed, as no input gives it.
 ROUGHNESS = 1e-6
 
 
@@ -32,10 +32,10 @@ class Check(Result):
     name : str
         What is checked, in words with its symbol.
     value : array, (...)
-        The number that is judged [-].
+        The number compared with the limits [-].
     caution, limit : array, (...)
-        From `caution` on the model is strained, from `limit` on it fails; for a film thickness
-        the values below which that is so [-].
+        Above `caution` the model is doubtful, above `limit` it fails; for a film thickness, below
+        them [-].
     level : array of str, (...)
         The verdict: "good", "caution" or "outside".
     reason : str
@@ -58,7 +58,7 @@ class Check(Result):
 
 @checked
 def validity(sweep: Sweep) -> tuple[Check, ...]:
-    """Return how far a machine keeps to what the model assumes, at each speed.
+    """Return how well a machine satisfies the model's assumptions, at each speed.
 
     Parameters
     ----------
@@ -80,8 +80,10 @@ def validity(sweep: Sweep) -> tuple[Check, ...]:
     R, C = bearing.radius, bearing.radial_clearance
     film = sweep.minimum_film_thickness
     reynolds = machine.oil.density * sweep.speed * R * C / machine.viscosity
+    # Taylor vortices appear at ρΩRC/μ = 41.1√(R/C), or turbulence at 2000 where that comes first.
     vortices = min(41.1 * math.sqrt(R / C), 2000.0)
     swing = orbit_ellipse(sweep.journal_response).semi_major / C
+    # Limits of the bearing and the sag do not depend on speed.
     everywhere = np.ones(sweep.speed.shape)
     return (
         *(_above(one.name, one.value * everywhere, one.caution, one.outside, one.reason)
@@ -89,13 +91,13 @@ def validity(sweep: Sweep) -> tuple[Check, ...]:
         _above("Reynolds number of the film, ρΩRC/μ", reynolds, vortices, 2000.0,
                "vortices, and then turbulence, replace the laminar flow"),
         _below("Smallest film over roughness of 1 µm", film / ROUGHNESS, 10.0, 3.0,
-               "the surfaces' roughness reaches through the film"),
+               "surface asperities touch through the film"),
         _below("Smallest film over clearance, h_min/C", film / C, 0.1, 0.03,
-               "so thin a film heats up and bends its walls, which the model leaves out"),
+               "so thin a film is heated and deforms the bearing, which the model neglects"),
         _above("Imbalance orbit over clearance", swing, 0.1, np.maximum(film / C, 0.1),
-               "linear coefficients hold for small orbits; at the limit it reaches the wall"),
+               "linear coefficients hold for small orbits; at the limit it touches the wall"),
         _above("Static sag over clearance, Γ/C", machine.static_sag / C * everywhere, 1.0, 10.0,
-               "so flexible a shaft slopes in its bearings, which the model takes as aligned"),
+               "so flexible a shaft is inclined in its bearings, which the model takes as aligned"),
     )  # fmt: skip
 
 

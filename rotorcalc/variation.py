@@ -1,4 +1,4 @@
-"""A machine with other values: its inputs by name, read and changed.
+"""The inputs of a machine by name: their values, and machines with other values.
 
 Inputs are named by the fields of the records, "bearing.radial_clearance" or "radial_clearance"; a
 bearing's geometry has its own, "bearing.geometry.preload".
@@ -48,7 +48,7 @@ def varied(machine: Machine, values: Mapping[str, float]) -> Machine:
     Parameters
     ----------
     machine : Machine
-        The machine; a load of None goes on following the rotor's mass.
+        The machine; a load of None still follows the rotor's mass.
     values : mapping of str to float
         Inputs and their values in SI.
 
@@ -60,7 +60,7 @@ def varied(machine: Machine, values: Mapping[str, float]) -> Machine:
     Raises
     ------
     ValueError
-        Where there is no such input, or the values make no machine.
+        Where there is no such input, or the values are not a valid machine.
 
     Examples
     --------
@@ -73,7 +73,7 @@ def varied(machine: Machine, values: Mapping[str, float]) -> Machine:
 
 @functools.lru_cache(maxsize=256)
 def address(machine: Machine, field: str) -> tuple[str, ...]:
-    """Return where an input stands in a machine's records, the record's names first.
+    """Return the path of an input in a machine's records.
 
     Parameters
     ----------
@@ -94,6 +94,7 @@ def address(machine: Machine, field: str) -> tuple[str, ...]:
     """
     known = list(number_paths(machine))
     wanted = tuple(field.split("."))
+    # A full name wins over the end of another: "load" is the machine's, whatever a geometry has.
     found = [path for path in known if path == wanted]
     found = found or [path for path in known if path[-len(wanted) :] == wanted]
     if len(found) == 1:
@@ -105,7 +106,8 @@ def address(machine: Machine, field: str) -> tuple[str, ...]:
 
 
 def _changed(record: R, changes: Mapping[tuple[str, ...], float]) -> R:
-    """Return a record with the values at some paths changed, all at once."""
+    """Return a record with the values at some paths changed."""
+    # All at once: one change at a time may pass through an invalid record.
     own: dict[str, Any] = {path[0]: value for path, value in changes.items() if len(path) == 1}
     for name in {path[0] for path in changes if len(path) > 1}:
         below = {path[1:]: value for path, value in changes.items() if path[0] == name}

@@ -1,1 +1,1 @@
-"""Mathematics that knows nothing of rotors: roots, and polynomials that decay."""
+"""Numerical methods without any rotor dynamics: roots, and stability of polynomials."""

@@ -1,4 +1,4 @@
-"""Roots of functions that answer for a dozen places as fast as for one."""
+"""Roots of functions that cost little more at a dozen points than at one."""
 
 from collections.abc import Callable
 
@@ -8,37 +8,37 @@ from scipy.optimize import brentq
 
 from rotorcalc.arrays import Array
 
-# As many as a smooth function needs over an interval of a few per cent.
+# Chebyshev points: as many as a smooth function needs over an interval of a few per cent.
 _POINTS = 18
 _NODES = chebyshev.chebpts1(_POINTS)
 _TO_COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(_NODES, _POINTS - 1))
-# The last coefficients of a series that is the function but for rounding errors, over the largest.
+# Last coefficients over the largest, below which a series equals the function up to rounding.
 _NOTHING = 1e-13
 
 
 def narrow_root(
     values: Callable[[Array], Array], low: float, high: float, *, noise: float = _NOTHING
 ) -> float:
-    """Return the place between two near ones at which a function changes sign.
+    """Return the point of a narrow interval at which a function changes sign.
 
     Parameters
     ----------
     values : callable
-        The function: values (n,) at places (n,).
+        The function: values (n,) at points (n,).
     low, high : float
-        Places at which its values differ in sign, or one of them is zero.
+        Points at which its values differ in sign, or one of them is zero.
     noise : float
         Rounding errors of the function over its largest value between the two.
 
     Returns
     -------
     float
-        The root, to about 1e-14 of itself, or to the noise times the distance of the two.
+        The root, to about 1e-14 of itself, or to the noise times the interval.
 
     Notes
     -----
     The root of the Chebyshev series through the function's values at 18 places; where its last
-    coefficients are more than rounding errors, as beside a kink, Brent's method on the function.
+    coefficients exceed rounding errors, as beside a kink, Brent's method on the function itself.
 
     Examples
     --------
@@ -50,16 +50,18 @@ def narrow_root(
     if np.all(np.abs(series[-2:]) <= noise * np.abs(series).max()):
         of_series = (series.tolist(),)
         ends = _clenshaw(-1.0, *of_series), _clenshaw(1.0, *of_series)
+        # A root within rounding of an end may lie outside the series' own signs.
         if min(ends) < 0.0 < max(ends):
             place = brentq(_clenshaw, -1.0, 1.0, args=of_series, xtol=1e-15)
             return float(middle + half * place)
+    # xtol only guards against zero: the root may be of any size, so rtol decides.
     return float(
         brentq(lambda x: float(values(np.array([x]))[0]), low, high, xtol=1e-300, rtol=1e-14)
     )
 
 
 def _clenshaw(x: float, series: list[float]) -> float:
-    """Return a Chebyshev series at one place, by Clenshaw, ten times as fast as NumPy's."""
+    """Return a Chebyshev series at one point by Clenshaw's rule, ten times as fast as NumPy."""
     last = before = 0.0
     for coefficient in series[:0:-1]:
         last, before = coefficient + 2.0 * x * last - before, last

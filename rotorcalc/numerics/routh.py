@@ -1,11 +1,11 @@
-"""Whether all roots of a polynomial decay, without its roots: Routh, Hurwitz and Kharitonov.
+"""Whether all roots of a polynomial lie in Re λ < 0, without its roots: Routh, Hurwitz, Kharitonov.
 
 Polynomials are arrays (..., n+1) of the coefficients from the constant to that of λⁿ, n even; of
-floats, or of `decimal.Decimal` where more digits are needed than a float has.
+floats, or of `decimal.Decimal` where double precision does not suffice.
 
-Hurwitz's matrix of a polynomial whose roots all decay is totally nonnegative, and so elimination
-in it, which is Routh's scheme, is as good as the coefficients are, each to its own size.
-Kharitonov: all polynomials whose coefficients lie between bounds decay if four of them do.
+The Hurwitz matrix of a stable polynomial is totally nonnegative, so elimination in it, which is
+Routh's scheme, has a relative error no larger than that of the coefficients, each by itself.
+Kharitonov: all polynomials with coefficients within given bounds are stable if four of them are.
 """
 
 from typing import Any
@@ -15,44 +15,45 @@ from numpy.typing import NDArray
 
 from rotorcalc.arrays import Array, BoolArray
 
-# To how much float coefficients are known, relative, with what Routh's scheme rounds.
+# Relative error of float coefficients and of Routh's scheme together, generously: 3e-14.
 _ROUNDING = 128 * float(np.finfo(float).eps)
-# To which side each coefficient lies in Kharitonov's four polynomials, from the constant on.
+# Signs of the deviations in Kharitonov's four polynomials, from the constant term on.
 _KHARITONOV = np.tile([[-1, -1, 1, 1], [1, 1, -1, -1], [1, -1, -1, 1], [-1, 1, 1, -1]], 3)
 
 
 def determinant(polynomial: NDArray[Any]) -> Array:
-    """Return Hurwitz's last determinant, over the product that Routh's scheme begins with.
+    """Return Hurwitz's last determinant over the product of the coefficients in Routh's scheme.
 
     At most 1; it vanishes where a pair of roots lies on the imaginary axis, and is smooth in the
     coefficients.
     """
-    with np.errstate(invalid="ignore", over="ignore"):  # where a row began with zero
+    with np.errstate(invalid="ignore", over="ignore"):  # a row that begins with zero gives NaN
         return np.prod(_left(polynomial), axis=0)
 
 
 def margin(polynomial: NDArray[Any]) -> Array:
-    """Return a number that is negative where all roots decay, else 1.
+    """Return a number that is negative where all roots lie in Re λ < 0, else 1.
 
-    The nearer to 0, the nearer a pair of roots to the imaginary axis.
+    The closer to 0, the closer a pair of roots is to the imaginary axis.
     """
     left = _left(polynomial)
     decay = np.all((polynomial > 0).astype(bool), axis=-1) & np.all(left > 0.0, axis=0)
+    # The last element vanishes first, as a pair of roots reaches the axis.
     return np.where(decay, -left[-1], 1.0)
 
 
 def margin_bounds(polynomial: Array) -> tuple[Array, Array]:
-    """Return the least and the largest `margin` that a polynomial can have as its terms round.
+    """Return the least and the largest `margin` of a polynomial within its rounding errors.
 
-    Kharitonov's four polynomials lie on all sides of the one they bound: where all four have a root
-    past the axis it has one too.
+    Kharitonov's four polynomials surround the one that they bound: where all four have a root past
+    the axis it has one too.
     """
     margins = margin(_bounds(polynomial))
     return np.min(margins, axis=-1), np.max(margins, axis=-1)
 
 
 def surely_crossed(polynomial: Array) -> BoolArray:
-    """Return whether a first pair of roots is past the imaginary axis, whatever rounding does."""
+    """Return whether a first pair of roots is past the imaginary axis despite rounding errors."""
     return np.all(determinant(_bounds(polynomial)) < 0.0, axis=-1)
 
 
@@ -72,6 +73,7 @@ def axis_frequency(polynomial: NDArray[Any]) -> Array:
 
 def _bounds(polynomial: Array) -> Array:
     """Return Kharitonov's polynomials, (..., 4, n+1)."""
+    # For positive coefficients; a polynomial with any other is unstable whatever its bounds.
     signs = _KHARITONOV[:, : polynomial.shape[-1]]
     return polynomial[..., None, :] * (1.0 + _ROUNDING * signs)
 
@@ -79,14 +81,15 @@ def _bounds(polynomial: Array) -> Array:
 def _left(polynomial: NDArray[Any]) -> Array:
     """Return Routh's first column over the coefficients of λⁿ⁻² … λ, (n-2, ...).
 
-    What elimination leaves of each, at most 1; all are positive where all roots decay and all
-    coefficients are positive.
+    The share of each that elimination leaves, at most 1; with positive coefficients all are
+    positive where all roots lie in Re λ < 0.
     """
     return _scheme(polynomial)[1].astype(float)
 
 
 def _scheme(polynomial: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
     """Return the row of λ² in Routh's scheme, (2, ...), and the column of `_left`."""
+    # The first two rows hold every other coefficient, from λⁿ and from λⁿ⁻¹ downwards.
     falling = np.moveaxis(polynomial, -1, 0)[::-1]
     above, row = falling[0::2], falling[1::2]
     left: list[NDArray[Any]] = []
