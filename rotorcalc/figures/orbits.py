@@ -5,21 +5,19 @@ The linear theory is always drawn in purple, broken.
 """
 
 import math
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rotorcalc.arrays import Array
-from rotorcalc.display import Result
 from rotorcalc.figures import plane, style, text
 from rotorcalc.figures.animation import playable, scrubbed
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
 from rotorcalc.nonlinear.limit_cycles import Bifurcation
-from rotorcalc.nonlinear.measured_onset import Onsets
+from rotorcalc.nonlinear.measured_onset import GrowthCurve, Onsets
 from rotorcalc.nonlinear.release import Release
-from rotorcalc.nonlinear.signals import Waterfall
+from rotorcalc.nonlinear.run_up import RunUp
 from rotorcalc.units import Unit, Units
 
 LINEAR = style.PURPLE
@@ -31,48 +29,6 @@ _FRAMES, _TRAIL, _REACH = 120, 48, 2.0
 _MOST_POINTS = 6000
 _MARGIN = {"l": 64, "r": 16, "t": 16, "b": 96}
 _LEGEND = {"orientation": "h", "x": 0, "yref": "container", "y": 0, "yanchor": "bottom"}
-
-
-@dataclass(frozen=True, eq=False)
-class GrowthCurve(Result):
-    """Growth rates of the whirl over speed, by the eigenvalues and as measured in time.
-
-    Attributes
-    ----------
-    speed, rate : array, (n,)
-        Ω [rad/s], and the largest Re λ of the linear theory [1/s].
-    measured_speed, measured : array, (m,)
-        Ω [rad/s], and the growth rate measured there [1/s].
-    running_speed, running_rate : float
-        Ω [rad/s], and the linear theory's rate there [1/s].
-    """
-
-    speed: Array
-    rate: Array
-    measured_speed: Array
-    measured: Array
-    running_speed: float
-    running_rate: float
-
-
-@dataclass(frozen=True, eq=False)
-class RunUp(Result):
-    """A run-up's spectra, with the linear theory's whirl and speeds to mark on them.
-
-    Attributes
-    ----------
-    seen : Waterfall
-        The spectra.
-    whirl_order : array, (m,)
-        Order of the least damped whirl at the spectra's speeds by the linear theory [-].
-    onset, running_speed : float
-        [rad/s].
-    """
-
-    seen: Waterfall
-    whirl_order: Array
-    onset: float
-    running_speed: float
 
 
 def orbit(let_go: Release, units: Units) -> Chart:

@@ -76,6 +76,7 @@ def linear_motion(machine: Machine, speed: float, start: Start, time: Array) -> 
     return motion_of(linear_theory(machine, speed), machine, speed, start, time)
 
 
+@checked
 def linear_theory(machine: Machine, speed: float) -> LinearMotion:
     """Return the modes and the response to imbalance of a machine at one speed."""
     M, D, K = _matrices(machine, speed)
@@ -101,6 +102,7 @@ def linear_theory(machine: Machine, speed: float) -> LinearMotion:
     )
 
 
+@checked
 def motion_of(
     theory: LinearMotion, machine: Machine, speed: float, start: Start, time: Array
 ) -> Array:
@@ -123,6 +125,7 @@ def motion_of(
         return np.real(turning @ phasors)
 
 
+@checked
 def started(machine: Machine, speed: float, places: Array, velocities: Array) -> Start:
     """Return a start at these displacements from rest [m] and velocities [m/s] of all coordinates.
 

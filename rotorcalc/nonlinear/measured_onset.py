@@ -12,10 +12,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
+import numpy as np
 from scipy.optimize import brentq
 
+from rotorcalc import modes
 from rotorcalc.analysis import analyse
 from rotorcalc.arguments import checked
+from rotorcalc.arrays import Array
+from rotorcalc.display import Result
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.linear_motion import linear_theory
 from rotorcalc.nonlinear.signals import fitted_modes
@@ -73,6 +77,28 @@ class Onsets:
         if math.isnan(self.measured):
             return "not measured"
         return "agree" if self.spread < _AGREE else "differ"
+
+
+@dataclass(frozen=True, eq=False)
+class GrowthCurve(Result):
+    """Growth rates of the whirl over speed, by the eigenvalues and as measured in time.
+
+    Attributes
+    ----------
+    speed, rate : array, (n,)
+        Ω [rad/s], and the largest Re λ of the linear theory [1/s].
+    measured_speed, measured : array, (m,)
+        Ω [rad/s], and the growth rate measured there [1/s].
+    running_speed, running_rate : float
+        Ω [rad/s], and the linear theory's rate there [1/s].
+    """
+
+    speed: Array
+    rate: Array
+    measured_speed: Array
+    measured: Array
+    running_speed: float
+    running_rate: float
 
 
 @checked
@@ -207,3 +233,35 @@ def measured_onset(
             found = brentq(rate, low * near, high * near, xtol=_SHARP * near, rtol=_SHARP)
             return float(found)
     return math.nan
+
+
+@checked
+def growth_curve(machine: Machine, onset: float) -> GrowthCurve:
+    """Return the growth of a machine's whirl around its onset, computed and measured.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; its imbalance is left out.
+    onset : float
+        Speed in the middle [rad/s].
+
+    Returns
+    -------
+    GrowthCurve
+        From 0.8 to 1.2 times that speed; without a running speed.
+
+    Raises
+    ------
+    ValueError
+        Where the speed is not positive and finite.
+    """
+    speeds, measured = np.linspace(0.8, 1.2, 81) * onset, np.linspace(0.82, 1.18, 10) * onset
+    return GrowthCurve(
+        speed=speeds,
+        rate=modes.leading(analyse(machine, speeds).flexible_eigenvalues).real,
+        measured_speed=measured,
+        measured=np.array([measured_growth(machine, float(speed)) for speed in measured]),
+        running_speed=math.nan,
+        running_rate=math.nan,
+    )

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rotorcalc.analysis import Sweep
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
 from rotorcalc.coefficients import equilibrium
@@ -21,6 +22,8 @@ from rotorcalc.nonlinear.signals import Spectrum, poincare_points, spectrum
 from rotorcalc.nonlinear.transient import TOLERANCE, Transient, TransientError, simulate
 from rotorcalc.unbalance_response import orbit_points
 
+# Swings of its fastest mode that a release is followed for, and revolutions at least.
+_MOST_SWINGS, FEWEST_REVOLUTIONS = 800, 16
 # The share of a motion at its end that is taken for what it came to.
 _SETTLED = 0.25
 # So many clearances beyond the wall a linear orbit is drawn no further.
@@ -142,8 +145,8 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
     ValueError
         As `simulate`, with the place in words where the kick leads out of the clearance.
     """
-    if revolutions < 16:
-        raise ValueError(f"revolutions = {revolutions}: must be 16 or more")
+    if revolutions < FEWEST_REVOLUTIONS:
+        raise ValueError(f"revolutions = {revolutions}: must be {FEWEST_REVOLUTIONS} or more")
     C = machine.bearing.radial_clearance
     rest = equilibrium(machine, speed).film.position * C
     start = resting(machine, rest - np.array([kick, 0.0]))
@@ -171,6 +174,24 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
         points=poincare_points(motion),
         stopped=stopped,
     )
+
+
+@checked
+def affordable_revolutions(point: Sweep) -> int:
+    """Return for how many revolutions a release is worth following: what 800 swings take.
+
+    Parameters
+    ----------
+    point : Sweep
+        The machine at one speed.
+
+    Returns
+    -------
+    int
+        Fewer where the fastest mode swings many times in a revolution, but 16 at least.
+    """
+    swings = float(np.abs(point.flexible_eigenvalues.imag).max() / point.speed)
+    return max(FEWEST_REVOLUTIONS, round(_MOST_SWINGS / max(swings, 1.0)))
 
 
 def _drawn(linear: Array, rest: Array, bearing: JournalBearing) -> Array:

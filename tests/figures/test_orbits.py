@@ -8,10 +8,11 @@ import pytest
 
 from rotorcalc import bifurcation, onsets, simulate
 from rotorcalc.figures import SI, US, orbits
-from rotorcalc.figures.orbits import GrowthCurve, RunUp
 from rotorcalc.figures.style import HERE
 from rotorcalc.nonlinear.limit_cycles import sweep
+from rotorcalc.nonlinear.measured_onset import GrowthCurve
 from rotorcalc.nonlinear.release import release
+from rotorcalc.nonlinear.run_up import RunUp
 from rotorcalc.nonlinear.signals import waterfall
 from tests.figures.charts import (
     check_baseline_is_behind,

@@ -12,9 +12,11 @@ import streamlit as st
 from rotorcalc import Bifurcation, BifurcationError, Machine, Onsets, TransientError, bifurcation
 from rotorcalc.arrays import Array
 from rotorcalc.figures import Units
-from rotorcalc.figures.orbits import GrowthCurve, RunUp
+from rotorcalc.nonlinear import run_up
 from rotorcalc.nonlinear.limit_cycles import sweep
-from rotorcalc.nonlinear.release import Release
+from rotorcalc.nonlinear.measured_onset import GrowthCurve
+from rotorcalc.nonlinear.release import Release, affordable_revolutions
+from rotorcalc.nonlinear.run_up import RunUp
 from ui.computed import Computed, computed_from
 from ui.format import amount, digits
 from ui.frame.page import Page
@@ -27,8 +29,6 @@ from ui.session import session
 T = TypeVar("T")
 
 _KICK, _REVOLUTIONS = "orbits_kick", "orbits_revolutions"
-# Swings of its fastest mode that a release is followed for, and revolutions at least.
-_MOST_SWINGS, _FEWEST = 800, 16
 # Sizes, in clearances, below which a journal is at rest, and from which a circle is a whirl.
 _AT_REST, _WHIRLS = 2e-3, 0.02
 # Between these ratios of late to early size a motion neither dies nor grows.
@@ -124,8 +124,7 @@ def let_go(computed: Computed, ask: Ask, tell: Progress | None = None) -> Releas
 
 def _affordable(computed: Computed, ask: Ask) -> Ask:
     """Return what is asked for, shorter where the machine swings many times in a revolution."""
-    swings = float(np.abs(computed.point.flexible_eigenvalues.imag).max()) / computed.speed
-    most = max(_FEWEST, round(_MOST_SWINGS / max(swings, 1.0)))
+    most = affordable_revolutions(computed.point)
     return ask if ask.revolutions <= most else replace(ask, revolutions=most)
 
 
@@ -283,7 +282,7 @@ def run_up_caption(computed: Computed) -> str:
     """Return what the waterfall shows."""
     stirred = computed.machine.rotor.imbalance == 0.0
     return (
-        f"{work.RUN_UP_REVOLUTIONS} revolutions from {work.RUN_UP_FROM:g} times the top speed to "
+        f"{run_up.REVOLUTIONS} revolutions from {run_up.FROM:g} times the top speed to "
         "the top speed, the journal's forward circles; dashed: Im λ/Ω of the least damped whirl."
         + (" An imbalance of C/1000 stirs the balanced rotor." if stirred else "")
     )

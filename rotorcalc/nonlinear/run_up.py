@@ -1,0 +1,93 @@
+"""A run-up to the top speed, and the spectra that an engineer would record along it.
+
+Model: the nonlinear motion of `transient` at evenly rising speed; a balanced rotor is stirred by a
+small imbalance, for a perfect one would never leave its rest.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from rotorcalc import modes
+from rotorcalc.analysis import analyse
+from rotorcalc.arguments import checked
+from rotorcalc.arrays import Array
+from rotorcalc.display import Result
+from rotorcalc.machine import Machine
+from rotorcalc.nonlinear.signals import Waterfall, waterfall
+from rotorcalc.nonlinear.transient import simulate
+
+# A run-up begins at this share of its end, and takes so many revolutions.
+FROM, REVOLUTIONS = 0.3, 1600
+# The imbalance of a balanced rotor, in clearances.
+_STIR = 1e-3
+_SAMPLES, _SPECTRA = 16, 200
+# Of the integrator's steps: spectra are read to a hundredth.
+_TOLERANCE = 1e-7
+
+
+@dataclass(frozen=True, eq=False)
+class RunUp(Result):
+    """A run-up's spectra, with the linear theory's whirl and speeds to mark on them.
+
+    Attributes
+    ----------
+    seen : Waterfall
+        The spectra.
+    whirl_order : array, (m,)
+        Order of the least damped whirl at the spectra's speeds by the linear theory [-].
+    onset, running_speed : float
+        [rad/s].
+    """
+
+    seen: Waterfall
+    whirl_order: Array
+    onset: float
+    running_speed: float
+
+
+@checked
+def run_up(
+    machine: Machine, top_speed: float, *, progress: Callable[[float], object] | None = None
+) -> RunUp:
+    """Return the spectra of a run-up from 0.3 times a speed to it.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    top_speed : float
+        Speed at the end [rad/s].
+    progress : callable or None
+        Called now and then with the share done, 0 to 1. What it raises ends the work.
+
+    Returns
+    -------
+    RunUp
+        Without onset and running speed, which are left to who knows them.
+
+    Raises
+    ------
+    ValueError
+        Where the speed is not positive and finite.
+    TransientError
+        As `simulate`.
+    """
+    imbalance = machine.rotor.imbalance or _STIR * machine.bearing.radial_clearance
+    motion = simulate(
+        replace(machine, rotor=replace(machine.rotor, imbalance=imbalance)),
+        FROM * top_speed,
+        revolutions=REVOLUTIONS,
+        samples_per_revolution=_SAMPLES,
+        final_speed=top_speed,
+        tolerance=_TOLERANCE,
+        progress=progress,
+    )
+    seen = waterfall(motion, spectra=_SPECTRA)
+    whirl = modes.leading(analyse(machine, seen.speed).flexible_eigenvalues)
+    return RunUp(
+        seen=seen,
+        whirl_order=whirl.imag / seen.speed,
+        onset=math.nan,
+        running_speed=math.nan,
+    )
