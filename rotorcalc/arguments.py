@@ -189,7 +189,10 @@ def _is_whole(value: Any) -> bool:
 def _is_array(value: Any) -> bool:
     if not isinstance(value, np.ndarray | np.generic):
         return False
-    return cast("np.ndarray[Any, Any]", value).dtype.kind in "biufc"
+    given = cast("np.ndarray[Any, Any]", value)
+    if given.dtype.kind == "O":  # decimals, in which the onset is computed where floats leave doubt
+        return all(isinstance(one, numbers.Number) for one in given.flat)
+    return given.dtype.kind in "biufc"
 
 
 def _is_list(value: Any) -> bool:

@@ -47,12 +47,13 @@ def onset_speeds(machines: Sequence[Machine]) -> Array:
         Where the search does not end.
     """
     speeds = np.full(len(machines), np.nan)
-    closed = [i for i, machine in enumerate(machines) if covers(machine)]
+    is_closed = [covers(machine) for machine in machines]
+    closed = [i for i, known in enumerate(is_closed) if known]
     speeds[closed] = closed_onsets([machines[i] for i in closed])
     others = [
         i
-        for i, machine in enumerate(machines)
-        if not covers(machine) and _curve(machine) is not None
+        for i, (machine, known) in enumerate(zip(machines, is_closed, strict=True))
+        if not known and _curve(machine) is not None
     ]
     if len(others) >= _FLEET:
         speeds[others] = sure_onsets([machines[i] for i in others])
