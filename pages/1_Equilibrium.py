@@ -3,6 +3,7 @@ import streamlit as st
 from rotorcalc.figures import equilibrium as place
 from rotorcalc.figures import film
 from ui.frame.page import Page, show
+from ui.words import equilibrium as words
 
 
 def content(page: Page) -> None:
@@ -22,7 +23,7 @@ def locus(page: Page) -> None:
     left, right = st.columns(2)
     with left:
         page.chart(
-            lambda c: place.locus(c.curves, c.sweep, c.at_round_speeds, c.point, units),
+            lambda c: place.locus(c.path, c.point, units),
             "locus",
             alt="Path of the journal in the clearance circle, from the wall to the middle.",
             caption="Path of the journal, with rpm along it; dotted, any speed. Eqs. 5.7, 5.8.",
@@ -46,6 +47,8 @@ def locus(page: Page) -> None:
 
 def film_and_pressure(page: Page) -> None:
     units = page.units
+    if not words.known("Thickness and pressure around the journal", page.computed.film.pressure):
+        return
     left, right = st.columns(2)
     with left:
         page.chart(
@@ -92,10 +95,13 @@ def losses(page: Page) -> None:
         (right, place.minimum_film_thickness, "C(1 − ε), below the clearance. Eq. 5.19."),
     ):
         name = draw.__name__
+        title = name.replace("_", " ").capitalize()
         with column:
+            if not words.known(title, getattr(page.computed.point, name)):
+                continue
             page.chart(
                 lambda c, draw=draw: draw(c.sweep, c.point, units), name,
-                alt=f"{name.replace('_', ' ').capitalize()} over running speed.",
+                alt=f"{title} over running speed.",
                 caption=caption,
             )  # fmt: skip
 

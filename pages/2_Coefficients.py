@@ -67,6 +67,8 @@ def dimensionless(page: Page, axes: Axes, against: Literal["ε", "σ"]) -> None:
 
 def added_mass(page: Page) -> None:
     units = page.units
+    if not words.knows_added_mass(page.computed):
+        return
     left, right = st.columns(2)
     with left:
         page.chart(
@@ -86,6 +88,8 @@ def added_mass(page: Page) -> None:
 
 def only_cross_coupling(page: Page) -> None:
     units = page.units
+    if words.say_stiff_centre(page.computed, units):
+        return
     left, right = st.columns(2)
     with left:
         page.chart(

@@ -27,6 +27,8 @@ def over_speed(draw, units):
 
 def threshold(page: Page) -> None:
     units = page.units
+    if not ask.can_whirl(page.computed):
+        return
     if not ask.crossing(page.computed).closed_form:
         st.info(ask.BARE)
     left, right = st.columns(2)
@@ -55,27 +57,31 @@ def threshold(page: Page) -> None:
 
 
 def figures_of_the_notes(page: Page) -> None:
+    if not ask.can_whirl(page.computed):
+        return
     over_eps = ask.choose_abscissa()
+    computed = page.computed
     left, right = st.columns(2)
     with left:
         page.chart(
             lambda c: figures.whirl_ratio(ask.film_figure(c, over_eps)),
             "whirl_ratio",
             alt="Whirl frequency ratio: one half for a centred journal, zero above the limit.",
-            caption="Half-speed whirl of a light load; none above ε = 0.7560. Fig. 5.7, Eq. 5.46.",
+            caption=f"{ask.ends_of_whirl(computed)} Fig. 5.7, Eq. 5.46.",
         )
         page.chart(
             lambda c: figures.critical_mass_number(ask.film_figure(c, over_eps)),
             "critical_mass_number",
-            alt="Dimensionless critical mass of the short bearing.",
+            alt="Dimensionless critical mass of the bearing.",
             caption=r"$m_c = p_s^2 = M_c C Ω^2/F_o$. Fig. 5.9, Eqs. 5.45, 5.46.",
         )
     with right:
         page.chart(
             lambda c: figures.threshold_speed(ask.film_figure(c, over_eps)),
             "threshold_speed",
-            alt="Dimensionless threshold speed of a rigid rotor on the short bearing.",
-            caption=r"$p_s = Ω_s\sqrt{MC/F_o}$, lowest at ε = 0.457. Fig. 5.8, Eq. 5.46.",
+            alt="Dimensionless threshold speed of a rigid rotor on the bearing.",
+            caption=r"$p_s = Ω_s\sqrt{MC/F_o}$"
+            f"{ask.lowest_threshold(computed)}. Fig. 5.8, Eq. 5.46.",
         )
         page.chart(
             lambda c: figures.flexible_threshold(

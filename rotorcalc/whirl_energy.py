@@ -7,11 +7,13 @@ is fed in than dissipated; at the threshold the two are equal.
 Source: San Andrés, Notes 5, Eqs. 5.14, 5.45 to 5.50 and Appendix A.
 """
 
+import functools
 import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.optimize import minimize_scalar
 
 from rotorcalc import modes
 from rotorcalc.analysis import FilmCurves, Sweep, film_curves
@@ -19,6 +21,7 @@ from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, ComplexArray, complex_array, real_array
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.display import Result
+from rotorcalc.films import film_of
 from rotorcalc.machine import JournalBearing, Machine, Rotor
 from rotorcalc.onset import Onset
 from rotorcalc.onset.whirl import flexible_threshold
@@ -179,6 +182,41 @@ def film_limit(bearing: JournalBearing) -> FilmCurves:
         first = int(np.argmax(film_curves(bearing, sigma).onset.whirl_ratio > 0.0))
         low, high = float(sigma[first - 1]), float(sigma[first])
     return film_curves(bearing, low)
+
+
+@functools.lru_cache(maxsize=64)
+def lowest_threshold(bearing: JournalBearing) -> float:
+    """Return the eccentricity ratio at which a rigid rotor's dimensionless threshold is lowest.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing.
+
+    Returns
+    -------
+    float
+        ε [-] at the least p_s over σ (Fig. 5.8); NaN where p_s has no least value inside.
+
+    Examples
+    --------
+    >>> bearing = JournalBearing(diameter=0.1, length=0.05, radial_clearance=1e-4)
+    >>> round(lowest_threshold(bearing), 5)
+    0.45697
+    """
+
+    def threshold(log_sigma: float) -> float:
+        return float(film_curves(bearing, np.exp(log_sigma)).onset.threshold_speed)
+
+    scan = np.log(np.geomspace(*film_of(bearing).sommerfeld_range, 60))
+    found = film_curves(bearing, np.exp(scan)).onset.threshold_speed
+    least = int(np.argmin(found))
+    if not 0 < least < len(scan) - 1:
+        return float("nan")
+    best = minimize_scalar(
+        threshold, bracket=(scan[least - 1], scan[least], scan[least + 1]), tol=1e-9
+    )
+    return float(film_curves(bearing, np.exp(best.x)).film.eccentricity_ratio)
 
 
 def orbit_area(orbit: ArrayLike) -> Array:

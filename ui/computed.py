@@ -2,7 +2,9 @@
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cached_property, lru_cache
+from typing import TypeVar
 
 import numpy as np
 
@@ -31,6 +33,8 @@ from rotorcalc.coefficients import (
     film_forces,
     unloading,
 )
+from rotorcalc.figures.equilibrium import Path
+from rotorcalc.films import film_of
 from rotorcalc.root_locus import Locus, root_locus
 from rotorcalc.unbalance_curves import (
     ClearanceOrbit,
@@ -45,6 +49,8 @@ from rotorcalc.unbalance_curves import (
 from rotorcalc.unbalance_peaks import ResponsePeaks, both_peaks
 from ui.bearing import Values
 from ui.inputs import machine_of, speeds_of
+
+T = TypeVar("T")
 
 # Points of a sweep: enough for a smooth line across a projector.
 POINTS = 240
@@ -86,7 +92,9 @@ class Computed:
     def at_round_speeds(self) -> Equilibrium:
         """Where the journal sits at round speeds, up to the top speed."""
         number = np.searchsorted(_ROUND_SPEEDS, self.top_speed * (1 + 1e-9), side="right")
-        return equilibrium(self.machine, _ROUND_SPEEDS[:number])
+        return _from_first_answer(
+            lambda speed: equilibrium(self.machine, speed), _ROUND_SPEEDS[:number]
+        )
 
     @cached_property
     def film(self) -> PressureField:
@@ -98,6 +106,12 @@ class Computed:
         """The film around the bearing's middle at the running speed."""
         return film_field(self.machine, self.speed, theta=_THETA)
 
+    @property
+    def path(self) -> Path:
+        """Where the journal sits over speed, within the wall."""
+        outline = film_of(self.machine.bearing).outline(_THETA)
+        return Path(self.curves, self.sweep, self.at_round_speeds, outline)
+
     @cached_property
     def forces(self) -> FilmForces:
         """The film's forces at the running speed, at this machine's own equilibrium."""
@@ -106,7 +120,9 @@ class Computed:
     @cached_property
     def force_curves(self) -> FilmForces:
         """The film's forces at the running speed, wherever its journal may sit."""
-        return film_forces(self.machine, self.speed, sommerfeld=_TO_THE_WALL)
+        return _from_first_answer(
+            lambda sigma: film_forces(self.machine, self.speed, sommerfeld=sigma), _TO_THE_WALL
+        )
 
     @property
     def onset(self) -> Onset:
@@ -174,7 +190,9 @@ class Computed:
     @property
     def unloading(self) -> Unloading:
         """K and (Ω/2)·C at the running speed as the load is taken off."""
-        return unloading(self.machine, self.speed, sommerfeld=_SOMMERFELD)
+        return _from_first_answer(
+            lambda sigma: unloading(self.machine, self.speed, sommerfeld=sigma), _SOMMERFELD
+        )
 
     @property
     def centred(self) -> Unloading:
@@ -251,7 +269,7 @@ def _computed(machine: Machine, speed: float, top_speed: float) -> Computed:
 
 @lru_cache(maxsize=64)
 def _sweep(machine: Machine, top_speed: float) -> Sweep:
-    return analyse(machine, speeds(top_speed))
+    return _from_first_answer(lambda speed: analyse(machine, speed), speeds(top_speed))
 
 
 @lru_cache(maxsize=64)
@@ -265,7 +283,7 @@ def _branches(machine: Machine, top_speed: float, flexible: bool) -> ComplexArra
 def _locus(machine: Machine, speed: float, top_speed: float, flexible: bool) -> Locus:
     point = _computed(machine, speed, top_speed).point
     return root_locus(
-        speeds(top_speed),
+        _sweep(machine, top_speed).speed,
         _branches(machine, top_speed, flexible),
         running_speed=speed,
         shapes=point.mode_shapes(flexible=flexible),
@@ -284,12 +302,33 @@ def _peaks(machine: Machine, top_speed: float) -> tuple[ResponsePeaks, ResponseP
 
 @lru_cache(maxsize=32)
 def _family(machine: Machine, top_speed: float, rotors: tuple[Rotor, ...]) -> ResponseFamily:
-    return response_family(machine, speeds(top_speed), rotors=rotors)
+    return response_family(machine, _sweep(machine, top_speed).speed, rotors=rotors)
 
 
 @lru_cache(maxsize=16)
 def _curves(bearing: JournalBearing, lowest: int, highest: int) -> FilmCurves:
-    return film_curves(bearing, np.geomspace(10.0**lowest, 10.0**highest, POINTS))
+    return _from_first_answer(
+        lambda sigma: film_curves(bearing, sigma),
+        np.geomspace(10.0**lowest, 10.0**highest, POINTS),
+    )
+
+
+def _from_first_answer(ask: Callable[[Array], T], values: Array) -> T:
+    """Return what a film answers at rising σ or speeds, from the first at which it does.
+
+    A film can refuse what presses the journal too far: too heavy a load, too low a speed.
+    """
+    with suppress(ValueError):
+        return ask(values)
+    refused, answered = 0, len(values) - 1
+    while answered - refused > 1:
+        middle = (refused + answered) // 2
+        try:
+            ask(values[middle : middle + 1])
+            answered = middle
+        except ValueError:
+            refused = middle
+    return ask(values[answered:])
 
 
 def _decades(sommerfeld: float) -> tuple[int, int]:

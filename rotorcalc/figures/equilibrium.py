@@ -1,15 +1,18 @@
 """Charts of the static equilibrium: where the journal sits, and what its film costs."""
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 
 from rotorcalc.analysis import FilmCurves, Sweep
 from rotorcalc.arrays import Array
 from rotorcalc.coefficients import Equilibrium
+from rotorcalc.display import Result
 from rotorcalc.figures import plane, style, text
 from rotorcalc.figures.plane import Part
 from rotorcalc.figures.style import Axis, Chart, Trace
+from rotorcalc.geometry import Plain
 from rotorcalc.units import Unit, Units
 
 HEIGHT = 440
@@ -27,20 +30,30 @@ _LOW = 0.55
 _TURN = (1.9, 2.45, 1.08)
 
 
-def locus(
-    curves: FilmCurves, sweep: Sweep, marks: Equilibrium, point: Sweep, units: Units
-) -> Chart:
-    """Return the journal's path in the clearance circle, traced by speed.
+@dataclass(frozen=True, eq=False)
+class Path(Result):
+    """Where a journal sits: at any speed, over a sweep, at round speeds; and where the wall is.
 
-    `curves` gives the whole path, `sweep` its part up to the top speed, `marks` round speeds.
+    `outline` has the places of the journal's centre at the wall, in radial clearances.
     """
+
+    curves: FilmCurves
+    sweep: Sweep
+    marks: Equilibrium
+    outline: Array
+
+
+def locus(path: Path, point: Sweep, units: Units) -> Chart:
+    """Return the journal's path in its clearance, traced by speed."""
+    curves, sweep, marks, outline = path.curves, path.sweep, path.marks, path.outline
     at = point.journal_position / point.machine.bearing.radial_clearance
+    edge = _EDGE * float(np.hypot(*outline.T).max())
     shown = _spaced(marks.film.position, at)
     ticks, speeds = marks.film.position[shown], units.speed.of(marks.speed[shown])
     traces = [
         *_behind_path(curves, point),
         _path(sweep, units),
-        _guides(at),
+        _guides(at, edge),
         style.mark(at[1], at[0], "running speed", hovertemplate=_position_hover(point, units)),
     ]
     labels = [
@@ -53,14 +66,14 @@ def locus(
         plane.turning_head(*_TURN[1:]),
     ]  # fmt: skip
     shapes = [
-        plane.circle(1.0),
+        plane.outline(outline),
         plane.stroke((-1.0, 0.0), (1.0, 0.0)),
         plane.stroke((0.0, -1.0), (0.0, 1.0)),
         *plane.turning(*_TURN),
         *(plane.dot(place, style.JOURNAL) for place in ticks),
     ]
-    x = style.axis("Y/C, in the sense of rotation →", -_EDGE, _EDGE, dtick=0.5)
-    y = style.axis("← X/C, along the load", _EDGE, -_EDGE, dtick=0.5)
+    x = style.axis("Y/C, in the sense of rotation →", -edge, edge, dtick=0.5)
+    y = style.axis("← X/C, along the load", edge, -edge, dtick=0.5)
     return plane.chart(
         traces, x, y, height=HEIGHT, margin=_MARGIN, annotations=labels, shapes=shapes
     )
@@ -149,8 +162,12 @@ def _panes(across: Array, sweep: Sweep, at: tuple[float, Sweep], x: Axis, units:
     place, point = at
     x = {**x, "anchor": "y2"}
     eps, phi = sweep.eccentricity_ratio, units.angle.of(sweep.attitude_angle)
-    y = style.axis("Eccentricity ratio ε [-]", 0.0, 1.0, dtick=0.25, domain=style.UPPER)
-    y2 = style.axis("Attitude angle φ [°]", 0.0, 90.0, dtick=30, domain=style.LOWER)
+    y = style.axis(
+        "Eccentricity ratio ε [-]", 0.0, style.ceiling(eps, 1.0), dtick=0.25, domain=style.UPPER
+    )
+    low, high = 30.0 * math.floor(min(0.0, float(phi.min())) / 30.0), float(phi.max())
+    high = max(90.0, 30.0 * math.ceil(high / 30.0))
+    y2 = style.axis("Attitude angle φ [°]", low, high, dtick=30, domain=style.LOWER)
     hover = text.hover("%{x:.4g}", units.number)
     traces = [
         style.line(across, eps, "ε", style.JOURNAL, hovertemplate=hover),
@@ -206,9 +223,9 @@ def _beside(place: Array, at: Array) -> Part:
     return {"xanchor": "left", "xshift": 7, "yshift": 9 if place[0] < 0.35 else 0}
 
 
-def _guides(at: Array) -> Trace:
+def _guides(at: Array, edge: float) -> Trace:
     """Return the dashed lines from the journal's place to both axes of the plane."""
-    places = np.array([(at[0], -_EDGE), (at[0], at[1]), (_EDGE, at[1])])
+    places = np.array([(at[0], -edge), (at[0], at[1]), (edge, at[1])])
     return plane.line(places, "to the axes", style.GREY, width=1.4, dash="dash", hoverinfo="skip")
 
 
@@ -221,7 +238,8 @@ def _position_hover(point: Sweep, units: Units) -> str:
 def _locus_labels(point: Sweep, at: Array, units: Units) -> list[Part]:
     C, rpm = point.machine.bearing.radial_clearance, float(units.speed.of(point.speed))
     phi = text.amount(units.angle, point.attitude_angle).replace(" ", "")
-    circle = f"clearance circle, C = {text.amount(units.film, C)}"
+    round_bore = isinstance(point.machine.bearing.geometry, Plain)
+    circle = f"clearance{' circle' if round_bore else ''}, C = {text.amount(units.film, C)}"
     left: Part = {"xanchor": "right", "xshift": -6}
     yshift = 20 if at[0] < _LOW else -4
     return [
@@ -235,7 +253,9 @@ def _locus_labels(point: Sweep, at: Array, units: Units) -> list[Part]:
 def _load_arrow(point: Sweep, units: Units) -> list[Part]:
     load = point.machine.static_load
     if load == 0.0:
-        return [plane.label("no load: the journal is centred", (-0.6, 0.0))]
+        centred = not np.any(point.journal_position)
+        words = "no load: the journal is centred" if centred else "no load"
+        return [plane.label(words, (-0.6, 0.0))]
     words = f"Fₒ = {text.amount(units.force, load)}"
     return [
         plane.label(words, (-0.75, 0.0), xshift=8, xanchor="left"),

@@ -1,5 +1,6 @@
 """The bearing in cross-section, with the journal where it sits and the pressure around it."""
 
+import math
 from typing import Any
 
 import numpy as np
@@ -51,6 +52,8 @@ def cross_section(
         style.mark(*_drawn(centre), "journal centre", hoverinfo="name"),
     ]
     peak = float(units.pressure.of(point.peak_pressure))
+    known = math.isfinite(peak)
+    words = f"peak pressure {peak:.3g} {units.pressure.name}" if known else "pressure not known"
     load = float(units.force.of(point.machine.static_load))
     return style.chart(
         traces,
@@ -59,7 +62,7 @@ def cross_section(
         annotations=[
             *_load_arrow(load, units),
             *_rotation_arrow(centre, 0.5 * (1.0 - gap)),
-            style.note(f"peak pressure {peak:.3g} {units.pressure.name}", 0.0, 0.0, xanchor="left"),
+            style.note(words, 0.0, 0.0, xanchor="left"),
         ],
         showlegend=False,
         margin={"l": 8, "r": 8, "t": 8, "b": 8},
@@ -83,6 +86,8 @@ def _ring(centre: Array, radius: float, name: str, colour: str, *, fill: str | N
 
 def _pressure(angles: Array, pressure: Array) -> list[Trace]:
     """Return the pressure as a band outside the bore, its height the pressure over its peak."""
+    if np.isnan(pressure).any():  # the film's model does not know it
+        return []
     peak = max(float(np.max(pressure)), 1e-300)
     outer = _circle(1.0 + 0.5 * pressure / peak, angles)
     inner = _circle(np.ones_like(angles), angles)[::-1]

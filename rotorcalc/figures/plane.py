@@ -66,6 +66,15 @@ def circle(radius: float) -> Part:
     }  # fmt: skip
 
 
+def outline(places: ArrayLike) -> Part:
+    """Return a closed line through places, shape (n, 2), behind all lines."""
+    points = "L".join(f"{Y:.5g},{X:.5g}" for X, Y in np.asarray(places, dtype=float))
+    return {
+        "type": "path", "path": f"M{points}Z", "line": {"color": style.GREY, "width": 2},
+        "layer": "below",
+    }  # fmt: skip
+
+
 def dot(place: ArrayLike, colour: str) -> Part:
     """Return a small mark at a place, in front of all lines."""
     X, Y = np.asarray(place, dtype=float)

@@ -40,11 +40,12 @@ class Crossing:
 class FilmFigure(Result):
     """What the notes' figures share: the film's curves, their end, this machine, the abscissa.
 
-    `here` is the film at the running speed, None without load, where σ is infinite.
+    `here` is the film at the running speed, None without load, where σ is infinite; `limit` the
+    one at which whirl ends, None where whirl has no such end.
     """
 
     curves: FilmCurves
-    limit: FilmCurves
+    limit: FilmCurves | None
     here: FilmCurves | None
     over_eccentricity: bool = False
 
@@ -349,20 +350,28 @@ def _film_frame(
 ) -> Chart:
     """Return a chart over the film's numbers with the stable region and this machine on it."""
     x, y = axes
-    edge = float(figure.values(figure.limit))
-    left, right = (edge, _high(x)) if figure.over_eccentricity else (_low(x), edge)
-    shade = _box(x0=left, x1=right, y0=0, y1=1, yref="paper", fillcolor=_STABLE)
-    eps = float(figure.limit.film.eccentricity_ratio)
-    at, anchor = (0.99, "right") if figure.over_eccentricity else (0.01, "left")
-    stable = style.note(f"stable<br>ε > {eps:.4f}", at, 0.03, xanchor=anchor, yanchor="bottom")
-    notes = [*names, stable]
+    shades, stable = _stable_side(figure, x)
+    notes = [*names, *stable]
     place = math.nan if figure.here is None else float(figure.values(figure.here))
     marks: list[Trace] = []
     if _inside((place, now), axes):
         marks = style.here(place, now, x, y)
     else:
         notes.append(_beyond(_where(figure), now, y))
-    return style.chart([*lines, *marks], x, y, shapes=[shade], annotations=notes)
+    return style.chart([*lines, *marks], x, y, shapes=shades, annotations=notes)
+
+
+def _stable_side(figure: FilmFigure, x: Axis) -> tuple[list[Item], list[Item]]:
+    """Return the region in which no rotor whirls, as a shade and in words, where there is one."""
+    if figure.limit is None:
+        return [], []
+    edge = float(figure.values(figure.limit))
+    left, right = (edge, _high(x)) if figure.over_eccentricity else (_low(x), edge)
+    shade = _box(x0=left, x1=right, y0=0, y1=1, yref="paper", fillcolor=_STABLE)
+    eps = float(figure.limit.film.eccentricity_ratio)
+    at, anchor = (0.99, "right") if figure.over_eccentricity else (0.01, "left")
+    words = f"stable<br>ε > {eps:.4f}"
+    return [shade], [style.note(words, at, 0.03, xanchor=anchor, yanchor="bottom")]
 
 
 def _where(figure: FilmFigure) -> str:

@@ -170,7 +170,10 @@ class Film(Protocol):
         ...
 
     def motion(self) -> FilmMotion | InnerMotion:
-        """Return the force on a moving journal, or raise ValueError where the model has none."""
+        """Return the force on a moving journal; ValueError where the model has none.
+
+        Its functions can be pickled: a long computation runs in another process.
+        """
         ...
 
     def gap(self, position: ArrayLike) -> Array:

@@ -10,7 +10,7 @@ import pytest
 
 from rotorcalc import PRESETS, Machine, analyse, film_curves
 from rotorcalc.coefficients import equilibrium, film_field, film_forces
-from rotorcalc.figures import SI, US, Chart, Units, film
+from rotorcalc.figures import SI, US, Chart, Units, film, plane
 from rotorcalc.figures import equilibrium as place
 from tests.figures.charts import (
     check_baseline_is_behind,
@@ -52,7 +52,7 @@ CASES["near the wall"] = _records(
 LOADED = [key for key in CASES if key != "no load"]
 
 CHARTS: dict[str, Callable[[SimpleNamespace, Units], Chart]] = {
-    "locus": lambda r, u: place.locus(r.curves, r.sweep, r.marks, r.point, u),
+    "locus": lambda r, u: place.locus(place.Path(r.curves, r.sweep, r.marks, OUTLINE), r.point, u),
     "over speed": lambda r, u: place.position_over_speed(r.sweep, r.point, u),
     "over sommerfeld": lambda r, u: place.position_over_sommerfeld(r.curves, r.sweep, r.point, u),
     "power": lambda r, u: place.power_loss(r.sweep, r.point, u),
@@ -65,6 +65,7 @@ CHARTS: dict[str, Callable[[SimpleNamespace, Units], Chart]] = {
     "forces": lambda r, u: film.forces(r.force_curves, r.forces, u),
     "balance": lambda r, u: film.force_balance(r.forces, r.point, u),
 }
+OUTLINE = plane.arc(0.0, 2.0 * math.pi, 1.0)
 UNITS = [pytest.param(SI, id="SI"), pytest.param(US, id="US")]
 
 

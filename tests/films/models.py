@@ -132,15 +132,15 @@ class SprungFilm(_TestFilm):
         return FilmDynamics(state.stiffness, state.damping, NO_INERTIA)
 
     def motion(self):
+        return FilmMotion(self._force, self._velocity)
+
+    def _force(self, x, y, dx, dy):
         (k_x, k_y), c = np.diag(self._matrices[0]).tolist(), self.bearing.geometry.damping
+        return -k_x * x - c * dx, -k_y * y - c * dy
 
-        def force(x, y, dx, dy):
-            return -k_x * x - c * dx, -k_y * y - c * dy
-
-        def velocity(x, y, f_x, f_y, near=None):
-            return -(f_x + k_x * x) / c, -(f_y + k_y * y) / c
-
-        return FilmMotion(force, velocity)
+    def _velocity(self, x, y, f_x, f_y, near=None):  # noqa: ARG002 - as all films take it
+        (k_x, k_y), c = np.diag(self._matrices[0]).tolist(), self.bearing.geometry.damping
+        return -(f_x + k_x * x) / c, -(f_y + k_y * y) / c
 
     def gap(self, position):
         return 1.0 - np.abs(np.asarray(position, float)).max(axis=-1)
@@ -187,16 +187,16 @@ class PreloadedFilm(_TestFilm):
         return FilmDynamics(state.stiffness, state.damping, NO_INERTIA)
 
     def motion(self):
+        return FilmMotion(self._force, self._velocity)
+
+    def _force(self, x, y, dx, dy):
         spring = self.bearing.geometry.spring
+        f_x, f_y = short_motion.force(x, y, dx, dy)
+        return f_x - spring * x, f_y - spring * y
 
-        def force(x, y, dx, dy):
-            f_x, f_y = short_motion.force(x, y, dx, dy)
-            return f_x - spring * x, f_y - spring * y
-
-        def velocity(x, y, f_x, f_y, near=None):
-            return short_motion.velocity(x, y, f_x + spring * x, f_y + spring * y, near)
-
-        return FilmMotion(force, velocity)
+    def _velocity(self, x, y, f_x, f_y, near=None):
+        spring = self.bearing.geometry.spring
+        return short_motion.velocity(x, y, f_x + spring * x, f_y + spring * y, near)
 
     def gap(self, position):
         return 1.0 - np.hypot(*np.moveaxis(np.asarray(position, float), -1, 0))
@@ -252,16 +252,19 @@ class RingedFilm(_TestFilm):
         )
 
     def motion(self):
-        kernel = _RingKernel(self.bearing, *self._numbers, self.bearing.geometry.ring_mass)
-
-        def rest(points):
-            _, outer = self._films(points)
-            still = np.zeros((*np.shape(points.sommerfeld), kernel.states - 2))
-            return np.concatenate([kernel.wider * outer.position, still], axis=-1)
-
+        kernel = self._kernel
         return InnerMotion(
-            states=kernel.states, rest=rest, force=kernel.force, velocity=kernel.velocity
+            states=kernel.states, rest=self._rest, force=kernel.force, velocity=kernel.velocity
         )
+
+    @property
+    def _kernel(self):
+        return _RingKernel(self.bearing, *self._numbers, self.bearing.geometry.ring_mass)
+
+    def _rest(self, points):
+        _, outer = self._films(points)
+        still = np.zeros((*np.shape(points.sommerfeld), self._kernel.states - 2))
+        return np.concatenate([self._kernel.wider * outer.position, still], axis=-1)
 
     def gap(self, position):
         _, _, wider = self._numbers

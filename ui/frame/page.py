@@ -192,6 +192,8 @@ def _page(places: Places, *, has_preview: bool) -> Page:
     try:
         computed = computed_from(visitor.values)
         pinned = None if visitor.baseline is None else computed_from(visitor.baseline)
+        for one in (computed, pinned):
+            _ = one and one.point  # a film may have no answer at the running speed
     except ValueError as error:
         with places.foot:
             show_preview(None)

@@ -97,26 +97,28 @@ EQUILIBRIUM: tuple[Result, ...] = (
         lambda c: float(c.point.eccentricity_ratio), "Eq. 5.8",
         r"\sigma = \frac{(1-\varepsilon^2)^2}"
         r"{\varepsilon\sqrt{16\varepsilon^2+\pi^2(1-\varepsilon^2)}}",
-        _eccentricity, "Solved for ε by iteration.",
+        _eccentricity, "Solved for ε by iteration.", source="eccentricity",
     ),
     Result(
         "attitude_angle", "Attitude angle φ", "angle", lambda c: float(c.point.attitude_angle),
         "Eq. 5.7", r"\phi = \arctan\frac{\pi\sqrt{1-\varepsilon^2}}{4\varepsilon}", _attitude,
+        source="attitude",
     ),
     Result(
         "minimum_film_thickness", "Smallest film h", "film",
         lambda c: float(c.point.minimum_film_thickness), "Eq. 5.19",
-        r"h_{min} = C(1-\varepsilon)", _film,
+        r"h_{min} = C(1-\varepsilon)", _film, source="thickness",
     ),
     Result(
         "power_loss", "Power loss", "power", lambda c: float(c.point.power_loss),
         "Sheet", r"P = \Omega\left(\frac{2\pi\mu\Omega R^3L}{C\sqrt{1-\varepsilon^2}}"
         r"+\tfrac12 e F_o\sin\phi\right)", _power,
         "Per bearing: shear of the turning surface, and half the couple of the load, which "
-        "drives the pressure flow.",
+        "drives the pressure flow.", unknown="not known", source="drag",
     ),
     Result(
         "side_flow", "Side flow", "flow", lambda c: float(c.point.side_flow),
         "Sheet", r"Q = \Omega R L C\,\varepsilon", _flow, "Per bearing, both ends together.",
+        unknown="not known", source="flow",
     ),
 )  # fmt: skip

@@ -7,6 +7,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from rotorcalc.films import film_of
 from rotorcalc.units import Unit, Units
 from ui.computed import Computed
 from ui.format import digits
@@ -17,7 +18,9 @@ class Result:
     """A number that pages show.
 
     `equation` is LaTeX, `number` where it stands in the notes, `filled` its right-hand side with
-    this machine's SI values, `remark` what the equation does not say, `nought` a word for zero.
+    this machine's SI values, `remark` what the equation does not say, `nought` a word for zero,
+    `unknown` one for no number. `source` names the result among those of the film, where another
+    film has another equation.
     """
 
     key: str
@@ -29,6 +32,8 @@ class Result:
     filled: Callable[[Computed], str]
     remark: str = ""
     nought: str = ""
+    unknown: str = "none"
+    source: str = ""
 
     def unit(self, units: Units) -> Unit:
         """Return the unit in which the result is shown."""
@@ -38,7 +43,7 @@ class Result:
         """Return the result with its unit, in words where it is no number."""
         value = self.value(computed)
         if math.isnan(value):
-            return "none"
+            return self.unknown
         if math.isinf(value):
             return "no limit"
         if value == 0.0 and self.nought:
@@ -46,6 +51,11 @@ class Result:
         unit = self.unit(units)
         number = digits(float(unit.of(value)))
         return number + {"-": "", "°": "°"}.get(unit.name, f" {unit.name}")
+
+    def is_of(self, computed: Computed) -> bool:
+        """Return whether the equation is the one by which the machine's film answers."""
+        known = film_of(computed.machine.bearing).sources.get(self.source)
+        return not self.source or (known is not None and known.equation == self.number)
 
     def change(self, computed: Computed, baseline: Computed) -> str | None:
         """Return the change from the baseline's result, or nothing where that is no number."""

@@ -2,6 +2,8 @@
 
 import streamlit as st
 
+from rotorcalc.films import film_of
+from rotorcalc.films.model import Source
 from rotorcalc.units import Units
 from ui.computed import Computed
 from ui.results.record import Result
@@ -33,16 +35,32 @@ def show_results(computed: Computed, baseline: Computed | None, units: Units, *k
 
 
 def _explain(result: Result, computed: Computed, units: Units) -> None:
+    source = film_of(computed.machine.bearing).sources.get(result.source)
+    own = result.is_of(computed)
     opened = st.popover(
-        result.number, type="tertiary", key=f"explain_{result.key}", on_change="rerun"
+        result.number if own else source.equation if source else "Film model",
+        type="tertiary",
+        key=f"explain_{result.key}",
+        on_change="rerun",
     )
     if opened.open:
         with opened:
-            st.latex(result.equation)
-            if computed.unloaded:
+            if not own:
+                _explain_other(source)
+            elif computed.unloaded:
+                st.latex(result.equation)
                 st.caption("Without load: the limit ε → 0.")
             else:
+                st.latex(result.equation)
                 st.latex(f"= {result.filled(computed)}")
             st.markdown(f"{result.label}: **{result.shown(computed, units)}**")
-            if result.remark:
+            if own and result.remark:
                 st.caption(result.remark)
+
+
+def _explain_other(source: Source | None) -> None:
+    """Show by which equation another film than the notes' answers, where it has one."""
+    if source and source.tex:
+        st.latex(source.tex)
+    else:
+        st.caption("The model of this bearing's film gives it.")

@@ -81,7 +81,7 @@ SECTIONS: dict[str, tuple[Figure, ...]] = {
         ),
         Figure(
             "path", "Journal's path",
-            lambda c, u: equilibrium.locus(c.curves, c.sweep, c.at_round_speeds, c.point, u),
+            lambda c, u: equilibrium.locus(c.path, c.point, u),
             "In the clearance circle. Eqs. 5.7, 5.8.", height=285,
         ),
         Figure(

@@ -67,6 +67,20 @@ def say_unloaded(computed: Computed) -> None:
         )
 
 
+def say_stiff_centre(computed: Computed, units: Units) -> bool:
+    """Say that a film holds its centred journal, and return whether it does."""
+    K = computed.centred.stiffness
+    direct, cross = abs(K[0, 0] + K[1, 1]), abs(K[0, 1] - K[1, 0])
+    stiff = bool(direct > 1e-9 * cross)
+    if stiff:
+        st.info(
+            "This film has direct stiffness in the centre: it holds a journal without load, and "
+            "cross-coupling is not alone there. At this machine's speed, its load taken off:"
+        )
+        st.latex(matrix("K", K, units.stiffness))
+    return stiff
+
+
 def show_centred(computed: Computed, units: Units) -> None:
     """Explain why a centred bearing has only cross-coupling, with this machine's numbers."""
     centred, here = computed.centred, computed.unloading_here
@@ -95,6 +109,16 @@ def _distance_from_centre(computed: Computed, K: np.ndarray, units: Units) -> st
         f"Under its load it runs at ε = {digits(float(computed.point.eccentricity_ratio))}, with "
         f"K_XX = {direct} and K_XY = {cross} {unit.name}."
     )
+
+
+def knows_added_mass(computed: Computed) -> bool:
+    """Return whether the film's model has an added mass; say so if it has none."""
+    try:
+        computed.added_mass_here(LAMINAR)
+    except ValueError as error:
+        st.info(f"No added mass can be shown. {error}.")
+        return False
+    return True
 
 
 def show_added_mass(computed: Computed, units: Units) -> None:

@@ -45,9 +45,7 @@ def content(page: Page) -> None:
     locus, threshold, swing = st.columns(3)
     with locus:
         page.chart(
-            lambda c: style.small(
-                equilibrium.locus(c.curves, c.sweep, c.at_round_speeds, c.point, units)
-            ),
+            lambda c: style.small(equilibrium.locus(c.path, c.point, units)),
             "home_locus",
             alt="Path of the journal's centre in the clearance circle, and its place now",
             caption="Where the journal sits. Eqs. 5.7, 5.8.",

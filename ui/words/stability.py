@@ -3,12 +3,14 @@
 import math
 from functools import lru_cache
 
+import numpy as np
 import streamlit as st
 
 from rotorcalc import JournalBearing, film_curves, whirl_energy
 from rotorcalc.analysis import FilmCurves
 from rotorcalc.arrays import Array
 from rotorcalc.figures.stability import Crossing, Energies, FilmFigure
+from rotorcalc.films import film_of
 from rotorcalc.onset import closed_form
 from rotorcalc.units import Units
 from ui.computed import Computed
@@ -45,7 +47,36 @@ def film_figure(computed: Computed, over_eccentricity: bool = False) -> FilmFigu
     """Return what the notes' figures share."""
     bearing = computed.machine.bearing
     here = None if computed.unloaded else film_curves(bearing, computed.point.sommerfeld)
-    return FilmFigure(computed.curves, _film_limit(bearing), here, over_eccentricity)
+    return FilmFigure(
+        computed.curves, _film_limit(computed.curves, bearing), here, over_eccentricity
+    )
+
+
+def ends_of_whirl(computed: Computed) -> str:
+    """Return in words above which eccentricity the bearing's film feeds no whirl."""
+    limit = film_figure(computed).limit
+    if limit is None:
+        return "Whirl of a light load."
+    eps = float(limit.film.eccentricity_ratio)
+    return f"Half-speed whirl of a light load; none above ε = {eps:.4f}."
+
+
+def lowest_threshold(computed: Computed) -> str:
+    """Return in words at which eccentricity the bearing's threshold speed is lowest."""
+    eps = whirl_energy.lowest_threshold(computed.machine.bearing)
+    return "" if math.isnan(eps) else f", lowest at ε = {eps:.3f}"
+
+
+def can_whirl(computed: Computed) -> bool:
+    """Return whether any load lets the film feed a whirl; say so if none does."""
+    film = film_of(computed.machine.bearing)
+    whirls = film.can_whirl and bool(np.any(computed.curves.onset.whirl_ratio > 0.0))
+    if not whirls:
+        st.info(
+            "This film cannot whirl: it has no cross-coupled stiffness that could feed a whirl, at "
+            "any load, and so no threshold speed to draw. Every rotor is stable on it."
+        )
+    return whirls
 
 
 def sags(computed: Computed) -> tuple[float, ...]:
@@ -81,7 +112,7 @@ def energies(computed: Computed) -> Energies:
 def has_orbit(computed: Computed) -> bool:
     """Return whether the machine has an onset and so a whirl orbit; say so if it has none."""
     if math.isinf(computed.onset.speed):
-        st.info("This machine has no onset, and so no whirl orbit to feed.")
+        st.info("No speed makes this machine whirl, so there is no whirl orbit to feed.")
         return False
     return True
 
@@ -104,8 +135,14 @@ def balance(computed: Computed, units: Units) -> str:
     )
 
 
+def _film_limit(curves: FilmCurves, bearing: JournalBearing) -> FilmCurves | None:
+    """Return the film at which whirl ends, None where heavy loads whirl too, or none does."""
+    whirls = curves.onset.whirl_ratio > 0.0
+    return None if whirls[0] or not whirls.any() else _end_of_whirl(bearing)
+
+
 @lru_cache(maxsize=16)
-def _film_limit(bearing: JournalBearing) -> FilmCurves:
+def _end_of_whirl(bearing: JournalBearing) -> FilmCurves:
     return whirl_energy.film_limit(bearing)
 
 

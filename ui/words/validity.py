@@ -7,7 +7,7 @@ from ui.computed import Computed
 from ui.format import digits
 
 _BADGES = {"good": "green", "caution": "orange", "outside": "red"}
-_FILM = ":small[Film: short, laminar, isoviscous, aligned, rigid walls. Orbits: small.]"
+_FILM = ":small[Film: {}, laminar, isoviscous, aligned, rigid walls. Orbits: small.]"
 WORDS = {"good": "holds", "caution": "strained", "outside": "outside"}
 
 
@@ -20,7 +20,9 @@ def draw(computed: Computed) -> None:
         "The model holds" if not strained else f"The model is {WORDS[worst.worst]}: {worst.name}"
     )
     with st.expander(headline, expanded=False, key="validity", icon=_icon(worst)):
-        st.markdown("\n\n".join([*map(_line, checks), _FILM]))
+        st.markdown(
+            "\n\n".join([*map(_line, checks), _FILM.format(computed.machine.bearing.model)])
+        )
 
 
 def _icon(worst: Check) -> str:

@@ -22,7 +22,7 @@ def verdict(computed: Computed, units: Units) -> Verdict:
     running = amount(units.speed, computed.speed)
     if computed.is_stable:
         return Verdict("stable", f"Stable at {running}: {_outlook(computed, units)}")
-    if computed.unloaded:
+    if computed.onset.speed == 0.0:
         return Verdict(
             "unstable",
             f"Unstable at {running}: without load the film has no direct stiffness (Eq. 5.37), and "

@@ -47,6 +47,12 @@ _SOURCES: dict[str, Source] = {
         r"p=\frac{3\mu\Omega L^2}{C^2}\,\frac{\varepsilon\sin\theta}{(1+\varepsilon\cos\theta)^3}"
         r"\left(\frac14-\frac{z^2}{L^2}\right)",
     ),
+    "thickness": Source("Eq. 5.19", r"h_{min}=C(1-\varepsilon)"),
+    "drag": Source(
+        "Sheet",
+        r"T=\frac{2\pi\mu\Omega R^3L}{C\sqrt{1-\varepsilon^2}}+\tfrac12 eF_o\sin\varphi",
+    ),
+    "flow": Source("Sheet", r"Q=\Omega RLC\,\varepsilon"),
     "coefficients": Source("Eqs. 5.30 and 5.31"),
 }
 
