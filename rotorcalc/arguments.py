@@ -7,6 +7,7 @@ function, which converts it by `arrays.real_array`.
 """
 
 import functools
+import inspect
 import numbers
 import sys
 import types
@@ -98,7 +99,7 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
 
 def _rules(function: Callable[..., Any]) -> list[_Rule]:
     """Return the rules of a function's parameters; keyword-only ones get a place past the end."""
-    code = cast("types.FunctionType", function).__code__
+    code = cast("types.FunctionType", inspect.unwrap(function)).__code__
     places = {name: place for place, name in enumerate(code.co_varnames[: code.co_argcount])}
     found: list[_Rule] = []
     for name, hint in get_type_hints(function, include_extras=True).items():

@@ -1,7 +1,7 @@
 """Array types of the package's signatures, conversion of input to them, and error texts."""
 
 import reprlib
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,6 +11,9 @@ ComplexArray: TypeAlias = NDArray[np.complex128]
 BoolArray: TypeAlias = NDArray[np.bool_]
 IntArray: TypeAlias = NDArray[np.intp]
 
+# There is one such object for all arrays of floats.
+_FLOAT = np.dtype(np.float64)
+
 
 def real_array(name: str, values: ArrayLike, *, ends: tuple[int, ...] = ()) -> Array:
     """Return `values` as an array of floats, or raise ValueError showing them.
@@ -18,8 +21,12 @@ def real_array(name: str, values: ArrayLike, *, ends: tuple[int, ...] = ()) -> A
     NumPy alone would read "6000", True and None as numbers. `ends` is the shape of each value, (2,)
     of vectors and (2, 2) of matrices.
     """
-    if type(values) is np.ndarray and values.dtype == np.float64 and not ends:
-        return values  # the common case, without the checks below
+    if not ends:  # the common cases, without the checks below: a film asks this 30 times a speed
+        kind = type(values)
+        if kind is np.float64 or kind is float:
+            return np.asarray(values)
+        if kind is np.ndarray and cast("Array", values).dtype is _FLOAT:
+            return cast("Array", values)
     return _numbers(name, values, "fiu", ends).astype(float, copy=False)
 
 

@@ -9,6 +9,9 @@ from numpy.typing import ArrayLike
 
 from rotorcalc.arrays import Array, real_array
 
+# What a film makes of floats, two matrices and a vector a speed, needs no closer look.
+_SURELY_NUMBERS = frozenset({float, np.float64, np.ndarray})
+
 
 def matrix(xx: ArrayLike, xy: ArrayLike, yx: ArrayLike, yy: ArrayLike) -> Array:
     """Return the 2×2 matrices [[xx, xy], [yx, yy]].
@@ -24,15 +27,20 @@ def matrix(xx: ArrayLike, xy: ArrayLike, yx: ArrayLike, yy: ArrayLike) -> Array:
         The matrices.
     """
     matrices = np.empty((*np.broadcast(xx, xy, yx, yy).shape, 2, 2))
-    matrices[..., 0, 0], matrices[..., 0, 1] = real_array("xx", xx), real_array("xy", xy)
-    matrices[..., 1, 0], matrices[..., 1, 1] = real_array("yx", yx), real_array("yy", yy)
+    if not {type(xx), type(xy), type(yx), type(yy)} <= _SURELY_NUMBERS:
+        xx, xy = real_array("xx", xx), real_array("xy", xy)
+        yx, yy = real_array("yx", yx), real_array("yy", yy)
+    matrices[..., 0, 0], matrices[..., 0, 1] = xx, xy
+    matrices[..., 1, 0], matrices[..., 1, 1] = yx, yy
     return matrices
 
 
 def vector(x: ArrayLike, y: ArrayLike) -> Array:
     """Return the vectors (x, y), shape (..., 2), from their components, shape (...)."""
     vectors = np.empty((*np.broadcast(x, y).shape, 2))
-    vectors[..., 0], vectors[..., 1] = real_array("x", x), real_array("y", y)
+    if not {type(x), type(y)} <= _SURELY_NUMBERS:
+        x, y = real_array("x", x), real_array("y", y)
+    vectors[..., 0], vectors[..., 1] = x, y
     return vectors
 
 

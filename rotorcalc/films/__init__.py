@@ -41,6 +41,7 @@ __all__ = [
 MODELS: dict[tuple[str, str], Callable[[JournalBearing], Film]] = {("plain", "short"): ShortFilm}
 
 
+@checked
 @functools.lru_cache(maxsize=1024)
 def film_of(bearing: JournalBearing) -> Film:
     """Return the film of a bearing, made once.
