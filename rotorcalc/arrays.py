@@ -21,12 +21,14 @@ def real_array(name: str, values: ArrayLike, *, ends: tuple[int, ...] = ()) -> A
     NumPy alone would read "6000", True and None as numbers. `ends` is the shape of each value, (2,)
     of vectors and (2, 2) of matrices.
     """
-    if not ends:  # the common cases, without the checks below: a film asks this 30 times a speed
-        kind = type(values)
-        if kind is np.float64 or kind is float:
-            return np.asarray(values)
-        if kind is np.ndarray and cast("Array", values).dtype is _FLOAT:
-            return cast("Array", values)
+    # The common cases, without the checks below: a film asks this 30 times a speed.
+    kind = type(values)
+    if kind is np.ndarray and cast("Array", values).dtype is _FLOAT:
+        array = cast("Array", values)
+        if not ends or array.shape[-len(ends) :] == ends:
+            return array
+    elif not ends and (kind is np.float64 or kind is float):
+        return np.asarray(values)
     return _numbers(name, values, "fiu", ends).astype(float, copy=False)
 
 

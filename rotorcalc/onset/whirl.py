@@ -99,8 +99,9 @@ def whirl_onset(k: ArrayLike, c: ArrayLike) -> WhirlOnset:
         # Eq. 5.46
         ratio2 = ((k_eq - k_XX) * (k_eq - k_YY) - k_XY * k_YX) / (c_XX * c_YY - c_XY * c_YX)
     centred = np.isinf(k_XY)
-    k_eq = np.where(centred, 0.5 * (k_XX + k_YY), k_eq)
-    ratio2 = np.where(centred, 0.25, ratio2)
+    if np.any(centred):
+        k_eq = np.where(centred, 0.5 * (k_XX + k_YY), k_eq)
+        ratio2 = np.where(centred, 0.25, ratio2)
     can_whirl = ratio2 > 0.0  # else no real frequency feeds the whirl: stable at any mass
     p_s2 = np.where(can_whirl, k_eq / np.where(can_whirl, ratio2, 1.0), np.inf)
     return WhirlOnset(

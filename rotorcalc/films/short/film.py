@@ -12,8 +12,6 @@ from rotorcalc.films.model import FilmMotion, Limit, Source
 from rotorcalc.films.short import motion
 from rotorcalc.films.short.force_coefficients import (
     added_mass,
-    film_damping,
-    film_stiffness,
     film_units,
     xy_damping,
     xy_stiffness,
@@ -22,7 +20,6 @@ from rotorcalc.films.short.pressure_field import (
     drag,
     film_thickness,
     peak_position,
-    peak_pressure,
     pressure,
     side_flow,
 )
@@ -101,18 +98,20 @@ class ShortFilm:
             Where σ is so small that ε rounds to 1.
         """
         eps = _eccentricity(points)
-        phi = attitude_angle(eps)
+        s2 = s_squared(eps)
+        units = film_units(eps, s2)
+        phi, peak = attitude_angle(eps), peak_position(eps)
         return FilmState(
             sommerfeld=points.sommerfeld,
             position=vector(eps * np.cos(phi), eps * np.sin(phi)),
             attitude_angle=phi,
             minimum_thickness=1.0 - eps,
-            stiffness=film_stiffness(eps),
-            damping=film_damping(eps),
+            stiffness=xy_stiffness(eps, s2, *units),
+            damping=xy_damping(eps, s2, *units),
             side_flow=side_flow(eps),
             drag=drag(eps, length_to_radius=self.bearing.length / self.bearing.radius),
-            peak_pressure=peak_pressure(eps),
-            peak_angle=phi + np.pi + peak_position(eps),  # θ = 0 lies at Θ = φ + π
+            peak_pressure=pressure(eps, peak),
+            peak_angle=phi + np.pi + peak,  # θ = 0 lies at Θ = φ + π
         )
 
     def dynamics(self, points: OperatingPoints) -> FilmDynamics:
