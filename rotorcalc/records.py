@@ -34,23 +34,27 @@ class Bound:
 
     def check(self, name: str, value: object) -> float:
         """Return `value` as a float, or raise ValueError naming field, value and bound."""
-        given = f"{name} = {shown(value)}"
         if isinstance(value, bool) or not isinstance(value, numbers.Real):
-            raise ValueError(f"{given}: must be a number in {self.unit}")
+            raise ValueError(f"{name} = {shown(value)}: must be a number in {self.unit}")
         try:
             number = float(value)
-        except (
-            OverflowError
-        ) as error:  # an integer beyond 1e308 is finite, so it does not mean a rigid shaft
-            raise ValueError(f"{given} {self.unit}: too large for a number") from error
-        if math.isnan(number) or (math.isinf(number) and not self.infinite):
-            raise ValueError(f"{given} {self.unit}: must be finite")
-        if number <= self.above:
-            rule = "positive" if self.above == 0 else f"greater than {self.above:g} {self.unit}"
-            raise ValueError(f"{given} {self.unit}: must be {rule}")
-        if number < self.at_least:
-            raise ValueError(f"{given} {self.unit}: must be at least {self.at_least:g} {self.unit}")
+        except OverflowError as error:
+            # An integer beyond 1e308 is finite, so it does not mean a rigid shaft.
+            given = f"{name} = {shown(value)} {self.unit}"
+            raise ValueError(f"{given}: too large for a number") from error
+        if problem := self._problem(number):
+            raise ValueError(f"{name} = {shown(value)} {self.unit}: must be {problem}")
         return number
+
+    def _problem(self, number: float) -> str:
+        """Return in words which bound a number breaks, or nothing."""
+        if math.isnan(number) or (math.isinf(number) and not self.infinite):
+            return "finite"
+        if number <= self.above:
+            return "positive" if self.above == 0 else f"greater than {self.above:g} {self.unit}"
+        if number < self.at_least:
+            return f"at least {self.at_least:g} {self.unit}"
+        return ""
 
 
 @dataclass(frozen=True)

@@ -27,8 +27,6 @@ from rotorcalc.onset import Onset
 from rotorcalc.onset.whirl import flexible_threshold
 
 _I = np.eye(2)
-# A modified Sommerfeld number below every film's limit of whirl; the short bearing's is 0.0664.
-_CLOSEST_FILM = 1e-3
 _CIRCLE: ComplexArray = np.array([1.0, -1.0j])  # turns forward
 
 
@@ -169,17 +167,30 @@ def film_limit(bearing: JournalBearing) -> FilmCurves:
     FilmCurves
         One film, fields without a leading shape: the last without whirl as σ rises.
 
+    Raises
+    ------
+    ValueError
+        Where whirl has no such end: the film feeds it at no load, or at the heaviest too.
+
     Examples
     --------
     >>> bearing = JournalBearing(diameter=0.1, length=0.05, radial_clearance=1e-4)
     >>> round(float(film_limit(bearing).film.eccentricity_ratio), 9)
     0.756030386
     """
+    film = film_of(bearing)
+    if not film.can_whirl:
+        raise ValueError(f"bearing = {bearing.geometry.kind}: its film feeds a whirl at no load")
     # Each pass narrows the bracket a thousandfold in ln σ.
-    low, high = _CLOSEST_FILM, 1.0
+    low, high = film.sommerfeld_range
     while high > low * (1.0 + 1e-13):
         sigma = np.geomspace(low, high, 1000)
-        first = int(np.argmax(film_curves(bearing, sigma).onset.whirl_ratio > 0.0))
+        whirls = film_curves(bearing, sigma).onset.whirl_ratio > 0.0
+        if whirls[0]:
+            raise ValueError(
+                f"bearing = {bearing.geometry.kind}: its film feeds a whirl at every load"
+            )
+        first = int(np.argmax(whirls))
         low, high = float(sigma[first - 1]), float(sigma[first])
     return film_curves(bearing, low)
 

@@ -22,6 +22,7 @@ from rotorcalc.analysis import FilmCurves
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.onset import Onset
+from tests.films.models import BEARINGS
 
 SHEET = PRESETS["sheet-1e8"].machine
 finite = st.floats(-10.0, 10.0)
@@ -197,3 +198,10 @@ def test_film_limit_is_the_eccentricity_above_which_nothing_whirls() -> None:
     assert limit.film.sommerfeld == pytest.approx(0.0663852602, abs=1e-10)
     assert limit.onset.whirl_ratio == 0.0
     assert math.isinf(limit.onset.threshold_speed)
+
+
+def test_a_film_whose_whirl_has_no_end_is_refused() -> None:
+    with pytest.raises(ValueError, match="feeds a whirl at no load"):
+        whirl_energy.film_limit(BEARINGS["sprung"])
+    assert np.any(film_curves(BEARINGS["preloaded"], np.array([1.0, 10.0])).onset.whirl_ratio)
+    assert float(whirl_energy.film_limit(BEARINGS["preloaded"]).onset.whirl_ratio) == 0.0
