@@ -3,6 +3,7 @@
 import base64
 import gzip
 import hashlib
+import json
 import re
 import subprocess
 import sys
@@ -13,6 +14,8 @@ from urllib.request import urlopen
 import pytest
 import streamlit
 from playwright.sync_api import Browser
+from starlette.requests import Request
+from streamlit.web.server.starlette.starlette_routes import create_host_config_routes
 from websockets.exceptions import InvalidStatus
 
 from tests.browser.app_page import AppPage
@@ -21,6 +24,7 @@ from tests.deploy.conftest import HOST, Site
 from tests.deploy.test_replicas import finished
 from tests.load.client import Visitor
 from tests.load.replicas import ROOT
+from ui.serving import own_origin
 
 __all__ = ["browser_type_launch_args", "chromium"]
 
@@ -164,3 +168,36 @@ def test_a_browser_finds_nothing_missing_under_the_policy(tab: AppPage) -> None:
     tab.go("Notes")
     ours = (f"request: http://{HOST}:", f"websocket: ws://{HOST}:")
     assert [fault for fault in tab.faults if not fault.startswith(ours)] == []
+
+
+def test_a_browser_whose_replica_goes_acts_on_the_other(tab: AppPage, site: Site) -> None:
+    """Nothing was touched before, so Streamlit's script by itself would ask for no run."""
+
+    def replica() -> str:
+        cookies = {cookie["name"]: cookie["value"] for cookie in tab.page.context.cookies()}
+        return cookies["rotorcalc_replica"]
+
+    tab.open("Equilibrium", C="80")
+    theirs = replica()
+    site.replicas[theirs].stop()
+    try:
+        assert tab.changes(replica, theirs)
+        tab.rest()
+        tab.press("Radial clearance", "ArrowRight")
+        assert tab.query() == {"C": "81"}
+        tab.go("Response")
+        assert tab.query() == {"C": "81"}
+    finally:
+        site.start(theirs)
+
+
+def test_only_the_sites_own_origin_may_speak_to_streamlits_script(site: Site) -> None:
+    answer = site.get("/rotorcalc/_stcore/host-config")
+    assert json.loads(answer.body)["allowedOrigins"] == [f"http://{HOST}", f"https://{HOST}"]
+
+
+def test_the_rest_of_the_host_configuration_is_streamlits_own() -> None:
+    (own, *_) = create_host_config_routes(None)
+    theirs = finished(own.endpoint(Request({"type": "http", "method": "GET", "headers": []})))
+    assert json.loads(theirs.body).keys() == {*own_origin.REST, "allowedOrigins"}
+    assert {key: json.loads(theirs.body)[key] for key in own_origin.REST} == own_origin.REST

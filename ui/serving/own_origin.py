@@ -12,7 +12,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from streamlit.url_util import make_url_path
 
 # As Streamlit answers by itself.
-_REST = {
+REST = {
     "useExternalAuthToken": False,
     "enableCustomParentMessages": False,
     "enforceDownloadInNewTab": False,
@@ -37,7 +37,7 @@ class OwnOrigin:
         # A proxy may hold the certificate, so the app cannot tell which of the two it is.
         origins = [f"http://{host}", f"https://{host}"]
         answer = JSONResponse(
-            _REST | {"allowedOrigins": origins}, headers={"Cache-Control": "no-cache"}
+            REST | {"allowedOrigins": origins}, headers={"Cache-Control": "no-cache"}
         )
         await answer(scope, receive, send)
 
