@@ -5,6 +5,7 @@ import streamlit as st
 from rotorcalc.figures import orbits as draw
 from rotorcalc.nonlinear.release import Release
 from ui.frame.page import Page, show
+from ui.words import on_demand
 from ui.words import orbits as ask
 
 
@@ -91,21 +92,21 @@ def spectrum(page: Page, asked: ask.Ask, found: Release) -> None:
 
 def run_up(page: Page) -> None:
     computed, units = page.computed, page.units
-    if (run := ask.ask_run_up(page)) is not None:
+    if (run := on_demand.ask_run_up(page)) is not None:
         page.alone().chart(
             lambda _, run=run: draw.waterfall(run, units), "orbits_waterfall",
             alt="Spectra over running speed: imbalance at 1×, whirl near ½× past the "
             "onset.",
-            caption=ask.run_up_caption(computed),
+            caption=on_demand.run_up_caption(computed),
         )  # fmt: skip
 
 
 def limit_cycles(page: Page) -> None:
     units = page.units
-    if (branch := ask.ask_cycles(page)) is not None:
-        ask.say_cycles(branch, units)
+    if (branch := on_demand.ask_cycles(page)) is not None:
+        on_demand.say_cycles(branch, units)
         page.alone().chart(
-            lambda c, branch=branch: draw.cycles(branch, ask.swept(branch), c.speed, units),
+            lambda c, branch=branch: draw.cycles(branch, on_demand.swept(branch), c.speed, units),
             "orbits_cycles",
             alt="Size of the limit cycles over speed, stable and unstable, and two sweeps.",
             caption="Without imbalance: harmonic balance, stability by Floquet. At the "
@@ -115,10 +116,10 @@ def limit_cycles(page: Page) -> None:
 
 def onset_three_ways(page: Page) -> None:
     units = page.units
-    if (three := ask.ask_onsets(page.computed)) is not None:
-        ask.say_onsets(three[0], units)
-        ask.with_onset(page).chart(
-            lambda c: draw.onset_growth(*ask.three_onsets(c), units), "orbits_onset",
+    if (three := on_demand.ask_onsets(page.computed)) is not None:
+        on_demand.say_onsets(three[0], units)
+        on_demand.with_onset(page).chart(
+            lambda c: draw.onset_growth(*on_demand.three_onsets(c), units), "orbits_onset",
             alt="Growth rate over speed: eigenvalues as a line, measured rates as points.",
             caption="Each point: eight whirls of the nonlinear motion from a whirl of C/10000, "
             "exponentials fitted to them. Without imbalance. Eqs. 5.38, 5.45 to 5.50.",

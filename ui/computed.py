@@ -62,6 +62,8 @@ _ROUND_SPEEDS = np.array([a * 10.0**b for b in (2, 3, 4) for a in (1, 2, 5)]) * 
 _TO_THE_WALL = np.geomspace(1e-5, 1e2, POINTS)
 # Around and along the film: every two degrees, every twentieth of the length.
 _THETA = np.linspace(0.0, 2.0 * np.pi, 181)
+# The wall, every degree: a square bore's corners are among them.
+_AROUND = np.linspace(0.0, 2.0 * np.pi, 361)
 _ZETA = np.linspace(-0.5, 0.5, 21)
 
 
@@ -109,7 +111,7 @@ class Computed:
     @property
     def path(self) -> Path:
         """Where the journal sits over speed, within the wall."""
-        outline = film_of(self.machine.bearing).outline(_THETA)
+        outline = film_of(self.machine.bearing).outline(_AROUND)
         return Path(self.curves, self.sweep, self.at_round_speeds, outline)
 
     @cached_property

@@ -25,7 +25,7 @@ _HEADER = b"x-rotorcalc-replica"
 # What the pages import, for the first visitor not to wait for it.
 _WARM = (
     "ui.frame.page", "ui.words.design", "ui.words.stability", "ui.words.root_locus",
-    "ui.words.response", "ui.words.orbits", "ui.notes", "ui.live",
+    "ui.words.response", "ui.words.orbits", "ui.words.on_demand", "ui.notes", "ui.live",
     "ui.sharing.export", "ui.sharing.report",
 )  # fmt: skip
 # New objects until Python looks for lost ones, its own 700 cost a page a seventh of its time; and

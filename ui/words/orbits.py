@@ -1,29 +1,20 @@
-"""What the orbits page asks of the core: releases, run-ups, limit cycles, and words for them."""
+"""What the orbits page asks and says of a released journal."""
 
-import hashlib
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Literal, TypeVar
 
-import numpy as np
 import streamlit as st
 
-from rotorcalc import Bifurcation, BifurcationError, Machine, Onsets, TransientError, bifurcation
-from rotorcalc.arrays import Array
+from rotorcalc import TransientError
 from rotorcalc.figures import Units
-from rotorcalc.nonlinear import run_up
-from rotorcalc.nonlinear.limit_cycles import sweep
-from rotorcalc.nonlinear.measured_onset import GrowthCurve
 from rotorcalc.nonlinear.release import Release, affordable_revolutions
-from rotorcalc.nonlinear.run_up import RunUp
 from ui.computed import Computed, computed_from
 from ui.format import amount, digits
 from ui.frame.page import Page
 from ui.inputs import INPUTS, PRESET_VALUES
 from ui.jobs import cache, queue, work
 from ui.jobs.work import Progress
-from ui.results.stability import leading
 from ui.session import session
 
 T = TypeVar("T")
@@ -63,11 +54,6 @@ class Ask:
 # Half a megabyte each, at most four.
 _release = cache.Cached(work.release, entries=32, megabytes=24, turns=queue.SHORT)
 _long_release = cache.Cached(work.release, entries=16, megabytes=40)
-_run_up = cache.Cached(work.run_up, entries=8, megabytes=16)
-_cycles = cache.Cached(bifurcation, entries=16, megabytes=16)
-_three = cache.Cached(work.three_onsets, entries=16, megabytes=4)
-
-# --- How the journal is let go ----------------------------------------------------------------
 
 
 def choose_release(computed: Computed) -> Ask:
@@ -151,9 +137,6 @@ def try_out(page: Page, ask: Ask) -> tuple[Page, Release]:
     return page, found
 
 
-# --- What became of it ------------------------------------------------------------------------
-
-
 def say_outcome(computed: Computed, asked: Ask, found: Release, units: Units) -> None:
     """Say in one sentence what the journal did, and in another what the linear theory said."""
     followed = round(float(found.revolutions[-1]))
@@ -230,179 +213,3 @@ def show_measured(computed: Computed, found: Release, units: Units) -> None:
     with st.container(horizontal=True):
         for label, value in rows:
             st.metric(label, value)
-
-
-# --- Long work: on demand, with progress and a way out ----------------------------------------
-
-
-def on_demand(
-    page: Page, label: str, key: str, token: object, work: Callable[[Progress | None], T]
-) -> T | None:
-    """Return what work gives once a visitor asks for it; until then show a button.
-
-    `token` names what the work is about: when it changes, the visitor is asked again. While it
-    runs, a bar shows how far it is, and a button ends it: its click makes the page run anew, and
-    the next word of progress ends the old run.
-    """
-    visitor, done, place = session(), f"{key}_done", st.empty()
-    name = hashlib.sha256(repr(token).encode()).hexdigest()
-    if visitor.asked.get(key) != name:
-        place.button(label, key=key, on_click=visitor.ask_for, args=(key, name))
-        return None
-    if st.session_state.get(done) == name:
-        return work(None)
-    page.run_whole()
-    with place.container():
-        if key in visitor.begun:
-            st.info("This computation was interrupted, and has begun again.")
-        bar = st.progress(0.0, "Computing …")
-        st.button("Cancel", key=f"{key}_cancel", on_click=visitor.ask_no_more, args=(key,))
-    visitor.begun.add(key)
-    result = work(bar.progress)
-    place.empty()
-    visitor.begun.remove(key)
-    st.session_state[done] = name
-    return result
-
-
-def ask_run_up(page: Page) -> RunUp | None:
-    """Return the run-up's spectra once asked for."""
-    computed = page.computed
-    token = ("run-up", computed.machine, computed.top_speed)
-    found = on_demand(
-        page, "Run up to the top speed", "orbits_run_up", token,
-        lambda tell: _try(lambda: _run_up(computed.machine, computed.top_speed, tell=tell)),
-    )  # fmt: skip
-    if found is None:
-        return None
-    return replace(found, onset=computed.onset.speed, running_speed=computed.speed)
-
-
-def run_up_caption(computed: Computed) -> str:
-    """Return what the waterfall shows."""
-    stirred = computed.machine.rotor.imbalance == 0.0
-    return (
-        f"{run_up.REVOLUTIONS} revolutions from {run_up.FROM:g} times the top speed to "
-        "the top speed, the journal's forward circles; dashed: Im λ/Ω of the least damped whirl."
-        + (" An imbalance of C/1000 stirs the balanced rotor." if stirred else "")
-    )
-
-
-def ask_cycles(page: Page) -> Bifurcation | None:
-    """Return the limit cycles once asked for; say in words why there are none."""
-    computed, onset = page.computed, page.computed.onset.speed
-    if not 0.0 < onset < math.inf:
-        st.info(_no_onset(onset))
-        return None
-    return on_demand(
-        page, "Follow the limit cycles", "orbits_cycles", ("cycles", _balanced(computed.machine)),
-        lambda tell: _try(lambda: _cycles(_balanced(computed.machine), tell=tell)),
-    )  # fmt: skip
-
-
-def swept(branch: Bifurcation) -> tuple[Array, Array, Array]:
-    """Return speeds, and the amplitudes of creeping up and down through them."""
-    onset = branch.hopf.speed
-    low, high = min(float(branch.speed.min()), 0.97 * onset), float(branch.speed.max())
-    speeds = np.linspace(low - 0.1 * (high - low), max(high, 1.001 * onset), 400)
-    return speeds, sweep(branch, speeds), sweep(branch, speeds, down=True)
-
-
-def say_cycles(branch: Bifurcation, units: Units) -> None:
-    """Say which way the whirl sets in."""
-    found = branch.hopf
-    rate = f"ℓ = {'−' if found.lyapunov < 0.0 else ''}{digits(abs(found.lyapunov))} 1/s"
-    error = f"± {found.lyapunov_error:.1g}"
-    at = f"ε = {found.eccentricity_ratio:.4f}"
-    if found.subcritical is None:
-        st.info(
-            f"Subcritical or supercritical is not certain at {at}: {rate} ({error}). "
-            "The chart shows the cycles themselves."
-        )
-    elif found.subcritical:
-        where = ""
-        if len(branch.folds):
-            fold = amount(units.speed, branch.folds.min())
-            share = digits((1.0 - branch.folds.min() / found.speed) * 100.0)
-            where = (
-                f" From {fold}, {share} % below the onset, a large enough kick "
-                "makes the machine whirl for good, and creeping down it whirls as far."
-            )
-        st.warning(f"Subcritical at {at}: {rate} ({error}).{where}")
-    else:
-        st.info(
-            f"Supercritical at {at}: {rate} ({error}). Above the onset a small whirl grows gently "
-            "with speed and goes with it."
-        )
-    st.caption(f"The branch of limit cycles {branch.ended}.")
-
-
-# --- Three ways to the onset ------------------------------------------------------------------
-
-
-def ask_onsets(computed: Computed) -> tuple[Onsets, GrowthCurve] | None:
-    """Return the onset found three ways, and growth over speed; say why where there is none."""
-    onset = computed.onset.speed
-    if not 0.0 < onset < math.inf:
-        st.info(_no_onset(onset))
-        return None
-    return _try(lambda: three_onsets(computed))
-
-
-def three_onsets(computed: Computed) -> tuple[Onsets, GrowthCurve]:
-    """Return the onset found three ways, and growth over speed, of a machine that has one."""
-    found, curve = _three(_balanced(computed.machine))
-    here = leading(computed).real
-    return found, replace(curve, running_speed=computed.speed, running_rate=here)
-
-
-def with_onset(page: Page) -> Page:
-    """Return the page without a pinned machine that has no onset."""
-    pinned = page.baseline
-    return page if pinned is None or 0.0 < pinned.onset.speed < math.inf else page.alone()
-
-
-def say_onsets(found: Onsets, units: Units) -> None:
-    """Show the three answers side by side, and say whether they agree."""
-    rows = (
-        ("Closed form", found.closed_form, "Eqs. 5.45 to 5.50, Ω = Ωₛ(ε(Ω))"),
-        ("Eigenvalues", found.eigenvalues, "max Re λ = 0"),
-        ("Measured growth in time", found.measured, "the nonlinear motion neither grows nor dies"),
-    )
-    with st.container(key="results_onsets"):
-        for label, speed, how in rows:
-            unknown = "no closed form" if label == "Closed form" else "not found"
-            reading = f"{float(units.speed.of(speed)):.2f} {units.speed.name}"
-            st.metric(label, unknown if math.isnan(speed) else reading)
-            st.caption(how)
-    if found.agree == "agree":
-        st.success(f"They agree: the largest difference is {found.spread:.1e} of the onset.")
-    elif found.agree == "not measured":
-        st.warning(
-            "Not measured: from half to twice the speed that the eigenvalues give, no change from "
-            "decay to growth could be watched in the time allowed."
-        )
-    else:
-        st.error(f"They disagree by {found.spread:.1%} of the onset.")
-
-
-def _balanced(machine: Machine) -> Machine:
-    return replace(machine, rotor=replace(machine.rotor, imbalance=0.0))
-
-
-def _no_onset(onset: float) -> str:
-    if onset == 0.0:
-        return (
-            "Without load this machine whirls at any speed (Eq. 5.37): there is no onset at which "
-            "a limit cycle could be born, and none to compare."
-        )
-    return "No speed makes this machine whirl: it has no onset, and no limit cycles are born."
-
-
-def _try(work: Callable[[], T]) -> T | None:
-    """Return what work gives, or say in words why it gives nothing."""
-    try:
-        return work()
-    except (ValueError, TransientError, BifurcationError) as error:
-        st.error(f"{error}", title="This cannot be computed")
-        return None
