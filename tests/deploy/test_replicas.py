@@ -93,6 +93,21 @@ async def test_a_replica_killed_in_use_leaves_its_visitors_their_machine(site: S
 
 
 @awaited
+async def test_who_has_touched_nothing_gets_a_page_from_the_other_replica(site: Site) -> None:
+    async with site.visitor(**{COOKIE: "1"}) as visitor:
+        await visitor.open("Equilibrium", "C=70.5")
+        runs = visitor.tally.runs
+        site.replicas["1"].kill()
+        try:
+            await _come_back(visitor)
+            assert visitor.tally.runs == runs + 1
+            await visitor.slide("Radial clearance", 71.0)
+            assert visitor.query == "C=71"
+        finally:
+            site.start("1")
+
+
+@awaited
 async def test_a_rolling_restart_loses_nobodys_inputs(site: Site) -> None:
     visitors = [site.visitor(**{COOKIE: NAMES[i % 2]}) for i in range(4)]
     for i, visitor in enumerate(visitors):
