@@ -1,9 +1,11 @@
-"""One page at a time, others while one waits for something else."""
+"""One page at a time, others while one waits for something else, and each visitor his share."""
 
 import threading
+import time
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
+from streamlit.runtime.scriptrunner import StopException
 
 from tests.app.session import visit
 from tests.waiting import PATIENCE, take, until
@@ -129,3 +131,55 @@ def test_a_page_waits_for_the_one_before_and_lets_the_next_in(rpm: str) -> None:
         page.result(PATIENCE)
     assert ended.is_set()
     assert _is_open(one_at_a_time.PAGES)
+
+
+def test_who_has_used_less_goes_before_who_came_first() -> None:
+    gate, seen = Gate(), list[str]()
+    with gate.through("busy"):
+        time.sleep(0.01)
+
+    def go(name: str) -> None:
+        with gate.through(name):
+            seen.append(name)
+
+    with ThreadPoolExecutor(2) as pool:
+        with gate.through():
+            threads = [pool.submit(go, "busy")]
+            until(lambda: len(gate._line) == 1)
+            threads.append(pool.submit(go, "quiet"))
+            until(lambda: len(gate._line) == 2)
+        for thread in threads:
+            thread.result(PATIENCE)
+    assert seen == ["quiet", "busy"]
+
+
+def test_who_comes_late_has_no_credit_for_what_was_not_used(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    now, gate, begun = [0.0], Gate(), list[float]()
+    monkeypatch.setattr(one_at_a_time.time, "monotonic", lambda: now[0])
+    for name in ("one", "other", "one", "other", "late"):
+        with gate.through(name):
+            begun.append(gate._mine.place.begin)
+            now[0] += 2.0
+    assert begun == [0, 0, 2, 2, 2]
+    assert gate._ends == {"one": 4, "other": 4, "late": 4}
+
+
+def test_a_visitors_newer_page_takes_the_place_of_one_that_waits() -> None:
+    gate, seen = Gate(), list[str]()
+
+    def go(name: str) -> None:
+        with gate.through("visitor"):
+            seen.append(name)
+
+    with ThreadPoolExecutor(2) as pool:
+        with gate.through("another"):
+            first = pool.submit(go, "first")
+            until(lambda: len(gate._line) == 1)
+            second = pool.submit(go, "second")
+            with pytest.raises(StopException):
+                first.result(PATIENCE)
+        second.result(PATIENCE)
+    assert seen == ["second"]
+    assert _is_open(gate)

@@ -79,16 +79,16 @@ async def answer(request: Request) -> Response:
     name, value = (request.query_params.get(key, "") for key in ("name", "value"))
     _asking.add(token)
     try:
-        content = await asyncio.to_thread(_packed, preview, name, value)
+        content = await asyncio.to_thread(_packed, token, preview, name, value)
     finally:
         _asking.discard(token)
     headers = {"Cache-Control": "no-store", "Content-Encoding": "gzip"}
     return Response(content, media_type="application/json", headers=headers)
 
 
-def _packed(preview: Preview, name: str, value: str) -> bytes:
+def _packed(token: str, preview: Preview, name: str, value: str) -> bytes:
     try:
-        with one_at_a_time.PAGES.through():
+        with one_at_a_time.PAGES.through(token):
             shown = preview.at(name, value)
     except ValueError:  # said in words when the slider is released
         shown = {"charts": {}, "rows": {}}
