@@ -137,6 +137,7 @@ def _configure(site: Site, nginx: Path) -> None:
         "listen 80": f"listen 127.0.0.1:{site.port}",
         "/srv/rotorcalc/www": f"{site.folder}/www",
         "/var/log/nginx/rotorcalc.log": f"{site.folder}/access.log",
+        "/var/log/nginx/rotorcalc-error.log": f"{site.folder}/rotorcalc-error.log",
     }
     changes |= {f"app{name}:8501": f"127.0.0.1:{site.replicas[name].port}" for name in NAMES}
     for old, new in changes.items():

@@ -24,7 +24,7 @@ class Replica:
         base = environment.get("STREAMLIT_SERVER_BASE_URL_PATH", "")
         self.address = f"http://127.0.0.1:{self.port}/{base}".rstrip("/")
         self.log = Path(tempfile.mkstemp(prefix="rotorcalc-", suffix=".log")[1])
-        options = {"PORT": str(self.port), "ADDRESS": "127.0.0.1", "HEADLESS": "true"}
+        options = {"PORT": str(self.port), "HEADLESS": "true"}
         settings = {f"STREAMLIT_SERVER_{key}": value for key, value in options.items()}
         with self.log.open("wb") as out:
             self.process = subprocess.Popen(
@@ -51,6 +51,11 @@ class Replica:
         """Return the memory it holds [MB]."""
         pages = Path(f"/proc/{self.process.pid}/statm").read_text().split()[1]
         return int(pages) * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+    def peak(self) -> float:
+        """Return the most memory that it has held [MB]."""
+        lines = Path(f"/proc/{self.process.pid}/status").read_text().splitlines()
+        return next(int(line.split()[1]) for line in lines if line.startswith("VmHWM")) * 1.024e-3
 
     def seconds(self) -> float:
         """Return the processor time it has used [s]."""

@@ -21,6 +21,14 @@ _LOGGER = logging.getLogger("rotorcalc")
 _UVICORN = ("uvicorn", "uvicorn.asgi", "uvicorn.error")
 # Their lines hold visitors' addresses and links, and every link is a machine.
 _VISITS = ("uvicorn.access", "uvicorn.error")
+# Their lines below an error hold sessions' ids, and words of whoever asks.
+_SESSIONS = (
+    "streamlit.runtime.websocket_session_manager",
+    "streamlit.runtime.app_session",
+    "streamlit.web.server.starlette.starlette_websocket",
+)
+# uvicorn's line about each websocket that is refused with a status.
+_REFUSED = "ASGI callable returned without completing handshake."
 # Streamlit's own line about an exception that `failed` reports with its id.
 _TOLD_TWICE = "Uncaught app execution"
 
@@ -49,6 +57,9 @@ def begin() -> None:
     """Let no visit be written, and every logger write JSON where the host wants it."""
     for name in _VISITS:
         logging.getLogger(name).setLevel(logging.WARNING)
+    for name in _SESSIONS:
+        logging.getLogger(name).setLevel(logging.ERROR)
+    logging.getLogger("uvicorn.error").addFilter(lambda record: record.msg != _REFUSED)
     if settings.log() == "text":
         return
     logging.setLogRecordFactory(Record)

@@ -18,7 +18,7 @@ from streamlit.url_util import make_url_path
 
 from rotorcalc import __version__
 from ui.jobs import queue
-from ui.serving import health, log, settings, version
+from ui.serving import guard, health, log, settings, version
 from ui.serving.own_origin import OwnOrigin
 
 _HEADER = b"x-rotorcalc-replica"
@@ -65,7 +65,7 @@ def middleware() -> list[Middleware]:
     """Return what stands between the server and its visitors."""
     name = settings.replica()
     named = [Middleware(NamedReplica, name=name)] if name else []
-    return [*named, Middleware(OwnOrigin)]
+    return [*named, *guard.middleware(), Middleware(OwnOrigin)]
 
 
 async def answer_health(_: Request) -> JSONResponse:

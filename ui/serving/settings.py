@@ -1,27 +1,60 @@
 """What a host decides by environment variables.
 
 The app's own, each a function below: ROTORCALC_LIVE, ROTORCALC_HEAVY_JOBS, ROTORCALC_REPLICA,
-ROTORCALC_COMMIT, ROTORCALC_LOG. Streamlit's settings stand in .streamlit/config.toml; each has a
-variable too, of which a host needs these:
+ROTORCALC_COMMIT, ROTORCALC_LOG, and ROTORCALC_MAX_... for each of the limits. Streamlit's settings
+stand in .streamlit/config.toml; each has a variable too, of which a host needs these:
 
 STREAMLIT_SERVER_ADDRESS, STREAMLIT_SERVER_PORT
     Where a replica listens; behind a proxy on the same machine, 127.0.0.1 and a port of its own.
 STREAMLIT_SERVER_BASE_URL_PATH
     The path below which the app stands, e.g. rotorcalc.
 STREAMLIT_SERVER_ALLOWED_HOSTS
-    Names by which visitors may call the server, e.g. "rotor.example.org"; any where it is unset.
+    Names by which visitors may call the server, e.g. "rotor.example.org". Where it is unset, any;
+    but a server that listens on this machine alone goes by this machine's names.
 STREAMLIT_SERVER_CORS_ALLOWED_ORIGINS
     Other sites whose pages may use the server; none where it is unset.
 STREAMLIT_SERVER_COOKIE_SECRET
     Any long random text, the same for all replicas; each makes its own where it is unset.
+FORWARDED_ALLOW_IPS
+    Addresses of proxies whose X-Forwarded-For is believed; 127.0.0.1 where it is unset.
 STREAMLIT_SERVER_DISCONNECTED_SESSION_TTL
     Seconds for which a replica keeps the session of a closed or lost tab.
 """
 
 import os
+from dataclasses import asdict, dataclass
 
 _LIVE = ("drag", "release", "off")
 _LOG = ("text", "json")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Limits:
+    """How much a replica takes; each is a variable too, ROTORCALC_MAX_SOCKETS and so on.
+
+    An address may be a whole class's. A page's messages are its runs and a heartbeat.
+    """
+
+    sockets: int = 400  # open at once
+    sockets_address: int = 300  # of them of one address, and its burst of new ones
+    openings_address: int = 5  # new ones a second of one address after that
+    messages: int = 2  # a second of one page
+    messages_burst: int = 60
+    messages_address: int = 40  # a second of one address: as many as a core computes
+    messages_address_burst: int = 60
+    waiting: int = 60  # messages of one page, after which it is closed
+    waiting_megabytes: int = 2  # that they may take
+    upload_session: int = 4  # megabytes of files of one page
+    upload: int = 32  # megabytes of files of all
+
+
+def limits() -> Limits:
+    """Return the limits, each as the environment or its default says."""
+    read = {
+        name: _number(f"ROTORCALC_MAX_{name.upper()}", value, 1_000_000)
+        for name, value in asdict(Limits()).items()
+    }
+    return Limits(**read)
 
 
 def live() -> str:
@@ -39,10 +72,7 @@ def heavy_jobs() -> int:
     Each has a process of its own, of some 90 MB, which stands back behind the pages; releases have
     one more. The default is 1; more help where there are cores to spare.
     """
-    text = os.environ.get("ROTORCALC_HEAVY_JOBS", "1")
-    if not (text.isascii() and text.isdigit() and 1 <= int(text) <= 64):
-        raise ValueError(f"ROTORCALC_HEAVY_JOBS = {text!r}: must be a number from 1 to 64")
-    return int(text)
+    return _number("ROTORCALC_HEAVY_JOBS", 1, 64)
 
 
 def replica() -> str:
@@ -69,3 +99,11 @@ def _word(name: str, words: tuple[str, ...]) -> str:
     if word not in words:
         raise ValueError(f"{name} = {word!r}: must be one of {', '.join(words)}")
     return word
+
+
+def _number(name: str, default: int, most: int) -> int:
+    """Return a variable's whole number, from 1 to the most that it may be."""
+    text = os.environ.get(name, str(default))
+    if not (text.isascii() and text.isdigit() and len(text) < 12 and 1 <= int(text) <= most):
+        raise ValueError(f"{name} = {text!r}: must be a number from 1 to {most}")
+    return int(text)

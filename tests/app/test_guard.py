@@ -1,0 +1,191 @@
+"""The guard's rules, each by itself: buckets, paced websockets, names and Origins."""
+
+import asyncio
+from collections.abc import Callable, Coroutine
+from typing import Any
+
+import pytest
+import streamlit as st
+from starlette.types import Message
+
+from ui.serving.guard import bounds
+from ui.serving.guard.bounds import Bucket, Paced, network
+from ui.serving.guard.strangers import is_own_name, is_own_origin
+from ui.serving.settings import Limits
+
+
+class Socket:
+    """A websocket without a network: what comes is put in, what goes out is kept."""
+
+    def __init__(self, *messages: Message) -> None:
+        self.coming: asyncio.Queue[Message] = asyncio.Queue()
+        self.sent: list[Message] = []
+        for message in messages:
+            self.coming.put_nowait(message)
+
+    async def receive(self) -> Message:
+        return await self.coming.get()
+
+    async def send(self, message: Message) -> None:
+        self.sent.append(message)
+
+    def paced(self, *buckets: Bucket, waiting: int = 5) -> Paced:
+        return Paced(self.receive, self.send, buckets=buckets, limits=Limits(waiting=waiting))
+
+
+def _said(data: bytes | None = b"run") -> Message:
+    return {"type": "websocket.receive", "bytes": data, "text": None}
+
+
+_WANTED = {"type": "websocket.connect"}
+_GONE = {"type": "websocket.disconnect", "code": 1001}
+
+
+def _run(work: Callable[[], Coroutine[Any, Any, None]]) -> None:
+    asyncio.run(work())
+
+
+@pytest.fixture
+def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    now = [0.0]
+    monkeypatch.setattr(bounds.time, "monotonic", lambda: now[0])
+    return now
+
+
+def test_a_bucket_gives_its_burst_and_then_its_rate(clock: list[float]) -> None:
+    bucket = Bucket(rate=2, burst=3)
+    assert [bucket.reserve() for _ in range(5)] == [0, 0, 0, 0.5, 1.0]
+    clock[0] = 1.0
+    assert bucket.reserve() == 0.5
+    clock[0] = 100.0
+    assert [bucket.take() for _ in range(4)] == [True, True, True, False]
+
+
+def test_messages_are_handed_on_in_their_order_no_faster_than_tokens_come() -> None:
+    async def go() -> None:
+        socket = Socket(_WANTED, *(_said(bytes([i])) for i in range(5)))
+        paced = socket.paced(Bucket(rate=50, burst=2), waiting=10)
+        assert await paced.receive() == _WANTED
+        start = asyncio.get_running_loop().time()
+        assert [(await paced.receive())["bytes"][0] for _ in range(5)] == [0, 1, 2, 3, 4]
+        assert asyncio.get_running_loop().time() - start >= 0.055
+        paced.close()
+
+    _run(go)
+
+
+def test_a_flood_closes_its_websocket_and_nothing_more_is_handed_on_or_sent() -> None:
+    async def go() -> None:
+        socket = Socket(_WANTED, *(_said() for _ in range(20)))
+        paced = socket.paced(Bucket(rate=0.01, burst=2))
+        got = [(await paced.receive())["type"] for _ in range(5)]
+        assert got[-1] == "websocket.disconnect"
+        assert got.count("websocket.receive") <= 2
+        await paced.send({"type": "websocket.send", "bytes": b"a page"})
+        (closed,) = socket.sent
+        assert closed["type"] == "websocket.close"
+        assert closed["code"] == 1008
+
+    _run(go)
+
+
+def test_messages_that_wait_have_room_for_so_many_bytes() -> None:
+    async def go() -> None:
+        socket = Socket(_WANTED, *(_said(bytes(1 << 20)) for _ in range(4)))
+        paced = socket.paced(Bucket(rate=0.01, burst=1), waiting=60)
+        while (await paced.receive())["type"] != "websocket.disconnect":
+            pass
+        assert socket.sent[0]["code"] == 1008
+
+    _run(go)
+
+
+def test_that_a_page_is_closed_is_seen_before_what_waits() -> None:
+    async def go() -> None:
+        socket = Socket(_WANTED, *(_said() for _ in range(4)))
+        paced = socket.paced(Bucket(rate=0.01, burst=1))
+        assert [await paced.receive() for _ in range(2)] == [_WANTED, _said()]
+        waiting = asyncio.create_task(paced.receive())
+        await asyncio.sleep(0)
+        socket.coming.put_nowait(_GONE)
+        assert await waiting == _GONE
+        assert await paced.receive() == _GONE
+
+    _run(go)
+
+
+def test_a_websocket_that_ends_at_once_has_begun_nevertheless() -> None:
+    async def go() -> None:
+        paced = Socket(_WANTED, _GONE).paced(Bucket(1, 1))
+        await asyncio.sleep(0.01)
+        assert [await paced.receive() for _ in range(2)] == [_WANTED, _GONE]
+
+    _run(go)
+
+
+def test_text_is_no_message_of_a_page() -> None:
+    async def go() -> None:
+        socket = Socket(_WANTED, _said(None))
+        paced = socket.paced(Bucket(1, 1))
+        assert [(await paced.receive())["type"] for _ in range(2)][-1] == "websocket.disconnect"
+        assert socket.sent[0]["code"] == 1003
+
+    _run(go)
+
+
+def test_an_address_of_version_6_is_its_houses() -> None:
+    assert (
+        network("2001:db8:1:2:3:4:5:6") == network("2001:db8:1:2::9") != network("2001:db8:1:3::")
+    )
+    assert network("::ffff:192.0.2.1") == network("192.0.2.1") != network("192.0.2.2")
+    assert network("testclient") == "testclient"
+
+
+@pytest.mark.parametrize(
+    ("origin", "host", "own"),
+    [
+        ("http://rotor.example.org", "rotor.example.org", True),
+        ("https://rotor.example.org", "rotor.example.org", True),
+        ("https://Rotor.example.org", "rotor.example.org:443", True),
+        ("http://localhost:8501", "localhost:8501", True),
+        ("http://localhost:8502", "localhost:8501", False),
+        ("http://localhost:8501", "rotor.example.org", False),
+        ("http://127.0.0.1", "rotor.example.org", False),
+        ("https://rotor.example.org.evil.example", "rotor.example.org", False),
+        ("https://evil.example/rotor.example.org", "rotor.example.org", False),
+        ("https://rotor.example.org@evil.example", "rotor.example.org", False),
+        ("file://rotor.example.org", "rotor.example.org", False),
+        ("http://[", "rotor.example.org", False),
+        ("null", "rotor.example.org", False),
+        ("", "rotor.example.org", False),
+        ("http://rotor.example.org", None, False),
+    ],
+)
+def test_an_origin_is_own_where_it_is_the_host(origin: str, host: str | None, own: bool) -> None:
+    assert is_own_origin(origin, host) is own
+
+
+@pytest.mark.parametrize(
+    ("allowed", "address", "host", "own"),
+    [
+        (["rotor.example.org"], "127.0.0.1", "rotor.example.org:8501", True),
+        (["rotor.example.org"], "127.0.0.1", "localhost", False),
+        (["*"], "localhost", "any.example", True),
+        ([], "localhost", "localhost:8501", True),
+        ([], "127.0.0.1", "[::1]:8501", True),
+        ([], "localhost", "evil.example", False),
+        ([], "localhost", "localhost.evil.example", False),
+        ([], "localhost", "[", False),
+        ([], "localhost", None, False),
+        ([], "0.0.0.0", "laptop.local", True),  # noqa: S104
+    ],
+)
+def test_a_server_goes_by_its_names(
+    allowed: list[str], address: str, host: str | None, own: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    options = {
+        "server.allowedHosts": allowed, "server.address": address,
+        "server.corsAllowedOrigins": [],
+    }  # fmt: skip
+    monkeypatch.setattr(st.config, "get_option", options.__getitem__)
+    assert is_own_name(host) is own
