@@ -2,6 +2,8 @@
 
 import json
 import re
+import shutil
+import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -82,6 +84,7 @@ def test_health_computes(monkeypatch: pytest.MonkeyPatch) -> None:
     [
         ("ROTORCALC_HEAVY_JOBS", "0", settings.heavy_jobs),
         ("ROTORCALC_HEAVY_JOBS", "many", settings.heavy_jobs),
+        ("ROTORCALC_MAX_SOCKETS", "-1", settings.limits),
         ("ROTORCALC_REPLICA", "a; Path=/", settings.replica),
         ("ROTORCALC_LOG", "xml", settings.log),
     ],
@@ -99,6 +102,22 @@ def test_a_host_names_the_commit_where_there_is_no_checkout(monkeypatch) -> None
     monkeypatch.setenv("ROTORCALC_COMMIT", "0123456789abcdef")
     try:
         assert version.label() == f"rotorcalc {rotorcalc.__version__} · 0123456789ab"
+    finally:
+        version.commit.cache_clear()
+
+
+def test_the_commit_of_another_users_checkout_is_known(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    git = [shutil.which("git") or "git", "-c", "user.name=A", "-c", "user.email=a@b"]
+    for words in (["init", "-q"], ["commit", "-q", "--allow-empty", "-m", "First"]):
+        subprocess.run([*git, *words], cwd=tmp_path, check=True)
+    monkeypatch.delenv("ROTORCALC_COMMIT", raising=False)
+    monkeypatch.setenv("GIT_TEST_ASSUME_DIFFERENT_OWNER", "1")
+    monkeypatch.setattr(version, "_ROOT", tmp_path)
+    version.commit.cache_clear()
+    try:
+        assert re.fullmatch("[0-9a-f]{7,12}", version.commit())
     finally:
         version.commit.cache_clear()
 

@@ -15,7 +15,9 @@ def commit() -> str:
     """Return the commit that runs, short; "" where neither the host nor a checkout tells."""
     if named := settings.commit():
         return named[:12]
-    command = ["git", "-C", str(_ROOT), "rev-parse", "--short", "HEAD"]
+    # A checkout is often another user's than the server's, which git would not read by itself.
+    safe = f"safe.directory={_ROOT}"
+    command = ["git", "-c", safe, "-C", str(_ROOT), "rev-parse", "--short", "HEAD"]
     try:
         done = subprocess.run(  # noqa: S603 - no word of it comes from outside
             command, capture_output=True, text=True, timeout=5, check=False
