@@ -6,19 +6,23 @@ time too. Sessions go to the addresses in turns, as sticky sessions behind a pro
     python -m tests.load --sessions 50                  one process, three minutes
     python -m tests.load --sessions 80 --replicas 2     two
     python -m tests.load --sessions 40 --soak 10000     memory over many actions
+    python -m tests.load --sessions 10 --hostile 20     beside sessions that flood each server
 """
 
 import argparse
 import asyncio
+import os
 import sys
 import time
 from contextlib import ExitStack
 
 from tests.load.client import Tally, Visitor
+from tests.load.flood import flooded
 from tests.load.replicas import Replica
 from tests.load.walk import EVERY, walk
 
 LIMIT = 0.250  # seconds: the 95th percentile that is wanted
+_REST = 60.0  # seconds after a flood in which a server is to come to rest
 _CHUNK = 60.0  # seconds between two looks at the memory
 
 
@@ -33,6 +37,7 @@ def main() -> None:
     parser.add_argument("--every", type=float, default=EVERY, help="seconds between two actions")
     parser.add_argument("--replicas", type=int, default=1, help="servers to start")
     parser.add_argument("--soak", type=int, default=0, help="actions; the memory is looked at")
+    parser.add_argument("--hostile", type=int, default=0, help="flooding sessions on each server")
     asked = parser.parse_args()
     with ExitStack() as stack:
         own = [] if asked.address else [Replica() for _ in range(asked.replicas)]
@@ -43,7 +48,10 @@ def main() -> None:
             errors = _soak(addresses, own, asked)
         else:
             warm(addresses)
-            errors = _measure(addresses, own, asked)
+            with _flood(addresses, asked.hostile):
+                errors = _measure(addresses, own, asked)
+            if own and asked.hostile:
+                _aftermath(own[0], asked.hostile)
     sys.exit(1 if errors else 0)
 
 
@@ -87,6 +95,35 @@ def _measure(addresses: list[str], own: list[Replica], asked: argparse.Namespace
     if own:
         _say(f"processor: {used / runs * 1e3:.0f} ms a run; memory: {_memory(own)}")
     return _errors(tallies)
+
+
+def _flood(addresses: list[str], hostile: int) -> ExitStack:
+    """Let hostile sessions flood each server until the stack is left."""
+    stack = ExitStack()
+    for address in addresses if hostile else []:
+        stack.enter_context(flooded(address, sessions=hostile))
+    return stack
+
+
+def _aftermath(server: Replica, hostile: int) -> None:
+    """Look at a server that was flooded: its memory, whether it rests, and how soon it ends."""
+    time.sleep(_REST)
+    used = server.seconds()
+    time.sleep(5)
+    used = (server.seconds() - used) / 5
+    _say(
+        f"most memory {server.peak():.0f} MB; {_REST:.0f} s after the flood "
+        f"{server.memory():.0f} MB, {used:.1%} of a core"
+    )
+    with flooded(server.address, sessions=hostile):
+        time.sleep(5)
+        start = time.perf_counter()
+        server.process.terminate()
+        server.process.wait()
+        _say(
+            f"flooded again, it ended {time.perf_counter() - start:.1f} s after SIGTERM; "
+            f"machine's load {os.getloadavg()[0]:.0f} on {os.cpu_count()} cores"
+        )
 
 
 def _soak(addresses: list[str], own: list[Replica], asked: argparse.Namespace) -> list[str]:
