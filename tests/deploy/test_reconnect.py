@@ -168,12 +168,12 @@ def tabs(desk: BrowserContext, place: Place) -> Iterator[dict[str, AppPage]]:
 
 def lost(tab: AppPage) -> None:
     """Wait until the browser knows that its connection is lost."""
-    tab.page.wait_for_function(f"{_STATE} !== 'CONNECTED'")
+    tab.page.wait_for_function(f"() => {_STATE} !== 'CONNECTED'")
 
 
 def back(tab: AppPage) -> None:
     """Wait until it has another, and the page has run for it."""
-    tab.page.wait_for_function(f"{_STATE} === 'CONNECTED'")
+    tab.page.wait_for_function(f"() => {_STATE} === 'CONNECTED'")
     tab.rest()
 
 
