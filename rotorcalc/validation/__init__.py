@@ -1,12 +1,12 @@
-"""The program checked against itself and against print: identities, limits, published numbers.
+"""Validation of the program: identities, limits and published numbers.
 
-Each case computes one number now, by the code that the rest of the program uses, and sets it beside
-a reference that comes another way: a quadrature, a derivative, a limit, a closed form for what is
-found by eigenvalues, or a printed value, then with half a unit of its last digit as tolerance.
+Each case computes one number by the code that the rest of the program uses, and compares it with
+an independent reference: a quadrature, a derivative, a limit, a closed form for a result of
+eigenvalues, or a printed value, whose tolerance is half a unit of its last digit.
 
 Source of the printed values: San Andrés, Notes 5, and its calculation sheet; Friswell, Penny,
-Garvey and Lees, Dynamics of Rotating Machines, example 5.5.1. Values marked "recorded" were found
-once by an independent calculation of the sheet's machine and written down.
+Garvey and Lees, Dynamics of Rotating Machines, example 5.5.1. Values marked "recorded" come from
+a separate calculation of the sheet's machine.
 """
 
 from rotorcalc.validation import film, machine
@@ -16,7 +16,7 @@ __all__ = ["Case", "validate"]
 
 
 def validate() -> tuple[Case, ...]:
-    """Return all cases, computed now.
+    """Return all cases, computed at the call.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""What one check is, and how two arrays are compared."""
+"""The record of one check, and the comparison of two arrays."""
 
 from dataclasses import dataclass
 
@@ -9,22 +9,22 @@ from rotorcalc.arrays import Array, ComplexArray
 
 @dataclass(frozen=True)
 class Case:
-    """One check: a number of the program beside its reference.
+    """One check: a number of the program and its reference.
 
     Attributes
     ----------
     group : str
-        What part of the program it checks.
+        The part of the program that it checks.
     name : str
-        What the number is.
+        Name of the number.
     value : float
-        The program's, in `unit`.
+        The program's number, in `unit`.
     reference : float
-        What it should be.
+        The reference number.
     tolerance : float
-        How far the two may differ.
+        Largest admissible difference.
     source : str
-        Where the reference comes from.
+        Source of the reference.
     unit : str
         Unit of the three numbers.
     """
@@ -39,12 +39,12 @@ class Case:
 
     @property
     def difference(self) -> float:
-        """How far value and reference differ."""
+        """Absolute difference of value and reference."""
         return abs(self.value - self.reference)
 
     @property
     def holds(self) -> bool:
-        """The verdict: whether they differ by no more than the tolerance; not where one is NaN."""
+        """Whether the difference is within the tolerance; False where one number is NaN."""
         return self.difference <= self.tolerance
 
 
@@ -56,8 +56,9 @@ def alike(
     *,
     tolerance: float = 1e-12,
 ) -> Case:
-    """Return the case that two arrays agree: their largest difference, relative to its row."""
+    """Return the case that two arrays agree: largest difference, relative to its row's largest."""
     value, reference = pair
+    # One scale per row: each row is one ε, and elements that vanish are judged by the others.
     rows = len(reference)
     scale = np.max(np.abs(reference).reshape(rows, -1), axis=1)
     off = np.max(np.abs(value - reference).reshape(rows, -1), axis=1)

@@ -13,7 +13,7 @@ from rotorcalc.frames import rotate, vector
 from rotorcalc.onset import whirl
 from rotorcalc.validation.case import Case, alike
 
-# Where the identities of the film are tried.
+# Eccentricity ratios at which the identities are checked; nearer to 0 and 1 limits take over.
 _EPS = np.linspace(0.05, 0.95, 19)
 
 
@@ -29,7 +29,7 @@ def coefficients() -> list[Case]:
     by_speed = _slopes(lambda move: short.film_force(place, move))
     unit = 4.0 * short.modified_sommerfeld(_EPS)[:, None, None]
     turned, slopes = "Eq. 5.16, ε = 0.05 … 0.95", "by differences, ε = 0.05 … 0.95"
-    trace, force = "a rotation keeps the trace", "of the nonlinear force"
+    trace, force = "the trace is invariant under rotation", "of the nonlinear force"
     return [
         alike(group, f"K_ij and −∂F_i/∂X_j {force}", (K, -by_place), slopes, tolerance=1e-8),
         alike(group, f"C_ij and −∂F_i/∂Ẋ_j {force}", (C, -by_speed), slopes, tolerance=1e-8),
@@ -43,7 +43,8 @@ def coefficients() -> list[Case]:
 
 
 def _slopes(force: Callable[[Array], Array]) -> Array:
-    """Return the derivatives of forces at all ε, by differences of the fourth order, (n, 2, 2)."""
+    """Return derivatives of forces at all ε by central differences of fourth order, (n, 2, 2)."""
+    # Small against the distances to the centre and to the wall, where the force varies fastest.
     step = 1e-3 * (_EPS * (1.0 - _EPS))[:, None]
     columns: list[Array] = []
     for axis in np.eye(2):
@@ -65,13 +66,15 @@ def equilibrium() -> list[Case]:
     phi = short.attitude_angle(_EPS)
     place = vector(_EPS * np.cos(phi), _EPS * np.sin(phi))
     at_rest = short.film_force(place, np.zeros_like(place))
+    # The film's force balances the load along X: −F_o in film units is −1/(4σ).
     carried = vector(-1.0 / (4.0 * short.modified_sommerfeld(_EPS)), np.zeros_like(_EPS))
+    # 200 points resolve the peak at ε = 0.95 to rounding; along ζ the integrand is a parabola.
     theta, d_theta = _gauss(0.0, math.pi, 200)
     zeta, d_zeta = _gauss(-0.5, 0.5, 4)
     pressure = short.pressure(_EPS[:, None, None], theta[:, None], zeta)
     thrust = np.sum(pressure * d_zeta, axis=2) * d_theta
     summed = vector(thrust @ np.cos(theta), thrust @ np.sin(theta))
-    # I_rr + I_tt = ∫dθ/H, and a rotation keeps it.
+    # I_rr + I_tt = ∫dθ/H, and the trace is invariant under rotation.
     inertia = (d_theta / short.film_thickness(_EPS[:, None], theta)).sum(axis=1, keepdims=True)
     return [
         alike(group, "σ(ε(σ)) and σ, σ = 1e-6 … 1e6", (there_and_back, sigma), "Eq. 5.8, inverted"),
@@ -89,13 +92,14 @@ def equilibrium() -> list[Case]:
 
 @functools.cache
 def _gauss(low: float, high: float, points: int) -> tuple[Array, Array]:
-    """Return the places and weights of Gauss and Legendre's quadrature."""
+    """Return the points and weights of Gauss-Legendre quadrature."""
     place, weight = np.polynomial.legendre.leggauss(points)
     return low + (place + 1.0) * (high - low) / 2.0, weight * (high - low) / 2.0
 
 
 def limits() -> list[Case]:
     """Return the checks of the centred bearing."""
+    # The series' next terms are of order ε², below the tolerance.
     group, eps = "Limits of the centred bearing", 1e-6
     k, c = short.stiffness(eps), short.damping(eps)
     onset = whirl.whirl_onset(k, c)
@@ -127,12 +131,13 @@ def energy() -> list[Case]:
     def pressure(z: Array | float) -> Array:
         return short.pressure(_EPS[:, None, None], theta[:, None], z)
 
-    # Along the axis the pressure is a parabola, for which these differences are exact.
+    # The pressure is parabolic along the axis, so these differences are exact.
     slope = (pressure(zeta + 0.05) - pressure(zeta - 0.05)) / 0.1
     slope_at_end = (3.0 * pressure(0.5) - 4.0 * pressure(0.4) + pressure(0.3))[..., 0] / 0.2
     axial = np.sum(H**3 * d_theta * np.sum(slope**2 * d_zeta, axis=2), axis=1) / 12.0
     leaving = np.sum(-(H**3) / 6.0 * slope_at_end * d_theta, axis=1)
-    around = 2.0 * math.pi * np.arange(400) / 400  # a periodic integrand needs no weights
+    # The mean over even steps of a periodic integrand converges exponentially.
+    around = 2.0 * math.pi * np.arange(400) / 400
     shear = 2.0 * math.pi * np.mean(1.0 / short.film_thickness(_EPS[:, None], around), axis=1)
     drag = short.drag(_EPS, length_to_radius=aspect)
     heat = shear + aspect**2 * axial
@@ -158,13 +163,13 @@ def threshold() -> list[Case]:
         Case(group, "Whirl ratio", float(half.whirl_ratio), 0.514640, 5e-7, printed),
         Case(group, "p_s", float(half.threshold_speed), 2.541731, 5e-7, printed),
         Case(group, "|Δ| of Eq. 5.44 at p_s, relative", _determinant(), 0.0, 1e-12, "Eq. 5.44"),
-        Case(group, "ε above which nothing whirls", edge, 0.756030386471, 5e-13, "recorded"),
+        Case(group, "ε above which no rotor whirls", edge, 0.756030386471, 5e-13, "recorded"),
         Case(group, "σ there", float(sigma(edge)), 0.0663852602, 5e-11, "recorded"),
         Case(group, "Least p_s", float(lowest.fun), 2.5317057092, 5e-11, "recorded"),
         Case(group, "ε of the least p_s", float(lowest.x), 0.45697072, 5e-8, "recorded"),
         Case(
             group, "Unstable machines among 400 above that ε", _unstable_above(edge), 0.0, 0.0,
-            "none whirls, Eq. 5.46", "machines",
+            "no rotor whirls, Eq. 5.46", "machines",
         ),
     ]  # fmt: skip
 
@@ -175,7 +180,7 @@ def _p_s(eps: float) -> float:
 
 
 def _ratio_squared(eps: float) -> float:
-    """Return what changes sign where whirl ends: ω̄² of Eq. 5.46, negative beyond, times det c."""
+    """Return ω̄² of Eq. 5.46 times det c, which changes sign where whirl ends."""
     k, c = short.stiffness(eps), short.damping(eps)
     k_eq = whirl.whirl_onset(k, c).equivalent_stiffness
     return float(np.linalg.det(k - k_eq * np.eye(2)))
@@ -192,7 +197,7 @@ def _determinant() -> float:
 
 
 def _unstable_above(edge: float) -> float:
-    """Return how many of 400 rigid rotors grow above the eccentricity at which whirl ends."""
+    """Return how many of 400 rigid rotors are unstable above the ε at which whirl ends."""
     eps, p2 = np.linspace(edge + 1e-6, 0.95, 20)[:, None], np.geomspace(1e-2, 1e4, 20)
     k, c = short.stiffness(eps), short.damping(eps)
     A = np.zeros((*np.broadcast_shapes(eps.shape, p2.shape), 4, 4))

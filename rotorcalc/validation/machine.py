@@ -69,7 +69,7 @@ def onset() -> list[Case]:
 
 
 def _closed_onset(machine: Machine, flexible: bool) -> float:
-    """Return the onset from the closed forms alone: where Ω_sf(ε) is the speed that has this ε."""
+    """Return the onset from the closed forms alone: the ε at which Ω_sf(ε) = Ω(ε)."""
     b, M, F = machine.bearing, machine.rotor.half_mass, machine.static_load
     sag = machine.static_sag / b.radial_clearance if flexible else 0.0
     aspect = (b.length / b.radial_clearance) ** 2
@@ -84,6 +84,7 @@ def _closed_onset(machine: Machine, flexible: bool) -> float:
         load = 4.0 * float(short.modified_sommerfeld(eps)) * F
         return load / (machine.viscosity * b.length * b.radius * aspect)
 
+    # Whirl ends at ε = 0.756, where the threshold is infinite.
     return speed(float(brentq(excess, 1e-4, 0.75, xtol=1e-15, rtol=1e-14)))
 
 
@@ -110,6 +111,7 @@ def modes_and_response() -> list[Case]:
         cases.append(
             alike(group, f"A v and λ v, {name}", (moved, scaled), "every mode", tolerance=1e-10)
         )
+        # The imbalance accelerates the disk: u Ω² over its mass, among the velocities.
         push = np.zeros(len(A), dtype=complex)
         push[len(A) - (4 if rotor.journal_mass else 2) :][:2] = (
             rotor.imbalance * speed**2 * np.array([1.0, -1.0j])
@@ -122,7 +124,7 @@ def modes_and_response() -> list[Case]:
 
 
 def _ellipse() -> list[Case]:
-    """Return the ellipse of two phasors against the orbit that they draw, sampled."""
+    """Return the checks of an ellipse against the sampled orbit of its phasors."""
     group, x, y = "Modes and response", 1.3 - 0.4j, 0.2 - 0.9j
     orbit = orbit_ellipse(x, y)
     turn = np.exp(2j * np.pi * np.arange(64) / 64)
