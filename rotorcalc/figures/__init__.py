@@ -1,4 +1,4 @@
-"""Charts of results, as Plotly figures; they compute nothing.
+"""Charts of results as Plotly figures, without any computation.
 
 Each function takes result records and returns one dict; `figure` makes a `go.Figure` of it.
 """

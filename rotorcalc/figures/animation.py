@@ -1,4 +1,4 @@
-"""A speed scrubber that runs in the browser: frames that move a few traces, and their slider."""
+"""Animation in the browser: frames that update a few traces, their slider and play buttons."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -22,18 +22,18 @@ def scrubbed(  # noqa: PLR0913 - steps, and the words of their slider
     unit: str,
     prefix: str = "Slide the speed: ",
 ) -> Chart:
-    """Return a chart whose last traces a slider below it moves.
+    """Return a chart with a slider below it that updates its last traces.
 
     Parameters
     ----------
     chart : Chart
-        A chart that ends with the traces that move, as they stand at the active step.
+        A chart whose last traces are the moving ones, in their state at the active step.
     steps : sequence of sequences of traces
-        What they become at each step: only what changes of each.
+        Their changed properties at each step.
     labels : sequence of str
         The steps' speeds.
     active : int
-        The step at which the slider begins.
+        The slider's initial step.
     unit : str
         The unit of the labels.
     prefix : str
@@ -57,14 +57,14 @@ def scrubbed(  # noqa: PLR0913 - steps, and the words of their slider
 
 
 def playable(chart: Chart, *, step: int, y: float) -> Chart:
-    """Return a scrubbed chart with buttons that play it and stop it.
+    """Return an animated chart with buttons to play and stop it.
 
     Parameters
     ----------
     chart : Chart
         A chart with frames.
     step : int
-        Time that each frame stands [ms].
+        Duration of each frame [ms].
     y : float
         Top of the buttons in fractions of the plot, negative below it.
 

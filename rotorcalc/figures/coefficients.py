@@ -1,7 +1,7 @@
 """Charts of the film's force coefficients, and of its added mass.
 
-Dimensionless coefficients stand on logarithmic axes, as in the notes' Figs. 5.5 and 5.6; what is
-negative shows its absolute value, dashed, under a name with a minus sign.
+Dimensionless coefficients have logarithmic axes, as in the notes' Figs. 5.5 and 5.6; negative
+values are drawn as absolute values, dashed, under a name with a minus sign.
 """
 
 import math
@@ -27,7 +27,7 @@ _NAMES = {"XY": ("X", "Y"), "rt": ("r", "t")}
 _LEGEND = {
     "orientation": "h", "x": 0, "y": 1.01, "yanchor": "bottom", "entrywidth": 28,
            "itemwidth": 30}  # fmt: skip
-# Speeds below this share of the top speed do not set a linear axis: coefficients run away there.
+# Speeds below this share of the top speed do not set a linear axis: they diverge as Ω → 0.
 _SLOW = 0.1
 
 
@@ -90,7 +90,7 @@ def unloading(curve: Unloading, here: Unloading, centred: Unloading, units: Unit
 
 
 def added_mass(laminar: AddedMass, bulk: AddedMass, here: AddedMass, units: Units) -> Chart:
-    """Return the film's added mass against running speed, for two profiles of velocity."""
+    """Return the film's added mass against running speed, for two velocity profiles."""
     x, unit = _speed_axis(laminar.speed, units), units.mass
     low, high = _span(unit.of(laminar.mass[_settled(laminar.speed)]))
     y = style.axis(style.titled("Added mass per bearing", "Mᵢⱼ", unit.name), low, high)
@@ -145,7 +145,7 @@ def _dimensional(
 
 
 def _elements(symbol: str, axes: str, places: Array, values: Array) -> list[Trace]:
-    """Return the lines of the four elements, what is negative dashed."""
+    """Return the lines of the four elements, negative values dashed."""
     return style.joined(
         [
             _signed(
@@ -161,7 +161,7 @@ def _elements(symbol: str, axes: str, places: Array, values: Array) -> list[Trac
 
 
 def _width(symbol: str, place: tuple[int, int]) -> float:
-    """Return a line's width: c_XY, often equal to c_YX, shows on both its sides."""
+    """Return a line's width: c_XY is wide, so that it shows beside the equal c_YX."""
     return 5.5 if symbol in "cC" and place == (0, 1) else 2.2
 
 
@@ -178,7 +178,7 @@ def _signed(x: Array, y: Array, name: str, colour: str, width: float = 2.2) -> l
 def _points(
     x: float, values: Array, axes: tuple[Axis, Axis], *, signed: bool = False
 ) -> list[Trace]:
-    """Return the running speed's marks, one on each element's line, guides from the largest."""
+    """Return the running speed's marks, one on each line, with guides from the largest."""
     levels = (values if signed else np.abs(values)).ravel()
     finite = levels[np.isfinite(levels)]
     if not (math.isfinite(x) and len(finite)):
@@ -202,7 +202,7 @@ def _abscissa(places: Array, against: str) -> Axis:
 
 
 def _decades(title: str, values: Array) -> Axis:
-    """Return a logarithmic axis from 0.1 to 100, or as far up as the running speed's values go."""
+    """Return a logarithmic axis from 0.1 to 100, or up to the running speed's values."""
     sizes = np.abs(values[np.isfinite(values)])
     top = max(2, math.ceil(math.log10(float(sizes.max(initial=1.0)))))
     return style.axis(title, 0.1, 10.0**top, log=True)

@@ -9,7 +9,7 @@ from rotorcalc.arrays import Array
 from rotorcalc.figures import style
 from rotorcalc.figures.style import Chart, Trace
 
-# The drawing's bearing and journal: clearance and eccentricity far larger than real ones.
+# Dimensions of the drawing; clearance and eccentricity are exaggerated.
 _BEARING, _JOURNAL, _ECCENTRICITY, _ATTITUDE = 1.0, 0.64, 0.28, math.radians(40.0)
 Item = dict[str, Any]
 

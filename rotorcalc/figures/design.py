@@ -1,4 +1,4 @@
-"""Charts of what moves the onset: a map over two inputs, a tornado, the onset over one input."""
+"""Charts of the onset against inputs: a map, a tornado chart, a curve over one input."""
 
 import math
 from collections.abc import Mapping
@@ -14,9 +14,9 @@ from rotorcalc.figures.stability import LEGEND, MARGIN, near
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
 from rotorcalc.units import Unit, Units
 
-# Onset speeds [rpm] at which a map changes colour: always the same, so that maps compare.
+# Onset speeds [rpm] at which a map changes colour, fixed so that maps can be compared.
 _LADDER = np.array([500, 700, 1e3, 1.5e3, 2e3, 3e3, 5e3, 7e3, 1e4, 1.5e4, 2e4, 3e4, 5e4])
-# One hue from dark to light, for colour-blind eyes and for grey paper; dark is a low onset.
+# One hue from dark to light, legible to colour-blind readers and in grey; dark is a low onset.
 _SEQUENCE = [
     [0.0, "#06264d"], [0.2, "#0b4a85"], [0.4, "#2b7bba"],
     [0.6, "#6aaed6"], [0.8, "#b0d2e8"], [1.0, "#eff6fc"],
@@ -27,7 +27,7 @@ _HIGHEST = 1e7  # rpm: stands for an onset at infinity
 
 @dataclass(frozen=True)
 class Quantity:
-    """An input on an axis: its name for readers, its unit, its range in SI, its kind of scale."""
+    """An input on an axis: its name, symbol, unit, range in SI, and kind of scale."""
 
     words: str
     symbol: str
@@ -44,7 +44,7 @@ class Quantity:
         return near(style.axis(title, low, high, log=self.log, **ticks))
 
     def place(self, value: float) -> float:
-        """Return where a value stands on the axis, at its nearer end where it lies outside."""
+        """Return a value in the axis's unit, held at the nearer end where it lies outside."""
         return float(self.unit.of(min(max(value, self.low), self.high)))
 
     def text(self, value: float) -> str:
@@ -80,14 +80,14 @@ def onset_map(
 
 
 def tornado(found: Sensitivities, names: Mapping[str, str], units: Units) -> Chart:
-    """Return how far the onset moves with each input, a pair of bars an input, largest on top."""
+    """Return the onset's change with each input, a pair of bars per input, the largest on top."""
     onset, unit = float(units.speed.of(found.onset)), units.speed
-    inputs = found.inputs[::-1]  # the axis counts from below
+    inputs = found.inputs[::-1]  # the axis runs upwards
     places = np.arange(len(inputs), dtype=float)
     less = np.array([_change(float(unit.of(one.onset_low)), onset) for one in inputs])
     more = np.array([_change(float(unit.of(one.onset_high)), onset) for one in inputs])
     reach = style.ceiling(1.1 * np.abs([*less, *more, 1.0]))
-    title = titled("Movement", "ΔΩ<sub>s</sub>", unit.name)
+    title = titled("Change", "ΔΩ<sub>s</sub>", unit.name)
     rows = [
         f"{names[one.field]}<br>{_signed(low)} / {_signed(high)} {unit.name}"
         for one, low, high in zip(inputs, less, more, strict=True)
@@ -130,11 +130,11 @@ def solution(
     wanted = quantity.unit.of(found.solutions)
     traces = [
         style.line(values, onset, "onset", style.FLEXIBLE),
-        style.line(ends, [target] * 2, f"wanted {target:.0f} {unit.name}", style.RED, dash="dot"),
+        style.line(ends, [target] * 2, f"target {target:.0f} {unit.name}", style.RED, dash="dot"),
     ]
     if len(wanted):
         heights = np.full(len(wanted), target)
-        traces.append(style.mark(wanted, heights, "meets it", style.RED))
+        traces.append(style.mark(wanted, heights, "solution", style.RED))
     if np.isfinite(now) and now <= top:
         traces += style.here(quantity.place(here[0]), now, x, y, "this machine")
     return style.chart(
@@ -189,7 +189,7 @@ def _colour_bar(unit: str) -> dict[str, Any]:
 
 
 def _change(onset: float, base: float) -> float:
-    """Return an onset's distance from another; none between infinite ones."""
+    """Return the difference of two onsets; 0 between infinite ones."""
     change = onset - base if onset != base else 0.0
     return change if np.isfinite(change) else 0.0
 
@@ -208,7 +208,7 @@ def _bars(x: Array, y: Array, name: str, onset: float, colour: str) -> Trace:
 
 
 def _shares_axis(reach: float, onset: float) -> Axis:
-    """Return the axis on top that reads the movement in per cent of the onset."""
+    """Return the upper axis, the change in per cent of the onset."""
     share = 100.0 * reach / onset if 0.0 < onset < math.inf else 1.0
     return near(
         style.axis(
@@ -219,7 +219,7 @@ def _shares_axis(reach: float, onset: float) -> Axis:
 
 
 def _shares_axis_holder(onset: float) -> list[Trace]:
-    """Return a trace without a mark: an axis is drawn only where something stands on it."""
+    """Return an invisible trace: Plotly draws an axis only where a trace refers to it."""
     if not 0.0 < onset < math.inf:
         return []
     holder = style.mark(0.0, 0.0, "", showlegend=False, hoverinfo="skip", xaxis="x2")

@@ -1,4 +1,4 @@
-"""Charts of the static equilibrium: where the journal sits, and what its film costs."""
+"""Charts of the static equilibrium: journal position, power loss, side flow and friction."""
 
 import math
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ _SOFT = "rgba(127,127,127,0.8)"
 _MARGIN = {"l": 64, "r": 16, "t": 26, "b": 48}
 # Half the width of the drawn plane, in radial clearances.
 _EDGE = 1.24
-# Marks of speed closer than this, in radial clearances, would write over each other.
+# Labels of speeds closer together than this, in radial clearances, would overlap.
 _SPACING = 0.17
 # X/C below which the path has turned so far down that labels stand beside it, not above.
 _LOW = 0.55
@@ -106,7 +106,7 @@ def position_over_sommerfeld(curves: FilmCurves, sweep: Sweep, point: Sweep, uni
 
 
 def power_loss(sweep: Sweep, point: Sweep, units: Units) -> Chart:
-    """Return the power that one film turns into heat over running speed."""
+    """Return the power loss of one film over running speed."""
     title = style.titled("Power loss per bearing", "P", units.power.name)
     return _over_speed(sweep, point, units, ("power_loss", units.power, title))
 
@@ -118,7 +118,7 @@ def side_flow(sweep: Sweep, point: Sweep, units: Units) -> Chart:
 
 
 def friction_coefficient(sweep: Sweep, point: Sweep, units: Units) -> Chart:
-    """Return the friction coefficient over running speed; without load it has no value."""
+    """Return the friction coefficient over running speed; it is infinite without load."""
     title = style.titled("Friction coefficient", "f", "-")
     chart = _over_speed(sweep, point, units, ("friction_coefficient", units.number, title))
     loaded = point.machine.static_load > 0.0
@@ -177,7 +177,7 @@ def _panes(across: Array, sweep: Sweep, at: tuple[float, Sweep], x: Axis, units:
             *style.here(place, float(units.angle.of(point.attitude_angle)), x, y2),
         ]),
     ]  # fmt: skip
-    height = HEIGHT - 40  # a control stands above
+    height = HEIGHT - 40  # leaves room for the control above the chart
     return style.chart(traces, x, y, yaxis2=y2, height=height, showlegend=False, margin=_MARGIN)
 
 
@@ -198,7 +198,7 @@ def _behind_path(curves: FilmCurves, point: Sweep) -> list[Trace]:
 
 
 def _path(sweep: Sweep, units: Units) -> Trace:
-    """Return the journal's path up to the top speed, which tells speed and ε."""
+    """Return the journal's path up to the top speed, with speed and ε in its hover text."""
     places = sweep.journal_position / sweep.machine.bearing.radial_clearance
     told = np.stack([units.speed.of(sweep.speed), sweep.eccentricity_ratio], axis=-1)
     hover = "%{customdata[0]:.0f} rpm<br>ε = %{customdata[1]:.4f}<extra></extra>"
@@ -207,7 +207,7 @@ def _path(sweep: Sweep, units: Units) -> Trace:
 
 
 def _spaced(places: Array, at: Array) -> list[int]:
-    """Return which places to mark so that they keep apart from each other and from the point."""
+    """Return the indices of points to mark, apart from each other and from the running speed."""
     kept: list[int] = []
     for i, place in enumerate(places):
         others = [at, *(places[j] for j in kept)]
@@ -217,7 +217,7 @@ def _spaced(places: Array, at: Array) -> list[int]:
 
 
 def _beside(place: Array, at: Array) -> Part:
-    """Return where a mark's label stands: clear of the path and of the running speed's label."""
+    """Return the position of a label, clear of the path and of the running speed's label."""
     if place[0] < at[0] < _LOW and math.dist(place, at) < 0.3:
         return {"xanchor": "right", "yshift": 14}
     return {"xanchor": "left", "xshift": 7, "yshift": 9 if place[0] < 0.35 else 0}

@@ -1,4 +1,4 @@
-"""Charts of the film in static equilibrium: its thickness, its pressure, the forces it exerts."""
+"""Charts of the film in static equilibrium: thickness, pressure and forces."""
 
 import math
 from typing import Any
@@ -24,7 +24,7 @@ _CAVITATED = "rgba(127,127,127,0.12)"
 def film_around(field: PressureField, point: Sweep, units: Units) -> Chart:
     """Return the film's thickness and its pressure in the middle plane around the journal.
 
-    Thinnest film and highest pressure are marked; without load neither has a place.
+    Thinnest film and highest pressure are marked; without load both are undefined.
     """
     theta, h = units.angle.of(field.theta), units.film.of(field.thickness)
     middle = int(np.argmin(np.abs(field.axial_position)))
@@ -71,7 +71,7 @@ def pressure_map(field: PressureField, point: Sweep, units: Units) -> Chart:
     title = style.titled("Pressure", "p", units.pressure.name)
     contour: Trace = {
         "type": "contour", "name": "pressure", "x": units.angle.of(field.theta[once]), "y": z,
-        "z": p[once].T.astype(np.float32),  # half the digits, half the message
+        "z": p[once].T.astype(np.float32),  # single precision halves the message
         "zmin": 0.0, "zmax": high, "colorscale": "Cividis", "line": {"width": 0.4},
         "contours": {"start": 0.0, "end": high, "size": high / 10},
         "colorbar": {"title": {"text": title, "side": "right"}, "thickness": 14, "outlinewidth": 0},
@@ -103,14 +103,14 @@ def forces(curves: FilmForces, at: FilmForces, units: Units) -> Chart:
         )
     ]
     if load == 0.0:
-        note = text.remark("no load: the journal is centred, the film does not push", 0.98, 0.03)
+        note = text.remark("no load: the journal is centred, the film force is zero", 0.98, 0.03)
         return style.chart(traces, x, y, height=HEIGHT, annotations=[note])
     e, parts = float(at.eccentricity_ratio), units.force.of(np.array([at.tangential, -at.radial]))
     marker = {"size": 9, "color": [_TANGENTIAL, _RADIAL], "line": {"color": style.HERE, "width": 2}}
     traces += [
         style.line([0.0, 1.0], [load, load], "load Fₒ", _SOFT, width=1.6, dash="dot"),
         style.mark(
-            [e, e], parts, "its parts", marker=marker, showlegend=False, hovertemplate=hover
+            [e, e], parts, "components", marker=marker, showlegend=False, hovertemplate=hover
         ),
         *style.here(e, load, x, y),
     ]
@@ -150,10 +150,10 @@ def force_balance(at: FilmForces, point: Sweep, units: Units) -> Chart:
 
 
 def _over_theta(field: PressureField, point: Sweep, units: Units, *, level: float) -> Part:
-    """Return what charts over θ share: the load's direction, and the broken film."""
+    """Return the common parts of charts over θ: the load's direction and the cavitated film."""
     load = point.machine.static_load
     if load == 0.0:
-        words = "no load: the film is even and without pressure"
+        words = "no load: uniform film, no pressure"
         return {"annotations": [text.remark(words, 0.5, level, xanchor="center")]}
     theta = units.angle.of(field.theta)
     at = float(units.angle.of(field.load_theta))
@@ -185,6 +185,6 @@ def _upright(left: float, right: float, **extra: Any) -> Part:
 
 
 def _runs(flags: BoolArray) -> list[tuple[int, int]]:
-    """Return first and last index of each run of flags that are set."""
+    """Return first and last index of each run of set flags."""
     edges = np.flatnonzero(np.diff(np.concatenate(([False], flags, [False]))))
     return [(int(first), int(after) - 1) for first, after in edges.reshape(-1, 2)]

@@ -1,4 +1,4 @@
-"""The bearing in cross-section, with the journal where it sits and the pressure around it."""
+"""The bearing in cross-section, with journal, equilibrium position and pressure distribution."""
 
 import math
 from typing import Any
@@ -13,7 +13,7 @@ from rotorcalc.figures import style
 from rotorcalc.figures.style import Chart, Trace
 from rotorcalc.units import Units
 
-# Share of the bore's radius that the clearance takes where the film is exaggerated.
+# Clearance over the bore's radius in the exaggerated drawing; to scale it would be invisible.
 EXAGGERATED = 0.3
 _ANGLES = np.linspace(0.0, 2.0 * np.pi, 181)
 
@@ -32,7 +32,7 @@ def cross_section(
     units : Units
         Units of display.
     to_scale : bool
-        Whether the film is drawn as thin as it is; else the clearance is drawn at 30 % of the bore.
+        Whether to draw the film to scale; otherwise the clearance is drawn as 30 % of the bore.
 
     Returns
     -------
@@ -86,9 +86,9 @@ def _ring(centre: Array, radius: float, name: str, colour: str, *, fill: str | N
 
 def _pressure(angles: Array, pressure: Array) -> list[Trace]:
     """Return the pressure as a band outside the bore, its height the pressure over its peak."""
-    if np.isnan(pressure).any():  # the film's model does not know it
+    if np.isnan(pressure).any():  # not given by the film's model
         return []
-    peak = max(float(np.max(pressure)), 1e-300)
+    peak = max(float(np.max(pressure)), 1e-300)  # without load there is no pressure to scale by
     outer = _circle(1.0 + 0.5 * pressure / peak, angles)
     inner = _circle(np.ones_like(angles), angles)[::-1]
     x, y = _drawn(np.concatenate((outer, inner)))

@@ -1,4 +1,4 @@
-"""Charts of the modes: their growth, frequency and damping over speed, and what one looks like."""
+"""Charts of the modes: growth rate, frequency and damping over speed, and mode shapes."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ Item = dict[str, Any]
 
 @dataclass(frozen=True, eq=False)
 class OverSpeed(Result):
-    """What every chart of modes over speed shows: the modes, their onset, the reader's units."""
+    """Common data of the charts over speed: modes, onset, units of display."""
 
     locus: Locus
     onset: Onset
@@ -65,7 +65,7 @@ def damping(shown: OverSpeed) -> Chart:
 def decrement(shown: OverSpeed) -> Chart:
     """Return the logarithmic decrements over speed."""
     low, high = _damping_range(shown.locus)
-    # A light damping ratio ζ makes a decrement of 2πζ.
+    # At light damping δ = 2πζ, and 8 leaves some room.
     y = style.axis(titled("Logarithmic decrement", "δ", "-"), 8.0 * low, 8.0 * high)
 
     def quantity(values: ComplexArray) -> Array:
@@ -108,7 +108,7 @@ def natural(shown: OverSpeed, *, rigid: Array, shaft: float) -> Chart:
 
 
 def shape(here: ModeShapes, mode: int, *, rigid: bool, spiral: bool = False) -> Chart:
-    """Return what a mode looks like: the orbits of disk and journal, and the shaft between them.
+    """Return a mode shape: the orbits of disk and journal, and the shaft between them.
 
     Parameters
     ----------

@@ -23,16 +23,16 @@ from rotorcalc.units import Unit, Units
 LINEAR = style.PURPLE
 UP, DOWN = style.GREEN, style.OCHRE
 _PLANE_HEIGHT = 680
-# Frames of an animation at most, points of a trail, revolutions that it reaches back.
+# Frames of an animation at most, points of the journal's trail, revolutions that the trail spans.
 _FRAMES, _TRAIL, _REACH = 120, 48, 2.0
-# Points of a line over time that a screen can tell apart.
+# Points of a line over time; more cannot be distinguished on a screen.
 _MOST_POINTS = 6000
 _MARGIN = {"l": 64, "r": 16, "t": 16, "b": 96}
 _LEGEND = {"orientation": "h", "x": 0, "yref": "container", "y": 0, "yanchor": "bottom"}
 
 
 def orbit(let_go: Release, units: Units) -> Chart:
-    """Return the journal's path in the clearance circle, to play and to scrub."""
+    """Return the journal's path in the clearance circle, with play buttons and a slider."""
     unit, C = units.film, float(units.film.of(let_go.clearance))
     x, y = _plane_axes(1.06 * C, unit)
     steps, labels = _steps(let_go, unit)
@@ -80,7 +80,7 @@ def over_time(let_go: Release, units: Units) -> Chart:
 
 
 def film(let_go: Release, units: Units) -> Chart:
-    """Return the thinnest film over revolutions, and its least."""
+    """Return the minimum film thickness over revolutions, its smallest value marked."""
     unit, thickness = units.film, let_go.film
     place = int(np.argmin(thickness))
     x = style.axis("Revolutions since the release [-]", 0.0, float(let_go.revolutions[-1]))
@@ -143,7 +143,7 @@ def spectrum(let_go: Release, units: Units) -> Chart:
 
 
 def once_a_revolution(let_go: Release, units: Units) -> Chart:
-    """Return where the journal is once a revolution, over the last quarter in strong colour."""
+    """Return the journal's positions once per revolution, the last quarter emphasised."""
     unit = units.film
     reach = 1.06 * float(unit.of(let_go.clearance))
     x, y = _plane_axes(reach, unit)
@@ -194,7 +194,7 @@ def cycles(
 ) -> Chart:
     """Return the limit cycles over speed, stable solid and unstable broken, with two sweeps.
 
-    `swept` holds rising speeds [rad/s] and the amplitudes of creeping up and down [m].
+    `swept` holds rising speeds [rad/s] and the amplitudes as the speed slowly rises and falls [m].
     """
     C, onset = branch.hopf.clearance, float(units.speed.of(branch.hopf.speed))
     at = units.speed.of(np.append(branch.hopf.speed, branch.speed))
@@ -237,7 +237,7 @@ def onset_growth(found: Onsets, curve: GrowthCurve, units: Units) -> Chart:
     y = style.axis(titled("Growth rate", "", units.growth.name), -reach, reach)
     zero = float(units.speed.of(found.eigenvalues))
     traces = [
-        style.line(x["range"], [0.0, 0.0], "neither grows nor dies", style.GREY, width=1.2,
+        style.line(x["range"], [0.0, 0.0], "zero growth", style.GREY, width=1.2,
                    showlegend=False),
         style.line(units.speed.of(curve.speed), curve.rate, "eigenvalues, max Re λ", LINEAR,
                    dash="dash"),
@@ -282,9 +282,9 @@ def _steady(let_go: Release, unit: Unit) -> list[Trace]:
 
 
 def _steps(let_go: Release, unit: Unit) -> tuple[list[list[Trace]], list[str]]:
-    """Return what moves of the moving traces at each step of the animation, and the steps' labels.
+    """Return the moving traces at each step of the animation, and the steps' labels.
 
-    Half the digits are enough for a screen.
+    Single precision suffices on screen.
     """
     n, turns = len(let_go.motion.time), let_go.revolutions
     ends = np.unique(np.linspace(0, n - 1, min(_FRAMES, n)).astype(int))
@@ -323,7 +323,7 @@ def _at(points: NDArray[np.float32]) -> Trace:
 
 
 def _placed(chart: Chart) -> Chart:
-    """Return a chart with its slider right of the buttons, below the plot."""
+    """Return a chart with its slider below the plot."""
     (slider,) = chart["layout"]["sliders"]
     moved = {**slider, "x": 0.0, "len": 1.0, "y": -0.11, "yanchor": "top", "pad": {"t": 6}}
     return {**chart, "layout": {**chart["layout"], "sliders": [moved]}}
@@ -385,7 +385,7 @@ def _branch_lines(at: Array, size: Array, branch: Bifurcation) -> list[Trace]:
             style.line(at, np.where(joint, size, np.nan), "limit cycle, unstable", style.UNSTABLE,
                        dash="dash", hovertemplate=hover)
         )  # fmt: skip
-    # Cycles are few; the eye wants the smooth curve on which they lie.
+    # The cycles are few, so a spline draws the smooth curve on which they lie.
     return [{**line, "line": {**line["line"], "shape": "spline"}} for line in lines]
 
 
@@ -393,8 +393,8 @@ def _sweeps(swept: tuple[Array, Array, Array], C: float, units: Units) -> list[T
     speed, up, down = swept
     at = units.speed.of(speed)
     return [
-        style.line(at, up / C, "creeping up ▸", UP, width=1.6, dash="dot"),
-        style.line(at, down / C, "creeping down ◂", DOWN, width=1.6, dash="dot"),
+        style.line(at, up / C, "speed slowly rising ▸", UP, width=1.6, dash="dot"),
+        style.line(at, down / C, "speed slowly falling ◂", DOWN, width=1.6, dash="dot"),
     ]
 
 

@@ -1,6 +1,6 @@
 """Drawing in the plane across the shaft: X, the load's direction, down, and Y to the right.
 
-So a journal that turns X→Y turns anticlockwise. Places are (X, Y), angles run from X towards Y.
+So a journal that turns X→Y turns anticlockwise. Points are (X, Y), angles run from X towards Y.
 """
 
 import math
@@ -36,7 +36,7 @@ def line(places: ArrayLike, name: str, colour: str, **extra: Any) -> Trace:
 
 def arc(start: float, end: float, radius: float) -> Array:
     """Return the places of an arc about the centre."""
-    angle = np.linspace(start, end, 49)
+    angle = np.linspace(start, end, 49)  # 7.5° a chord over a full turn, no corner to be seen
     return radius * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
 
 
@@ -94,7 +94,7 @@ def stroke(tail: tuple[float, float], tip: tuple[float, float]) -> Part:
 
 
 def turning(start: float, end: float, radius: float) -> list[Part]:
-    """Return shapes of an arc that an arrow from `turning_head` ends: a sense of rotation."""
+    """Return the arc of an arrow that shows a sense of rotation; `turning_head` is its head."""
     path = "L".join(f"{Y:.4f},{X:.4f}" for X, Y in arc(start, end, radius))
     return [{"type": "path", "path": f"M{path}", "line": {"color": style.GREY, "width": 2.5}}]
 

@@ -1,8 +1,8 @@
 """Charts of the steady response to imbalance: amplitude and phase over speed, and orbits.
 
-Orbits are drawn as one looks at the bearing: X, along the load, points down and Y to the right, so
-the shaft turns anticlockwise. A dot marks the instant when the imbalance points down, along X; an
-arrowhead the sense in which the orbit runs.
+Orbits are drawn with X, along the load, pointing down and Y to the right, so that the shaft turns
+anticlockwise. A dot marks the instant when the imbalance points down, along X; an arrowhead the
+direction of motion.
 """
 
 import math
@@ -26,14 +26,14 @@ from rotorcalc.unbalance_peaks import ResponsePeaks
 from rotorcalc.units import Unit, Units
 
 _HEIGHT = 470
-# Room above the highest peak, for its label.
+# Axis over the highest peak, which leaves room for the peak's label.
 _HEADROOM = 1.12
-# Two entries a row, so that charts side by side keep one height of plot.
+# Two entries per row, so that charts side by side have plots of equal height.
 _TWO_COLUMNS = {
     "orientation": "h", "x": 0, "y": 1.01, "yanchor": "bottom",
     "entrywidth": 0.44, "entrywidthmode": "fraction",
 }  # fmt: skip
-# Colour and width of a family's lines beside this machine's, in the order of what varies.
+# Colour and width of the variants' lines, in the order of the parameter that varies.
 _VARIANTS = (
     (style.PURPLE, 1.4), (style.GREEN, 1.4), (style.GREY, 1.4), (style.PURPLE, 2.8),
     (style.GREEN, 2.8),
@@ -67,7 +67,7 @@ def amplitude(curves: ResponseCurves, shown: Literal["axes", "XY"], units: Units
 
 
 def phase(curves: ResponseCurves, units: Units) -> Chart:
-    """Return by how much X and Y of disk and journal lag the imbalance, against speed."""
+    """Return the phase lags of X and Y of disk and journal behind the imbalance, against speed."""
     x, unit = _speed_axis(curves, units), units.angle
     bodies = _bodies(curves)
     lags = unit.of(np.concatenate([body.lag for _, body, _, _ in bodies]))
@@ -92,7 +92,7 @@ def in_clearance(orbit: ClearanceOrbit, locus: Array, units: Units) -> Chart:
     reach = float(unit.of(1.06 * farthest))
     x, y = _plane(reach, unit)
     centre = unit.of(orbit.centre)
-    bottom = {**y, "range": [reach, reach]}  # the axis runs down, its larger end is below
+    bottom = {**y, "range": [reach, reach]}  # reversed axis: its larger end is at the bottom
     guide, point = style.here(float(centre[1]), float(centre[0]), x, bottom)
     small = {**point, "marker": {**point["marker"], "size": 7}, "showlegend": False}
     traces = [
@@ -115,7 +115,7 @@ def at_running_speed(orbits: Orbits, units: Units) -> Chart:
 
 
 def scrubber(steps: Orbits, here: Orbits, units: Units) -> Chart:
-    """Return the orbits with a slider over speed that runs in the browser."""
+    """Return the orbits with a speed slider that runs in the browser."""
     unit = units.film
     moments = [
         (float(speed), disk, journal)
@@ -126,7 +126,7 @@ def scrubber(steps: Orbits, here: Orbits, units: Units) -> Chart:
     moments.sort(key=lambda moment: moment[0])
     points = unit.of(np.concatenate([path for _, *paths in moments for path in paths]))
     x, y = _plane(style.ceiling(1.05 * np.abs(points)), unit)
-    # A name without the sense of whirl: that may change with speed.
+    # The sense of whirl may change with speed, so the name omits it.
     traces = style.joined([_orbit(p, unit, n.split(",")[0], c) for n, p, c in _paths(here)])
     frames = [_frame(*moment, here.is_rigid, units) for moment in moments]
     active = [speed for speed, *_ in moments].index(float(here.speed))
@@ -167,7 +167,7 @@ def family(
 
 
 def _bodies(curves: ResponseCurves) -> list[tuple[str, BodyResponse, ResponsePeaks, str]]:
-    """Return name, response, peaks and colour of each body: of a rigid rotor there is one."""
+    """Return name, response, peaks and colour of each body; a rigid rotor is one body."""
     journal = ("journal", curves.journal, curves.journal_peaks, style.JOURNAL)
     if curves.is_rigid:
         return [("rotor", *journal[1:])]
@@ -210,7 +210,7 @@ def _peak_marks(peaks: ResponsePeaks, body: str, colour: str, units: Units) -> l
 
 
 def _peak_labels(peaks: ResponsePeaks, body: str, units: Units, x: Axis) -> list[dict[str, Any]]:
-    """Return size and speed of each peak in words, the disk's to its left, others' to its right."""
+    """Return labels with amplitude and speed of each peak, on the side with more room."""
     right = max(x["range"])
     labels: list[dict[str, Any]] = []
     sizes = units.film.of(peaks.amplitude)
@@ -227,13 +227,13 @@ def _peak_labels(peaks: ResponsePeaks, body: str, units: Units, x: Axis) -> list
 
 
 def _guide(speed: float, colour: str) -> dict[str, Any]:
-    """Return a thin line at the speed of a peak, where the curves shown do not touch it."""
+    """Return a thin line at the speed of a peak: peaks of the axes are not those of X and Y."""
     return {"type": "line", "x0": speed, "x1": speed, "y0": 0, "y1": 1, "yref": "paper",
             "line": {"color": colour, "width": 1.2, "dash": "dot"}}  # fmt: skip
 
 
 def _shades(curves: ResponseCurves, units: Units) -> list[dict[str, Any]]:
-    """Return the ranges of speed where no response is steady, shaded."""
+    """Return shaded ranges of speed in which the machine is unstable."""
     return [
         {"type": "rect", "x0": float(first), "x1": float(last), "y0": 0, "y1": 1, "yref": "paper",
          "fillcolor": style.SHADE, "line": {"width": 0}, "layer": "below"}
@@ -251,7 +251,7 @@ def _unstable_note(curves: ResponseCurves) -> list[dict[str, Any]]:
 def _points(
     curves: ResponseCurves, values: Array, axes: tuple[Axis, Axis], units: Units
 ) -> list[Trace]:
-    """Return the running speed's marks, one on each line, guides from the highest."""
+    """Return the running speed's marks, one on each line, with guides from the highest."""
     now = float(units.speed.of(curves.running_speed))
     lines, point = style.here(now, float(values.max()), *axes)
     point = {**point, "showlegend": False}
@@ -316,7 +316,7 @@ def _arrow(points: Array, unit: Unit, name: str, colour: str) -> Trace:
 
 
 def _frame(speed: float, disk: Array, journal: Array, rigid: bool, units: Units) -> dict[str, Any]:
-    """Return the moved traces of one step of the scrubber."""
+    """Return the traces of one step of the slider."""
     paths = [journal] if rigid else [disk, journal]
     moved = [_moved(trace) for path in paths for trace in _orbit(path, units.film, "", style.GREY)]
     return {
@@ -327,8 +327,8 @@ def _frame(speed: float, disk: Array, journal: Array, rigid: bool, units: Units)
 
 
 def _moved(trace: Trace) -> Trace:
-    """Return what of an orbit's trace changes with speed."""
-    # Half the digits are enough for a screen, and half as much to send.
+    """Return the properties of an orbit's trace that change with speed."""
+    # Single precision suffices on screen and halves the message.
     place = {axis: trace[axis].astype(np.float32) for axis in ("x", "y")}
     angle = trace.get("marker", {}).get("angle")
     return place if angle is None else place | {"marker": {"angle": angle}}
@@ -387,7 +387,7 @@ def _by_stability(
 
 
 def _variant_name(rotor: Rotor, varied: Literal["damping", "mass"], units: Units) -> str:
-    """Return what a rotor of a family is called."""
+    """Return the legend's name of a variant."""
     if varied == "damping":
         unit, value, symbol = units.shaft_damping, rotor.disk_damping, "C<sub>s</sub>"
     else:

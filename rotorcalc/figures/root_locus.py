@@ -14,22 +14,22 @@ from rotorcalc.onset import Onset
 from rotorcalc.root_locus import Locus
 from rotorcalc.units import Units
 
-# Speeds at which the scrubber stops, one every 2.5 % of the top speed.
+# Stops of the speed slider, one every 2.5 % of the top speed.
 _STEPS = 40
-# From slow to fast, apart from each other to colour-blind eyes, and 3 : 1 on light and dark.
+# From slow to fast, distinct for colour-blind readers, contrast 3 : 1 on light and dark.
 _SLOW_TO_FAST = ((43, 123, 186), (176, 86, 159), (214, 128, 10))
 # A Plotly line has one colour, so a branch is drawn in pieces; with twelve the steps hardly show.
 _PIECES = 12
-# A mode more damped than this hardly swings, and lies far left of the others.
+# A mode with a larger damping ratio hardly oscillates, and lies far to the left of the others.
 HARDLY_SWINGS = 0.7
-# Damping ratios of the rays, each twice the one before: light damping is what matters.
+# Damping ratios of the rays, each twice the previous one: light damping matters most.
 _RAYS = (0.05, 0.1, 0.2, 0.4)
 _HOVER = "Ω %{customdata:.0f}<br>Re λ %{x:.4g}<br>Im λ %{y:.0f}<extra></extra>"
 Item = dict[str, Any]
 
 
 def plane(locus: Locus, onset: Onset, units: Units) -> Chart:
-    """Return the root locus in the complex plane, upper half, with its speed scrubber.
+    """Return the root locus in the upper half of the complex plane, with its speed slider.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def plane(locus: Locus, onset: Onset, units: Units) -> Chart:
 
 
 def beyond(locus: Locus, units: Units) -> str:
-    """Return in words which modes at the running speed the complex plane does not show."""
+    """Return a text naming the modes at the running speed that lie outside the view."""
     left, right, top = window(locus, units)
     words: list[str] = []
     for i, value in enumerate(locus.here.eigenvalues, start=1):
@@ -78,7 +78,7 @@ def beyond(locus: Locus, units: Units) -> str:
 
 
 def window(locus: Locus, units: Units) -> tuple[float, float, float]:
-    """Return how far a view of the modes that whirl goes left, right and up."""
+    """Return the extents of a view of the whirling modes to the left, right and top."""
     real, frequency = _whirling(locus, units)
     left = style.ceiling(-real)
     return left, max(style.ceiling(real), left / 3.0), style.ceiling(frequency)
@@ -105,7 +105,7 @@ def points(locus: Locus, x: Array, y: Array, x_axis: Axis, y_axis: Axis) -> list
 
 
 def _whirling(locus: Locus, units: Units) -> tuple[Array, Array]:
-    """Return rates and frequencies of the modes that whirl no faster than the shaft turns."""
+    """Return growth rates and frequencies of the modes that whirl below the top speed."""
     values = locus.branches[np.isfinite(locus.branches)]
     waves = values[values.imag > 0.0] if np.any(values.imag > 0.0) else values
     slow = waves[np.imag(waves) <= 1.1 * locus.speed[-1]]
@@ -169,9 +169,9 @@ def _crossing(onset: Onset, locus: Locus, units: Units) -> list[Trace]:
 
 
 def _steps(locus: Locus, x: Axis, units: Units) -> tuple[Array, list[list[Trace]], int]:
-    """Return the scrubber's speeds, what it moves at each, and its step at the running speed.
+    """Return the slider's speeds, the traces at each, and its step at the running speed.
 
-    It moves the line of half the speed, and a ring about each eigenvalue.
+    The moving traces are the line of half the speed, and a ring around each eigenvalue.
     """
     places = np.unique(np.linspace(0, len(locus.speed) - 1, _STEPS).round().astype(int))
     speeds, values = locus.speed[places], locus.branches[places]
@@ -189,10 +189,10 @@ def _steps(locus: Locus, x: Axis, units: Units) -> tuple[Array, list[list[Trace]
 
 
 def _moving(step: list[Trace]) -> list[Trace]:
-    """Return the scrubber's traces at a step."""
+    """Return the slider's traces at a step."""
     half, rings = step
-    line = style.line(half["x"], half["y"], "½× slider's speed", style.GREY, dash="dash", width=1.2)
-    ring = style.mark(rings["x"], rings["y"], "slider's speed and ½×")
+    line = style.line(half["x"], half["y"], "½× slider speed", style.GREY, dash="dash", width=1.2)
+    ring = style.mark(rings["x"], rings["y"], "at the slider's speed")
     hollow = {"size": 15, "color": "rgba(0,0,0,0)", "line": {"color": style.GREY, "width": 2.5}}
     return [
         line | {"hoverinfo": "skip", "showlegend": False, **style.LIVE_ONLY},
@@ -223,7 +223,7 @@ def _sides() -> list[Item]:
 
 
 def _rays(left: float, top: float, units: Units) -> list[tuple[Item, Item]]:
-    """Return rays of constant damping ratio with their names, those that the view shows well."""
+    """Return rays of constant damping ratio with their names, those of visible length."""
     reach = units.speed.to_si(top)
     rays: list[tuple[Item, Item]] = []
     for ratio in _RAYS:

@@ -1,4 +1,4 @@
-"""Charts of stability: threshold over speed, the notes' Figs. 5.7 to 5.10, energy of the whirl."""
+"""Charts of stability: thresholds over speed, the notes' Figs. 5.7 to 5.10, energy of whirl."""
 
 import math
 from dataclasses import dataclass, replace
@@ -18,10 +18,10 @@ from rotorcalc.whirl_energy import Thresholds, WhirlEnergy
 
 Item = dict[str, Any]
 
-# Under the axis, at the figure's lower edge: it takes nothing from the plot and meets nothing.
+# At the figure's lower edge, where it neither narrows the plot nor overlaps the axis title.
 LEGEND = {"orientation": "h", "x": 0, "yref": "container", "y": 0, "yanchor": "bottom"}
 MARGIN = {"l": 64, "r": 16, "t": 16, "b": 112}
-# Stands for infinity: a line can rise to it, beyond the end of any axis.
+# Stands for infinity: a line rises to it, beyond the end of any axis.
 _BEYOND = 1e7
 _STABLE = "rgba(0,145,106,0.13)"
 # Half the space between the two bars at one speed, and their width.
@@ -30,7 +30,7 @@ _BESIDE, _WIDE = 0.19, 0.34
 
 @dataclass(frozen=True)
 class Crossing:
-    """Where a machine goes unstable, and whether the threshold's closed form tells it."""
+    """The onset of a machine, and whether the threshold's closed form applies to it."""
 
     onset: Onset
     closed_form: bool
@@ -38,7 +38,7 @@ class Crossing:
 
 @dataclass(frozen=True, eq=False)
 class FilmFigure(Result):
-    """What the notes' figures share: the film's curves, their end, this machine, the abscissa.
+    """Common data of the notes' figures: the film's curves, the limit of whirl, this machine.
 
     `here` is the film at the running speed, None without load, where σ is infinite; `limit` the
     one at which whirl ends, None where whirl has no such end.
@@ -194,7 +194,7 @@ def flexible_threshold(
 
 
 def energy_bars(energies: Energies, units: Units) -> Chart:
-    """Return what the whirl orbit gains and loses in a turn, now and at the onset, as bars."""
+    """Return the energy gained and lost by the whirl orbit in a turn, as bars at two speeds."""
     stops = [energies.here] if energies.at_onset is None else [energies.here, energies.at_onset]
     gains = np.array([float(units.stiffness.of(stop.fed_in)) for stop in stops])
     films = np.array([float(units.stiffness.of(stop.film_loss)) for stop in stops])
@@ -205,10 +205,10 @@ def energy_bars(energies: Energies, units: Units) -> Chart:
     top = style.ceiling([1.12 * gains.max(), 1.12 * (films + disks).max()])
     bars = [
         _bar(places - _BESIDE, gains, "fed in, K<sub>XY</sub> − K<sub>YX</sub>", style.UNSTABLE),
-        _bar(places + _BESIDE, films, "taken out by the film", style.JOURNAL),
+        _bar(places + _BESIDE, films, "dissipated by the film", style.JOURNAL),
     ]
     if disks.any():
-        bars.append(_bar(places + _BESIDE, disks, "taken out at midspan", style.DISK, base=films))
+        bars.append(_bar(places + _BESIDE, disks, "dissipated at midspan", style.DISK, base=films))
     return style.chart(
         bars,
         style.axis("", -0.6, len(stops) - 0.4, tickvals=places, ticktext=titles),
@@ -221,7 +221,7 @@ def energy_bars(energies: Energies, units: Units) -> Chart:
 
 
 def energy(energies: Energies, crossing: Crossing, units: Units) -> Chart:
-    """Return what the whirl orbit would gain and lose in a turn over speed; equal at the onset."""
+    """Return the whirl orbit's energy gain and loss per turn over speed; equal at the onset."""
     over, here, unit = energies.over, energies.here, units.stiffness
     speed, x = units.speed.of(over.speed), _speed_axis(over, units.speed)
     loss, now = unit.of(over.film_loss + over.disk_loss), float(unit.of(here.fed_in))
@@ -232,13 +232,13 @@ def energy(energies: Energies, crossing: Crossing, units: Units) -> Chart:
     )
     lines = [
         style.line(speed, unit.of(over.fed_in), "fed in", style.UNSTABLE),
-        style.line(speed, loss, "taken out", style.JOURNAL),
+        style.line(speed, loss, "dissipated", style.JOURNAL),
     ]
     if np.any(over.disk_loss):
         part = unit.of(over.disk_loss)
-        lines.append(style.line(speed, part, "of it at midspan", style.DISK, dash="dash"))
+        lines.append(style.line(speed, part, "of which at midspan", style.DISK, dash="dash"))
     rpm, onset = float(units.speed.of(here.speed)), float(units.speed.of(crossing.onset.speed))
-    second = style.mark(rpm, lost, "taken out at the running speed", showlegend=False)
+    second = style.mark(rpm, lost, "dissipated at the running speed", showlegend=False)
     return _over_speed(
         [*lines, second],
         (x, y),
@@ -274,7 +274,7 @@ def _over_speed(
     if _inside(here, axes):
         traces += style.here(*here, x, y)
     else:
-        notes.append(_beyond("running speed: no whirl at all, ε is too high", here[1], y))
+        notes.append(_beyond("running speed: no whirl, ε is too high", here[1], y))
     return style.chart(traces, x, y, annotations=notes, legend=LEGEND, margin=MARGIN, **layout)
 
 
@@ -288,7 +288,7 @@ def _pair(speed: Array, rigid: Array, flexible: Array, crossing: Crossing) -> li
 
 def _finite(x: Array, y: Array, name: str, colour: str, crossing: Crossing) -> Trace:
     if not crossing.closed_form:
-        name += ", bare"
+        name += ", closed form"
     dash = "solid" if crossing.closed_form else "dash"
     return style.line(x, _drawable(y), name, colour, dash=dash)
 
@@ -299,12 +299,12 @@ def near(axis: Axis) -> Axis:
 
 
 def _shown(values: ArrayLike, most: float) -> Array:
-    """Return values for which an axis makes room; any above `most` would squeeze the rest."""
+    """Return values that an axis must include, none above `most`, which would squeeze the rest."""
     return np.minimum(np.asarray(values, dtype=float), most)
 
 
 def _drawable(values: Array) -> Array:
-    """Return values with infinity as a number beyond every axis, to which a line can rise."""
+    """Return values with infinity replaced by a number beyond every axis."""
     return np.where(np.isposinf(values), _BEYOND, values)
 
 
@@ -325,7 +325,7 @@ def _unstable_side(onset: float, x: Axis) -> list[Item]:
 
 
 def _verdict(onset: float, x: Axis, unit: Unit) -> Item:
-    """Return in words which side of the chart is unstable."""
+    """Return a text that says which side of the chart is unstable."""
     if onset == 0.0:
         words = "no load: unstable at any speed"
     elif math.isinf(onset):
@@ -384,7 +384,7 @@ def _where(figure: FilmFigure) -> str:
 
 
 def _at_the_free_end(figure: FilmFigure, words: str, height: float) -> Item:
-    """Return a line's name above it at the end where the film is centred."""
+    """Return a line's name above its end at the centred film."""
     at, anchor = (0.0, "left") if figure.over_eccentricity else (2.0, "right")
     return {
         "text": words, "y": height, "xref": "x", "yref": "y", "yanchor": "bottom",
@@ -406,7 +406,7 @@ def _bar(x: Array, y: Array, name: str, colour: str, base: Array | None = None) 
 
 
 def _level(places: Array, gains: Array) -> list[Item]:
-    """Return a line across the bars at the onset, on which they meet."""
+    """Return a line across the bars at the onset, where they are equal."""
     left, right = places[-1] - _BESIDE - _WIDE / 2, places[-1] + _BESIDE + _WIDE / 2
     return [
         {
@@ -423,7 +423,7 @@ def _box(**place: Any) -> Item:
 
 
 def _beyond(words: str, value: float, y: Axis) -> Item:
-    """Return a note on the running speed's point where the chart cannot show it."""
+    """Return a note on a running-speed point outside the chart."""
     if math.isfinite(value):
         side = "above" if value > _high(y) else "below"
         words = f"running speed: {value:.3g}, {side} the axis"

@@ -1,8 +1,8 @@
-"""What all charts share: colours, axes, lines, the mark of the running speed, one template.
+"""The style of all charts: colours, axes, lines, the mark of the running speed, one template.
 
-A chart is one plain dict of Plotly's figure, built in one go; `figure` makes a `go.Figure` of it
-for a notebook. Colours name what is drawn, the same thing always in the same colour; they keep a
-contrast of 3 : 1 on white and on near-black, and differ to colour-blind eyes.
+A chart is one plain dict of Plotly's figure, built in one go, fifty times faster than `go.Figure`;
+`figure` converts it for a notebook. The same quantity always has the same colour; colours keep a
+contrast of 3 : 1 on white and on near-black and are distinct for colour-blind readers.
 """
 
 import math
@@ -31,12 +31,12 @@ HERE = "#f0b400"
 FAINT = "rgba(127,127,127,0.28)"
 SHADE = "rgba(209,84,31,0.12)"
 
-# Added to a trace that throws no shadow when two machines are compared: an arrowhead.
+# Marks a trace, such as an arrowhead, that is not repeated in grey when machines are compared.
 LIVE_ONLY: dict[str, Any] = {"meta": "live only"}
 
 HEIGHT = 380
 SMALL_HEIGHT = 280
-# The share of two panes, one above the other, in a chart's height.
+# Shares of a chart's height for two panes, one above the other.
 UPPER, LOWER = [0.55, 1.0], [0.0, 0.45]
 # Round ends of an axis within a decade, so close that at most a quarter of it stays empty.
 _LADDER = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
@@ -44,20 +44,21 @@ _LADDER = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
 
 def figure(chart: Chart) -> "go.Figure":
     """Return a chart as Plotly's own figure object, for a notebook."""
-    # A page of dicts never needs it.
+    # Imported on use: pages draw dicts and never need it, and it is slow to import.
     import plotly.graph_objects as go  # noqa: PLC0415 # pyright: ignore[reportMissingTypeStubs]
 
     return go.Figure(chart)
 
 
 def ceiling(values: ArrayLike, least: float = 0.0) -> float:
-    """Return a round number at or above all finite values: an axis that seldom needs to move."""
+    """Return a round number at or above all finite values, an axis end that seldom changes."""
     finite = np.asarray(values, dtype=float)
     finite = finite[np.isfinite(finite)]
     top = max(float(finite.max(initial=0.0)), least)
     if top <= 0.0:
         return 1.0
     power = 10.0 ** math.floor(math.log10(top))
+    # A maximum that is round already may be off by rounding.
     return next(step * power for step in _LADDER if step * power >= top * (1 - 1e-12))
 
 
@@ -70,7 +71,7 @@ def decades(values: ArrayLike) -> tuple[float, float]:
 
 
 def axis(title: str, low: float, high: float, *, log: bool = False, **extra: Any) -> Axis:
-    """Return an axis with a fixed range, given in data units also where it is logarithmic."""
+    """Return an axis with a fixed range, in data units also for a logarithmic axis."""
     span = [math.log10(low), math.log10(high)] if log else [low, high]
     kind = {"type": "log", "dtick": 1} if log else {"type": "linear"}
     return {"title": {"text": title}, "range": span, **_AXIS, **kind, **extra}
@@ -80,7 +81,7 @@ def line(x: ArrayLike, y: ArrayLike, name: str, colour: str, **extra: Any) -> Tr
     """Return a line; `dash` and `width` style it, anything else goes to the trace."""
     style = {
         "color": colour, "width": extra.pop("width", 2.2), "dash": extra.pop("dash", "solid"),
-        "simplify": False,  # left to itself Plotly drops points until curves show corners
+        "simplify": False,  # Plotly's simplification leaves visible corners
     }  # fmt: skip
     return {
         "type": "scatter", "mode": "lines", "x": np.asarray(x), "y": np.asarray(y),
@@ -106,12 +107,12 @@ def lower(traces: Iterable[Trace]) -> list[Trace]:
 
 
 def mark(x: ArrayLike, y: ArrayLike, name: str, colour: str = HERE, **extra: Any) -> Trace:
-    """Return a point that stands out on light and dark: by default the running speed's."""
+    """Return a marker visible on light and dark, by default the running speed's."""
     return {
         "type": "scatter", "mode": "markers", "name": name,
         "x": np.atleast_1d(x), "y": np.atleast_1d(y),
         "marker": {"size": 11, "color": colour, "line": {"color": "#333333", "width": 1.5}},
-        "cliponaxis": False,  # whole, also on the edge of the plot
+        "cliponaxis": False,  # drawn whole at the edge of the plot too
         **extra,
     }  # fmt: skip
 
@@ -122,7 +123,7 @@ def chart(traces: Iterable[Trace], x: Axis, y: Axis, **layout: Any) -> Chart:
 
 
 def with_baseline(chart: Chart, baseline: Chart) -> Chart:
-    """Return a chart with the lines and marks of another machine's behind it, thin and grey."""
+    """Return a chart with another machine's lines and marks behind it, thin and grey."""
     drawn = [_outline(trace) for trace in chart["data"]]
     ghosts = [
         _ghost(trace)
@@ -133,7 +134,7 @@ def with_baseline(chart: Chart, baseline: Chart) -> Chart:
     ]
     layout = _widened(chart["layout"], baseline["layout"])
     behind = {**chart, "data": [*ghosts, *chart["data"]], "layout": layout}
-    if "frames" in chart:  # a frame names the traces that it moves by their places
+    if "frames" in chart:  # a frame refers to its traces by index, which the grey ones shift
         behind["frames"] = [
             {**frame, "traces": [place + len(ghosts) for place in frame["traces"]]}
             for frame in chart["frames"]
@@ -142,7 +143,7 @@ def with_baseline(chart: Chart, baseline: Chart) -> Chart:
 
 
 def _widened(layout: Chart, other: Chart) -> Chart:
-    """Return a layout whose axes hold another's ranges too, an axis that runs down running down."""
+    """Return a layout whose axes include another's ranges, reversed axes staying reversed."""
     axes: Chart = {}
     for name, axis in layout.items():
         there = other.get(name)
@@ -154,13 +155,13 @@ def _widened(layout: Chart, other: Chart) -> Chart:
 
 
 def themed(chart: Chart, *, dark: bool) -> Chart:
-    """Return a chart with its text in the colour that a light or dark page wants."""
+    """Return a chart with its text in the colour for a light or a dark page."""
     font = {**chart["layout"]["font"], "color": _TEXT_ON_DARK if dark else _TEXT}
     return {**chart, "layout": {**chart["layout"], "font": font}}
 
 
 def small(chart: Chart) -> Chart:
-    """Return a chart as an overview shows it: less high, without a legend and words in it."""
+    """Return a chart for an overview: lower, without legend and annotations."""
     overview: Chart = {
         "height": SMALL_HEIGHT,
         "showlegend": False,
@@ -171,14 +172,14 @@ def small(chart: Chart) -> Chart:
 
 
 def note(text: str, x: float, y: float, **extra: Any) -> dict[str, Any]:
-    """Return a short text in the chart at a place given in fractions of the plot."""
+    """Return a short text at a point given in fractions of the plot."""
     return {
         "text": text, "x": x, "y": y, "xref": "paper", "yref": "paper", "showarrow": False, **extra,
     }  # fmt: skip
 
 
 def _outline(trace: Trace) -> tuple[bytes, ...]:
-    """Return what a trace draws, to tell whether another draws the same."""
+    """Return the data of a trace, to see whether another draws the same."""
     return tuple(np.asarray(trace.get(key, ()), dtype=float).tobytes() for key in ("x", "y"))
 
 
@@ -201,7 +202,7 @@ def titled(words: str, symbol: str, unit: str) -> str:
 
 
 def legend_below() -> dict[str, Any]:
-    """Return a legend under the chart, where it takes nothing from the plot's width."""
+    """Return a legend below the chart, where it leaves the plot its full width."""
     return {"orientation": "h", "x": 0, "y": -0.22, "yanchor": "top"}
 
 

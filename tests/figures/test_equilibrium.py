@@ -113,7 +113,7 @@ def test_ranges_are_fixed_and_hold_the_point(name: str, case: str, units: Units)
         assert low < high < math.inf
         for trace in chart["data"]:
             on = axis == "x" or trace.get("yaxis", "y") == axis
-            if on and trace.get("mode") == "markers" and trace["name"] != "its parts":
+            if on and trace.get("mode") == "markers" and trace["name"] != "components":
                 values = np.asarray(trace[axis[0]], dtype=float)
                 values = values[np.isfinite(values)]
                 shown = np.log10(values) if layout["type"] == "log" else values
@@ -205,7 +205,7 @@ def test_forces_meet_the_load_at_the_point(case: str, units: Units) -> None:
     chart = CHARTS["forces"](r, units)
     load = float(units.force.of(r.point.machine.static_load))
     assert _mark(chart) == pytest.approx((float(r.point.eccentricity_ratio), load))
-    parts = next(trace for trace in chart["data"] if trace["name"] == "its parts")
+    parts = next(trace for trace in chart["data"] if trace["name"] == "components")
     assert math.hypot(*parts["y"]) == pytest.approx(load)
     total = next(trace for trace in chart["data"] if trace["name"] == "resultant F")
     if 0.01 < r.point.eccentricity_ratio < 0.88:

@@ -136,7 +136,7 @@ def test_a_baseline_behind_leaves_the_frames_their_traces():
     alone = plane_figure.plane(live.locus, live.onset, SI)
     both = with_baseline(alone, plane_figure.plane(pinned.locus, pinned.onset, SI))
     assert len(both["data"]) > len(alone["data"])
-    assert not [t for t in both["data"] if t["name"] == "A: slider's speed and ½×"]
+    assert not [t for t in both["data"] if t["name"] == "A: at the slider's speed"]
     for before, after in zip(alone["frames"], both["frames"], strict=True):
         moved = [both["data"][i]["name"] for i in after["traces"]]
         assert moved == [alone["data"][i]["name"] for i in before["traces"]]

@@ -112,7 +112,9 @@ def test_limit_cycles_show_both_branches_and_both_sweeps(eps):
         chart = orbits.cycles(branch, swept, running, SI)
         check_plotly_takes_it(chart)
         names = [trace["name"] for trace in chart["data"]]
-        assert {"limit cycle, stable", "limit cycle, unstable", "creeping up ▸"} <= set(names)
+        assert {"limit cycle, stable", "limit cycle, unstable", "speed slowly rising ▸"} <= set(
+            names
+        )
         assert any(name.startswith("fold") for name in names)
     stable = next(t for t in chart["data"] if t["name"] == "limit cycle, stable")
     assert np.isfinite(stable["y"]).sum() == branch.stable.sum() + branch.stable[0]
