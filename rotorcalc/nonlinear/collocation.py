@@ -1,4 +1,4 @@
-"""A limit cycle as a trigonometric polynomial, and the balance of forces that it must meet.
+"""A limit cycle as a trigonometric polynomial, and the balance of forces that it satisfies.
 
 A cycle of frequency ω is sought as a trigonometric polynomial for the journal, x(τ), τ = ωt, that
 meets the balance of film and rotor at equally spaced τ (collocation, which converges faster than
@@ -22,7 +22,7 @@ from rotorcalc.films import FilmUnits, film_of, journal_motion
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.rotor_impedance import impedance
 
-# Step of a difference of the film's force, as a share of what it must not pass, and its bounds.
+# Step of a difference of the film's force, as a share of the distance to kink or wall; its bounds.
 _DIFFERENCE_SHARE, _SMALLEST_DIFFERENCE, _LARGEST_DIFFERENCE = 1e-3, 1e-11, 1e-6
 
 
@@ -111,15 +111,15 @@ class Balance:
         return force, slopes[:, :, :2], slopes[:, :, 2:]
 
     def gap(self, path: Array) -> float:
-        """Return the thinnest film along a path of the journal, in C."""
+        """Return the minimum film thickness along a path of the journal, in C."""
         return float(np.min(self.wall(path)))
 
     def _difference(self, place: Array, velocity: Array) -> Array:
-        """Return how far to step for a difference of the force, (m, 1).
+        """Return the step of a difference of the force, (m, 1).
 
         A plain bearing's force is not smooth where the velocity relative to half speed whirl
-        vanishes, and large whirl comes to within a millionth of it: a step that passes it gives a
-        slope that belongs to neither side, and with it Newton's method crawls.
+        vanishes, and large whirl comes to within a millionth of it: a step across it gives a slope
+        of neither side, and with it Newton's method converges slowly.
         """
         relative = np.hypot(velocity[:, 0] + 0.5 * place[:, 1], velocity[:, 1] - 0.5 * place[:, 0])
         room = np.minimum(relative, self.wall(place))
@@ -143,5 +143,5 @@ def differentiation(m: int) -> Array:
 
 
 def harmonics(m: int) -> Array:
-    """Return the orders of the harmonics that m points hold, as an FFT has them."""
+    """Return the orders of the harmonics on m points, in the order of an FFT."""
     return np.fft.fftfreq(m, 1.0 / m).astype(float)

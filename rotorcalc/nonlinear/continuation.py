@@ -1,8 +1,8 @@
-"""Limit cycles followed from the onset by the length of their branch.
+"""Continuation of limit cycles from the onset, by pseudo-arclength.
 
-Each cycle is a step along the branch from the last, found by Newton's method on the balance of
-forces, its phase and the step's length; so the branch is followed through the folds at which it
-turns back.
+Each cycle is one step along the branch from the last, found by Newton's method on the balance of
+forces, a condition for its phase and the step's length; so the branch is followed through the folds
+at which it turns back.
 
 Source: Seydel, Practical Bifurcation and Stability Analysis, third edition, section 4.4.
 """
@@ -18,19 +18,20 @@ from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.collocation import Balance, Cycle, differentiation
 from rotorcalc.nonlinear.hopf import Hopf, whirl_shape
 
-# Points around a cycle to begin with and at most, always odd; doubled where the polynomial's last
+# Points around a cycle at first and at most, always odd; doubled where the polynomial's last
 # coefficients are larger than this share of the clearance.
 _FEWEST_POINTS, _MOST_POINTS = 33, 257
 _TAIL = 1e-6
-# Newton's method: steps at most, and the size of the last one.
+# Newton's method: steps at most, and the largest change at convergence.
 _ITERATIONS, _SETTLED = 10, 1e-9
-# Sizes of the first cycle, in C, tried in turn; one much smaller than the first is at rest.
+# Sizes of the first cycle, in C, tried in turn; below the last a cycle is the equilibrium.
 _FIRST_SIZES, _AT_REST = (0.02, 0.005, 0.001), 1e-4
-# Lengths of a step along the branch. It grows after a step that took Newton's method few enough.
+# Lengths of a step along the branch; it grows after a step in which Newton's method was fast.
 _FIRST_STEP, _LONGEST_STEP, _SHORTEST_STEP = 0.02, 0.035, 1e-5
 _FEW, _LONGER, _SHORTER = 6, 1.5, 0.4
+# Minimum film over clearance at which a branch ends: the limit that `validity` sets.
 _NEAREST_WALL = 0.03
-# No branch is known that has so many: it only keeps one that winds for ever from running for ever.
+# No known branch has so many cycles; the bound only stops a branch that never ends.
 _MOST_CYCLES = 2000
 
 
@@ -53,7 +54,7 @@ class Branch:
     Attributes
     ----------
     ended : str
-        In words what ended the branch; empty until it has ended.
+        Why the branch ended; empty until then.
     """
 
     def __init__(self, balance: Balance, onset: Hopf, lowest: float, highest: float) -> None:
@@ -62,7 +63,7 @@ class Branch:
         self.ended = ""
 
     def __iter__(self) -> Iterator[Cycle]:
-        """Yield the cycles, the last one at the bound of the speeds where they reach it."""
+        """Yield the cycles, the last one at the bound of the speeds where the branch reaches it."""
         last, step = _born(self.balance.machine, self.onset), _FIRST_STEP
         cycle = self._first()
         for _ in range(_MOST_CYCLES):
@@ -137,7 +138,7 @@ def small_cycle(balance: Balance, onset: Hopf, size: float) -> Cycle | None:
 
 
 def _through_rest(cycle: Cycle, after: Cycle) -> bool:
-    """Return whether the next cycle is at rest, or beyond it with its phase turned over."""
+    """Return whether the next cycle is the equilibrium, or beyond it with the opposite phase."""
     now, then = (_around_mean(one.resampled(_FEWEST_POINTS).path) for one in (cycle, after))
     return float(np.sum(now * then)) <= 0.0 or float(np.abs(then).max()) < _AT_REST
 
@@ -147,7 +148,7 @@ def _around_mean(path: Array) -> Array:
 
 
 def _weights(m: int) -> Array:
-    """Return the weights by which unknowns enter a length: the path by its mean, and ln ω̄, ln Ω."""
+    """Return the weights of the unknowns in a length: mean over the path, and ln ω̄, ln Ω."""
     return np.concatenate([np.full(2 * m, 1.0 / m), [1.0, 1.0]])
 
 
@@ -156,7 +157,7 @@ def _length(vector: Array, m: int) -> float:
 
 
 def _born(machine: Machine, onset: Hopf) -> Cycle:
-    """Return the cycle of no size at the onset."""
+    """Return the cycle of zero amplitude at the onset."""
     place = equilibrium(machine, onset.speed).film.position
     path = np.tile(place, (_FEWEST_POINTS, 1))
     return Cycle(path, onset.whirl_frequency / onset.speed, onset.speed)
@@ -165,9 +166,9 @@ def _born(machine: Machine, onset: Hopf) -> Cycle:
 def _corrected(
     balance: Balance, cycle: Cycle, tangent: Array, step: float
 ) -> tuple[Cycle | None, int]:
-    """Return the cycle a step along the branch, and Newton's steps; None where there is none.
+    """Return the cycle one step along the branch, and Newton's steps; None without convergence.
 
-    Finer where it needs more points to be resolved.
+    With more points where the polynomial needs them.
     """
     found, steps = _newton(balance, cycle, tangent, step, _weights(len(cycle.path)) * tangent)
     while found is not None and found.tail() > _TAIL and len(found.path) < _MOST_POINTS:
@@ -180,15 +181,14 @@ def _corrected(
 
 
 def _at_speed(balance: Balance, before: Cycle, after: Cycle, speed: float) -> Cycle | None:
-    """Return the cycle between two others that has a speed; None where it is not found."""
+    """Return the cycle at a speed between two others; None where it is not found."""
     m = len(after.path)
     start, chord = before.resampled(m), after.vector() - before.resampled(m).vector()
     along = np.zeros(2 * m + 2)
     along[-1] = 1.0
     found, _ = _newton(balance, start, chord / chord[-1], math.log(speed / start.speed), along)
-    return (
-        None if found is None else found._replace(speed=speed)
-    )  # without the logarithm's rounding
+    # The speed exactly as given, without the logarithm's rounding.
+    return None if found is None else found._replace(speed=speed)
 
 
 def _newton(
@@ -214,6 +214,6 @@ def _newton(
         unknown = unknown + change
         if np.abs(change).max() < _SETTLED:
             return Cycle.of(unknown), count
-        if np.abs(change).max() > 0.5:
+        if np.abs(change).max() > 0.5:  # half a clearance, or half of ω̄ or Ω: it diverges
             break
     return None, _ITERATIONS

@@ -1,12 +1,12 @@
-"""Where the energy of a motion goes: the balance of an integrated motion, term by term.
+"""The energy balance of an integrated motion, term by term.
 
     work of imbalance + work of load
         = change of kinetic and strain energy + loss in the film + loss in the damper
 
-per bearing, over any interval. The film's term is the work that the journal does on it beyond what
-the drive puts into shearing it; it is negative where the film feeds the whirl. The works are
-integrated with the equations of motion, revolution by revolution from the motion's own samples, so
-that they hold however coarse the samples are.
+per bearing, over any interval. The film's term is the work of the journal's motion on the film, not
+the drive's work of shear; it is negative where the film drives the whirl. The works are integrated
+with the equations of motion, revolution by revolution from the motion's own samples, so that coarse
+samples do not impair them.
 
 Source: the equations of motion, Eq. 5.1 with imbalance forward, each times its velocity.
 """
@@ -40,9 +40,9 @@ class EnergyBalance(Result):
     strain : array
         Change of the strain energy of the shaft.
     film_loss : array
-        Taken up by the film; falls where the film feeds the motion.
+        Dissipated in the film; falls where the film drives the motion.
     damper_loss : array
-        Taken up by the midspan damper.
+        Dissipated in the midspan damper.
     """
 
     time: Array
@@ -55,13 +55,13 @@ class EnergyBalance(Result):
 
     @property
     def residual(self) -> Array:
-        """What is left of the balance, (n,) [J]: zero but for the errors of integration."""
+        """Residual of the balance, (n,) [J]: zero up to errors of integration."""
         given = self.imbalance_work + self.load_work
         return given - self.kinetic - self.strain - self.film_loss - self.damper_loss
 
     @property
     def exchanged(self) -> float:
-        """Largest of all terms [J], to judge the residual by."""
+        """Largest of all terms [J], the scale of the residual."""
         terms = (
             self.imbalance_work, self.load_work, self.kinetic, self.strain, self.film_loss,
             self.damper_loss,
@@ -114,7 +114,7 @@ def _works(machine: Machine, motion: Transient) -> Array:
     """Return the works of imbalance, film and damper since the start, (n, 3) [J]."""
     angle = motion.angle
     works = np.zeros((len(angle), WORKS))
-    if len(angle) == 1:  # what is left of a motion that failed at once
+    if len(angle) == 1:  # a motion that failed at the start
         return works
     (first, last), turned = motion.speed[[0, -1]].tolist(), float(angle[-1])
     model = Equations(machine, first, last, turned=turned)
@@ -131,7 +131,7 @@ def _works(machine: Machine, motion: Transient) -> Array:
 
 
 def _states(machine: Machine, motion: Transient) -> Start:
-    """Return the states of a motion; a massless journal's velocity is no part of them."""
+    """Return the states of a motion; a massless journal's velocity is not among them."""
     massless = machine.rotor.journal_mass == 0.0
     return Start(
         journal=motion.journal,

@@ -2,8 +2,8 @@
 
 Model: the film's force at any position and velocity of the journal; a rigid rotor, a disk on a
 flexible shaft with massless journals, or the same with journal masses; midspan damping; imbalance
-turning forward. The load acts on the disk. Massless journals move at the velocity with which the
-film's force balances the shaft's, solved at every step. Speed may run up or down.
+turning forward. The load acts on the disk. A massless journal moves at the velocity at which the
+film's force balances the shaft's, solved for at every step. The speed may run up or down.
 
 Source: San Andrés, Notes 5, Eq. 5.1 with imbalance forward, and the calculation sheet's flexible
 rotor with the film's force in place of its linear coefficients.
@@ -26,14 +26,15 @@ from rotorcalc.display import Result
 from rotorcalc.films import FilmUnits, InnerMotion, film_of
 from rotorcalc.machine import Machine
 
-# The rates of a state at an angle of rotation.
+# The derivatives of a state at an angle of rotation.
 Motion: TypeAlias = Callable[[Array, float], list[float]]
 
-_MOST_STEPS = 20_000  # between two angles
+# Steps of the integrator between two angles; more mean that it no longer advances.
+_MOST_STEPS = 20_000
 # Works that `motion_and_works` adds to a state: of imbalance, film and damper.
 WORKS = 3
-# The longest step [rad]: at rest longer ones, of high order, blow rounding errors up to the
-# tolerance many times over before the error control sees them.
+# The longest step [rad]: in equilibrium longer steps of high order amplify rounding errors far
+# beyond the tolerance before the error control notices.
 _LONGEST_STEP = 0.25
 
 
@@ -41,8 +42,8 @@ _LONGEST_STEP = 0.25
 class Start(Result):
     """A state to start from, each of shape (2,), in X, Y from the bearing's centre [m], [m/s].
 
-    `inner` holds the film's own states (states,): the places of its inner coordinates [m], then the
-    velocities of those with a mass [m/s]; None where it has none, or where they rest.
+    `inner` holds the film's inner states (states,): the positions of its inner coordinates [m],
+    then the velocities of those with a mass [m/s]; None where it has none, or in equilibrium.
     """
 
     journal: Array
@@ -53,9 +54,9 @@ class Start(Result):
 
 
 class _Inner:
-    """A film with inner coordinates in the place of one without, whose states it keeps aside.
+    """A film with inner coordinates behind the interface of one without; it holds their states.
 
-    Between setting `states` and `speed` and reading `rates` its force or velocity is asked once.
+    Set `states` and `speed`, call force or velocity once, then read `rates`.
     """
 
     def __init__(self, film: InnerMotion, places: int, viscosity: float) -> None:
@@ -97,7 +98,7 @@ class Equations:
         self.flexible = not rotor.is_rigid
         self.massless = self.flexible and rotor.journal_mass == 0.0
         self.mass = rotor.disk_mass if self.flexible else rotor.half_mass
-        # Forces in units of M C Ω_0² with M the mass they move; the film's at Ω_0.
+        # Forces in units of M C Ω_0² with M the mass that they accelerate; the film's unit at Ω_0.
         unit = C * first**2
         self.film_unit = float(FilmUnits(bearing, machine.viscosity, first).force)
         self.film = self.film_unit / (self.mass * unit)
@@ -119,6 +120,7 @@ class Equations:
 
     def time(self, angle: ArrayLike) -> Array:
         """Return the time at an angle of rotation [s]."""
+        # Mean speed under constant acceleration is that of the two ends.
         return 2.0 * np.asarray(angle, dtype=float) / (self.first + self.speed(angle))
 
     def initial(self, start: Start) -> Array:
@@ -134,7 +136,7 @@ class Equations:
         return np.concatenate(parts, axis=-1)
 
     def _inner_start(self, inner: _Inner, start: Start) -> Array:
-        """Return the film's own states at a start; where that tells none they rest."""
+        """Return the film's inner states at a start, in equilibrium where it gives none."""
         if start.inner is None:
             return inner.film.rest(operating_points(self.machine, self.first))
         found = real_array("start.inner", start.inner)
@@ -146,7 +148,7 @@ class Equations:
         return found / self._inner_units(inner)
 
     def _inner_units(self, inner: _Inner) -> Array:
-        """Return the units of the film's own states, C and CΩ_0."""
+        """Return the units of the film's inner states, C and CΩ_0."""
         is_place = np.arange(inner.film.states) < inner.places
         return self.C * np.where(is_place, 1.0, self.first)
 
@@ -161,7 +163,7 @@ class Equations:
     def _with_inner(self, plain: Motion, inner: _Inner) -> Motion:
         """Return the motion of rotor and inner coordinates from that of the rotor alone.
 
-        The film takes velocities in CΩ of the moment, and gives rates by the angle.
+        The film takes velocities in the present CΩ, and returns derivatives by the angle.
         """
         first, drive, own, places = self.first, self._drive(), self.own_states, inner.places
 
@@ -180,7 +182,7 @@ class Equations:
         return 4 if not self.flexible else 6 if self.massless else 8
 
     def inner_states(self, states: Array) -> Array | None:
-        """Return the film's own states [m], [m/s] of states, or None where it has none."""
+        """Return the film's inner states [m], [m/s] of states, or None where it has none."""
         if self.inner is None:
             return None
         return states[..., self.own_states :] * self._inner_units(self.inner)
@@ -195,6 +197,7 @@ class Equations:
             return u * cos(angle), u * sin(angle), 1.0
 
         def drive(angle: float) -> tuple[float, float, float]:
+            # −d²(cos θ)/dt² = Ω² cos θ + Ω̇ sin θ and −d²(sin θ)/dt² = Ω² sin θ − Ω̇ cos θ.
             nu2 = 1.0 + twice * angle
             c, s = cos(angle), sin(angle)
             return u * (nu2 * c + spin * s), u * (nu2 * s - spin * c), sqrt(nu2)
@@ -210,7 +213,7 @@ class Equations:
             x, y, vx, vy = state.tolist()
             u_x, u_y, nu = drive(angle)
             f_x, f_y = force(x, y, vx / nu, vy / nu)
-            scale = film * nu
+            scale = film * nu  # the film's unit of force grows with Ω
             a_x = scale * f_x - damper * vx + load + u_x
             a_y = scale * f_y - damper * vy + u_y
             return [vx / nu, vy / nu, a_x / nu, a_y / nu]
@@ -221,14 +224,15 @@ class Equations:
         film, shaft, damper, load, velocity, drive = (
             self.film, self.shaft, self.damper, self.load, self.velocity, self._drive(),
         )  # fmt: skip
-        near: list[float] = []  # the last search, from which the next begins
+        near: list[float] = []  # the last solution, from which the next search starts
 
         def motion(state: Array, angle: float) -> list[float]:
             X, Y, vX, vY, x, y = state.tolist()
             u_x, u_y, nu = drive(angle)
             s_x, s_y = shaft * (X - x), shaft * (Y - y)
             scale = film * nu
-            vx, vy = velocity(x, y, -s_x / scale, -s_y / scale, near)  # already by the angle
+            # Film and shaft force balance; the film's velocities are already by the angle.
+            vx, vy = velocity(x, y, -s_x / scale, -s_y / scale, near)
             a_x = -s_x - damper * vX + load + u_x
             a_y = -s_y - damper * vY + u_y
             return [vX / nu, vY / nu, a_x / nu, a_y / nu, vx, vy]
@@ -255,7 +259,7 @@ class Equations:
         return motion
 
     def motion_and_works(self) -> Motion:
-        """Return the same for a state that ends in the works of imbalance, film and damper.
+        """Return the motion of a state extended by the works of imbalance, film and damper.
 
         Each since the start, those of film and damper as losses, in M C² Ω_0².
         """
@@ -313,7 +317,7 @@ def resting(machine: Machine, position: Array) -> Start:
 def integrated(
     motion: Motion, state: Array, angles: Array, *, tolerance: float
 ) -> tuple[Array, str]:
-    """Return the states at angles of rotation, and in words what ended the integration early.
+    """Return the states at angles of rotation, and the reason for an early end.
 
     Parameters
     ----------
@@ -329,16 +333,16 @@ def integrated(
     Returns
     -------
     states : array, (n, m)
-        As good as they are up to where it ended.
+        Valid up to where it ended.
     message : str
-        Empty where it did not end early.
+        Empty where it reached the last angle.
 
     Raises
     ------
     ArithmeticError
-        Where the motion has no rates at a state.
+        Where the derivatives of a state cannot be computed.
     """
-    with warnings.catch_warnings():  # what ended it is in the message
+    with warnings.catch_warnings():  # the message says the same
         warnings.simplefilter("ignore", ODEintWarning)
         states, report = cast(
             "tuple[Array, dict[str, Any]]",

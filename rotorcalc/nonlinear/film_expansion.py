@@ -1,11 +1,11 @@
-"""Second and third derivatives of a film's force about a journal at rest.
+"""Second and third derivatives of a film's force about a journal in equilibrium.
 
-They come from polynomials through the force at Chebyshev's points on lines through the state of
-rest (x, x') = (x_0, 0), so for every film model that gives the force on a moving journal. How far
-such a line may reach differs with its direction: the force is singular at the wall, and not smooth
-where squeeze and wedge cancel, as in a plain bearing at half speed whirl. So each line is tried at
-shorter and shorter reach. The polynomial does not resolve too long a line, and on too short a one
-the derivatives drown in rounding: the reach is taken at which the answer changes least.
+They are those of polynomials through the force at Chebyshev points on lines through the state of
+equilibrium (x, x') = (x_0, 0), so they exist for every film model with a force on a moving journal.
+The admissible length of a line depends on its direction: the force is singular at the wall, and not
+smooth where squeeze and wedge cancel, as in a plain bearing at half-speed whirl. So each line is
+shortened step by step. On too long a line the polynomial does not converge, on too short a one
+rounding dominates: the length is taken at which the result changes least.
 """
 
 from typing import NamedTuple
@@ -16,11 +16,11 @@ from numpy.polynomial import chebyshev
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.films.model import Force
 
-# The first reach over the way to the wall, the ratio of a reach to the last, and how many.
+# The first length over the distance to the wall, the ratio of successive lengths, their number.
 _FARTHEST, _SHORTER, _MOST_REACHES = 0.9, 0.6, 40
-# The search ends when the change, once below this share of the derivative, grows tenfold again.
+# The search ends where the change, once below this share of the derivative, has grown tenfold.
 _RESOLVED = 1e-6
-# Directions in the plane of a whirl: enough for its first three harmonics.
+# Directions in the plane of a whirl, four over half a turn: they resolve its first three harmonics.
 _PHASES = np.pi * np.arange(4) / 4.0
 
 
@@ -40,9 +40,9 @@ class FilmExpansion:
     force : callable
         (f_x, f_y) from (x, y, x', y'), in the film's unit.
     place : array, (2,)
-        Where the journal rests, in C.
+        Equilibrium position of the journal, in C.
     gap : float
-        Thinnest film there, in C: the way to the wall.
+        Minimum film thickness there, in C: the distance to the wall.
     points : int
         Points on a line.
     """

@@ -1,4 +1,4 @@
-"""Whether a limit cycle is stable: Floquet multipliers of the motion linearised about it.
+"""Stability of a limit cycle: Floquet multipliers of the motion linearised about it.
 
 Source: Seydel, Practical Bifurcation and Stability Analysis, third edition, section 7.4.
 """
@@ -15,7 +15,7 @@ from rotorcalc.nonlinear.collocation import Balance, Cycle, differentiation
 
 
 def multiplier(balance: Balance, cycle: Cycle) -> float:
-    """Return the largest modulus of the Floquet multipliers, the one that is always 1 left out.
+    """Return the largest modulus of the Floquet multipliers except the one that is always 1.
 
     The state matrix A(τ) of small motions about the cycle is integrated over its period by
     exponentials of its values in the middle of many steps (Magnus, second order, extrapolated).
@@ -35,13 +35,14 @@ def multiplier(balance: Balance, cycle: Cycle) -> float:
     fine, coarse = (
         _monodromy(balance, cycle.resampled(points * len(cycle.path))) for points in (2, 1)
     )
+    # Error of second order in the step: half the step has a quarter of it.
     values = np.linalg.eigvals(fine + (fine - coarse) / 3.0)
     rest = np.delete(values, np.argmin(np.abs(values - 1.0)))
     return float(np.abs(rest).max())
 
 
 def _monodromy(balance: Balance, cycle: Cycle) -> Array:
-    """Return the matrix that takes a small motion about the cycle through one period."""
+    """Return the matrix that maps a small motion about the cycle over one period."""
     m = len(cycle.path)
     velocity = cycle.ratio * (differentiation(m) @ cycle.path)
     _, by_place, by_velocity = balance.film(cycle.path, velocity)

@@ -1,25 +1,25 @@
-"""Whether whirl sets in gently: the Hopf bifurcation of a balanced machine at its onset.
+"""The Hopf bifurcation of a balanced machine at its onset: direction and amplitude of whirl.
 
 Near the onset the whirl's amplitude a, the journal's largest distance from rest, obeys
 
     ȧ = (Re λ) a + ℓ (a/C)² a,
 
-the normal form. With ℓ < 0 a small whirl is born above the onset and grows gently with speed
-(supercritical); with ℓ > 0 an unstable one shrinks towards the onset from below, and a kick larger
-than it makes the machine whirl though the linear theory calls it stable (subcritical).
+the normal form. With ℓ < 0 a small stable whirl exists above the onset and grows gradually with
+speed (supercritical); with ℓ > 0 a small unstable whirl exists below the onset, and a disturbance
+larger than it makes the machine whirl although the linear theory calls it stable (subcritical).
 
 ℓ is the first Lyapunov coefficient, by harmonic balance to the third order. Film, rotor and load
 balance in L(d/dt) x = ½D²F(u, u) + ⅙D³F(u, u, u), with u = (x, ẋ) from rest, F the film's force and
-L(jω) = K + jωC + Z_rotor(ω). A whirl A q e^{jωt}, L q = 0, shifts the journal's mean place by
-|A|² h_0 and swings at 2ω by A² h_2,
+L(jω) = K + jωC + Z_rotor(ω). A whirl A q e^{jωt}, L q = 0, shifts the journal's mean position by
+|A|² h_0 and has a second harmonic A² h_2,
 
     L(0) h_0 = D²F(Q, Q̄),    L(2jω) h_2 = ½D²F(Q, Q),    Q = (q, jωq),
 
-and what is left at ω, seen along the left null vector p of L(jω), changes A:
+and the terms at ω, projected on the left null vector p of L(jω), change A:
 
     pᵀL'q Ȧ = pᵀ{D²F(Q, H_0) + D²F(Q̄, H_2) + ½D³F(Q, Q, Q̄)} |A|²A.
 
-Only the film's force is expanded; the rotor is linear and stands in L as it is. So this holds with
+Only the film's force is expanded; the rotor is linear and enters L exactly. So this holds with
 massless journals too, where velocity as a function of position is singular close to rest.
 
 Source: Kuznetsov, Elements of Applied Bifurcation Theory, third edition, section 5.4 (projection
@@ -41,12 +41,14 @@ from rotorcalc.nonlinear.film_expansion import FilmExpansion
 from rotorcalc.nonlinear.rotor_impedance import impedance
 from rotorcalc.onset import onset_speed
 
-# Two answers by polynomials of so many points, the second a little beside the onset, by as much as
-# the onset itself may be wrong. ℓ is known to a few times their difference, or to the rounding of
-# the three terms of which it is the sum.
+# ℓ is computed twice, by polynomials with this many points, the second time at a speed beside the
+# onset by as much as the onset may be in error. Its error is bounded by a multiple of their
+# difference, and by the rounding of the three terms of which it is the sum; held against sixty
+# digits on drawn machines the bound was never below twice the true error.
 _POINTS, _FEWER_POINTS = 17, 13
 _BESIDE = 1e-8
 _WIDER, _ROUNDING = 5.0, 1e-9
+# Relative step of the derivative by speed: truncation of order 1e-8, rounding 1e-12.
 _SPEED_STEP = 1e-4
 
 
@@ -80,7 +82,7 @@ class Hopf:
 
     @property
     def subcritical(self) -> bool | None:
-        """Whether the whirl is born unstable, below the onset; None where that is not certain."""
+        """Whether the onset is subcritical; None where the sign of ℓ is not certain."""
         if not abs(self.lyapunov) > self.lyapunov_error:
             return None
         return self.lyapunov > 0.0
@@ -171,7 +173,8 @@ class _Whirl(NamedTuple):
 def _whirl(machine: Machine, speed: float, frequency: float) -> _Whirl:
     left, _, right = np.linalg.svd(_balance(machine, speed, frequency))
     q: ComplexArray = right[-1].conj()
-    turned = q * np.exp(-0.5j * np.angle(np.sum(q**2)))  # its real part is the longest
+    # Turned to the phase at which the displacement is largest: q·q real and positive.
+    turned = q * np.exp(-0.5j * np.angle(np.sum(q**2)))
     q = turned / float(np.linalg.norm(turned.real))
     p: ComplexArray = left[:, -1].conj()
     _, by_frequency = impedance(machine.rotor, np.array([frequency]))

@@ -1,7 +1,7 @@
-"""What whirl grows into: the limit cycles of a balanced machine over speed, stable and unstable.
+"""The limit cycles of a balanced machine over speed, stable and unstable.
 
-The cycles are found by collocation, followed from the onset by continuation, and judged by their
-Floquet multipliers.
+The cycles are found by collocation, followed from the onset by continuation, and their stability is
+that of their Floquet multipliers.
 """
 
 import math
@@ -27,20 +27,20 @@ from rotorcalc.nonlinear.rotor_impedance import disk_impedance
 
 @dataclass(frozen=True, eq=False)
 class Bifurcation(Result):
-    """Limit cycles in the order in which they were found, from the onset on; n of them.
+    """Limit cycles along their branch, from the onset on; n of them.
 
     Attributes
     ----------
     hopf : Hopf
         The onset, where the cycles begin.
     ended : str
-        What ended the branch, in words: "reached the highest speed asked for", or "lowest"; "came
+        Why the branch ended: "reached the highest speed asked for", or "lowest"; "came
         to within 3% of the clearance to the wall"; "shrank to rest at another onset"; or why it
         could not be followed further.
     speed, whirl_frequency : array, (n,)
         Ω and ω [rad/s].
     amplitude : array, (n,)
-        Largest distance of the journal from where it rests at that speed [m].
+        Largest distance of the journal from its equilibrium at that speed [m].
     eccentricity_ratio : array, (n,)
         Largest distance of the journal from the bearing's centre, in C [-].
     multiplier : array, (n,)
@@ -48,7 +48,7 @@ class Bifurcation(Result):
     stable : boolean array, (n,)
         Whether motions near the cycle approach it.
     paths : tuple of arrays, (m, 2)
-        The journal's place in X, Y around each cycle, from the bearing's centre [m].
+        The journal's positions in X, Y around each cycle, from the bearing's centre [m].
     """
 
     hopf: Hopf
@@ -101,6 +101,7 @@ class Bifurcation(Result):
         low, high = self.speed[:-1], self.speed[1:]
         inside = np.flatnonzero((low - speed) * (high - speed) <= 0.0)
         share = (speed - low[inside]) / np.where(high == low, 1.0, high - low)[inside]
+        # a² is linear in Ω at the onset (a ∝ √(Ω − Ω_s)), so it is a² that is interpolated.
         first, last = self.amplitude[inside] ** 2, self.amplitude[inside + 1] ** 2
         nearest = inside + (share > 0.5)
         return np.sqrt(first + share * (last - first)), self.stable[nearest]
@@ -172,10 +173,10 @@ def bifurcation(
 
 @checked
 def sweep(branch: Bifurcation, speed: ArrayLike, *, down: bool = False) -> Array:
-    """Return the amplitude that a machine reaches as its speed rises slowly, or falls.
+    """Return the amplitude that a machine reaches as its speed slowly rises or falls.
 
-    It rests up to the onset and follows a stable cycle as long as there is one; where its cycle
-    ends it goes to the nearest one that is stable there, or comes to rest.
+    It stays in equilibrium up to the onset and follows a stable cycle as long as that exists; where
+    the cycle ends it jumps to the nearest stable one, or returns to equilibrium.
 
     Parameters
     ----------
@@ -194,6 +195,7 @@ def sweep(branch: Bifurcation, speed: ArrayLike, *, down: bool = False) -> Array
     """
     speed = np.asarray(speed, dtype=float)
     reached = np.full(len(speed), np.nan)
+    # From above the sweep begins on the largest cycle: any start beyond the wall selects it.
     last = 10.0 * branch.hopf.clearance if down else 0.0
     for i in range(len(speed))[:: -1 if down else 1]:
         sizes, stable = branch.at(float(speed[i]))
@@ -205,7 +207,7 @@ def sweep(branch: Bifurcation, speed: ArrayLike, *, down: bool = False) -> Array
 
 @checked
 def start_on_cycle(machine: Machine, branch: Bifurcation, place: int) -> Start:
-    """Return a state on a limit cycle, from which the motion goes round it.
+    """Return a state on a limit cycle, from which the motion follows the cycle.
 
     Parameters
     ----------
@@ -248,7 +250,7 @@ class _Found(NamedTuple):
 
 
 def _measured(balance: Balance, cycle: Cycle) -> _Found:
-    """Return a cycle with its size and its stability."""
+    """Return a cycle with its amplitude and its stability."""
     rest = equilibrium(balance.machine, cycle.speed).film.position
     dense = cycle.resampled(4 * len(cycle.path) + 1).path
     return _Found(

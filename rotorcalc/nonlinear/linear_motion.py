@@ -1,4 +1,4 @@
-"""The motion of a machine by the linear theory from any start, the film's own coordinates included.
+"""The motion of a machine by the linear theory from any start, inner coordinates included.
 
 The equations of motion with the film's stiffness and damping in place of its force,
 
@@ -32,11 +32,11 @@ class LinearMotion:
     eigenvalues : complex array, (m,)
         λ [1/s].
     vectors : complex array, (m, m)
-        Modes, a column each: all places, then the velocities of what has mass.
+        Modes, one per column: all positions, then the velocities of the coordinates with mass.
     forced : complex array, (n,)
         Phasors of the response to imbalance [m].
     heavy : integer array
-        The coordinates that have mass.
+        The coordinates with mass.
     journal : slice
         The journal's coordinates.
     """
@@ -49,13 +49,13 @@ class LinearMotion:
 
     @property
     def whirl(self) -> complex:
-        """Least damped λ that oscillates [1/s]."""
+        """λ of the least damped oscillating mode [1/s]."""
         return complex(modes.leading(self.eigenvalues))
 
 
 @checked
 def linear_motion(machine: Machine, speed: float, start: Start, time: Array) -> Array:
-    """Return the journal's motion by the linear theory, about its rest.
+    """Return the journal's motion by the linear theory, about its equilibrium.
 
     Parameters
     ----------
@@ -165,7 +165,7 @@ def _matrices(machine: Machine, speed: float) -> tuple[Array, Array, Array]:
 
 
 def _away(machine: Machine, speed: float, start: Start) -> tuple[Array, Array]:
-    """Return how far a start is from rest, and its velocities, in the order of `_matrices`."""
+    """Return a start's displacements from rest and velocities, in the order of `_matrices`."""
     C = machine.bearing.radial_clearance
     rest = resting(machine, equilibrium(machine, speed).film.position * C)
     places, velocities = [start.disk - rest.disk], [start.disk_velocity]
@@ -177,7 +177,7 @@ def _away(machine: Machine, speed: float, start: Start) -> tuple[Array, Array]:
 
 
 def _inner_away(machine: Machine, speed: float, start: Start) -> tuple[Array, Array]:
-    """Return the same of the film's own coordinates; where the start tells none they rest."""
+    """Return the same of the film's inner coordinates; zero where the start gives none."""
     film = film_of(machine.bearing)
     still = np.zeros(film.inner)
     if start.inner is None or film.inner == 0:
@@ -188,7 +188,7 @@ def _inner_away(machine: Machine, speed: float, start: Start) -> tuple[Array, Ar
 
 
 def _inner_rest(machine: Machine, speed: float) -> Array:
-    """Return the places of the film's own coordinates in static equilibrium, (n,) [m]."""
+    """Return the positions of the film's inner coordinates in static equilibrium, (n,) [m]."""
     film, C = film_of(machine.bearing), machine.bearing.radial_clearance
     motion = film.motion()
     if not isinstance(motion, InnerMotion):

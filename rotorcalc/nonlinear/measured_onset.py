@@ -1,10 +1,10 @@
 """The onset of whirl found three ways.
 
 From the film's coefficients in closed form (Eqs. 5.45 to 5.50); from the eigenvalues of the free
-motion; and as an experiment would: set the rotor whirling a little about its rest at many speeds,
-integrate the nonlinear motion, measure how its whirl grows, and find the speed at which it neither
-grows nor dies. The linear theory tells the experiment how to begin, for a kick would show the
-mode that it strikes most and not the one that grows; the growth is the nonlinear motion's own.
+motion; and as in an experiment: start a small whirl about the equilibrium at several speeds,
+integrate the nonlinear motion, measure the growth rate of the whirl, and find the speed at which it
+vanishes. The start lies on the linear theory's least damped mode, since a kick would mostly excite
+other modes; the growth rate is the nonlinear motion's own.
 """
 
 import math
@@ -27,17 +27,18 @@ from rotorcalc.nonlinear.transient import TransientError, simulate, start_on_mod
 from rotorcalc.onset.closed_form import closed_form_onset, covers
 from rotorcalc.onset.search import searched_onset
 
-# The first whirl, in clearances, and at most in thinnest films: small enough for its growth to be
-# the linear theory's to a millionth of |λ|, large enough beside the integrator's errors.
+# The initial whirl, in clearances, and at most in minimum film thicknesses: so small that its
+# growth is linear to a millionth of |λ|, yet large against the integrator's errors.
 _WHIRL, _OF_FILM = 1e-4, 1e-2
-# How long it is watched: so many whirls, unless so many of 1/|growth rate| are shorter; no fewer
-# whirls than _FEWEST, in no more revolutions and whirls than _MOST. Samples over that time.
+# Observed time: _WHIRLS periods of whirl, or _LIFETIMES of 1/|growth rate| if shorter; at least
+# _FEWEST periods, in at most _MOST revolutions and periods; and the samples over that time.
 _WHIRLS, _LIFETIMES, _FEWEST, _MOST, _SAMPLES = 8.0, 3.0, 2.0, 400, 200
-# What the integrator's errors may be of such a motion.
+# Errors of the integrator, relative to such a motion.
 _NOISE = 1e-6
-# Speeds over the guess at which the search looks first, outwards; and how sharp it ends.
+# Speeds over the guess that bracket the onset, tried outwards; and the tolerance of the result.
 _SPREAD = (0.97, 1.03, 0.9, 1.1, 0.75, 1.3, 0.5, 2.0)
 _SHARP = 1e-6
+# Relative difference up to which the three onsets agree, well above the errors of each.
 _AGREE = 1e-3
 
 
@@ -51,11 +52,11 @@ class Onsets:
     Attributes
     ----------
     closed_form : float
-        Where Ω = Ω_s(ε(Ω)); not a number for a rotor with midspan damping.
+        Where Ω = Ω_s(ε(Ω)); NaN for a rotor with midspan damping.
     eigenvalues : float
         Where the largest Re λ vanishes; infinite where there is none.
     measured : float
-        Where a small whirl neither grows nor dies; not a number where no such speed was found.
+        Where a small whirl neither grows nor decays; NaN where no such speed was found.
     """
 
     closed_form: float
@@ -64,15 +65,15 @@ class Onsets:
 
     @property
     def spread(self) -> float:
-        """Largest difference of those that are numbers, over the eigenvalues' [-]."""
+        """Largest difference of the known onsets from the eigenvalues', relative [-]."""
         known = [value for value in (self.closed_form, self.measured) if not math.isnan(value)]
         return max((abs(value / self.eigenvalues - 1.0) for value in known), default=math.nan)
 
     @property
     def agree(self) -> Agreement:
-        """Whether all that are numbers "agree" to a thousandth, or "differ".
+        """Whether all known onsets "agree" to a thousandth, or "differ".
 
-        "not measured" where the measurement found no onset: the two linear answers prove nothing.
+        "not measured" where the measurement found no onset: two linear results prove nothing.
         """
         if math.isnan(self.measured):
             return "not measured"
@@ -115,12 +116,12 @@ def onsets(machine: Machine, *, progress: Callable[[float], object] | None = Non
     Returns
     -------
     Onsets
-        The eigenvalues' only tells the measurement where to look first: half to twice that speed.
+        The eigenvalues' onset only sets the measurement's range, half to twice that speed.
 
     Raises
     ------
     ValueError
-        Where the machine has no onset, or whirls at any speed for want of load.
+        Where the machine has no onset, or whirls at any speed without load.
     """
     by_eigenvalues = searched_onset(machine).speed  # not by the closed form
     if not 0.0 < by_eigenvalues < math.inf:
@@ -187,7 +188,7 @@ def measured_growth(machine: Machine, speed: float) -> float:
 
 
 def _watched(expected: complex, speed: float) -> float:
-    """Return for how long to watch a mode [s], or not a number where that would take too long."""
+    """Return the time for which to observe a mode [s], NaN where that would take too long."""
     whirl, revolution = 2.0 * math.pi / expected.imag, 2.0 * math.pi / speed
     time = _WHIRLS * whirl
     if expected.real != 0.0:
@@ -201,14 +202,14 @@ def _watched(expected: complex, speed: float) -> float:
 def measured_onset(
     machine: Machine, *, near: float, progress: Callable[[float], object] | None = None
 ) -> float:
-    """Return the speed at which a small whirl neither grows nor dies.
+    """Return the speed at which a small whirl neither grows nor decays.
 
     Parameters
     ----------
     machine : Machine
         The machine; its imbalance is left out.
     near : float
-        Where to look first [rad/s].
+        First guess [rad/s].
     progress : callable or None
         Called now and then with the share done, 0 to 1. What it raises ends the work.
 

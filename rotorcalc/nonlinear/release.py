@@ -1,4 +1,4 @@
-"""A journal let go: its nonlinear motion, and the linear theory's for the same start.
+"""The release of a displaced journal: its nonlinear motion, and the linear theory's.
 
 Source: San Andrés, Notes 5, Eq. 5.38; the motions as in `transient` and `linear_motion`.
 """
@@ -22,11 +22,12 @@ from rotorcalc.nonlinear.signals import Spectrum, poincare_points, spectrum
 from rotorcalc.nonlinear.transient import TOLERANCE, Transient, TransientError, simulate
 from rotorcalc.unbalance_response import orbit_points
 
-# Swings of its fastest mode that a release is followed for, and revolutions at least.
+# Oscillations of its fastest mode after which a release ends, and revolutions at least: that bounds
+# its cost.
 _MOST_SWINGS, FEWEST_REVOLUTIONS = 800, 16
-# The share of a motion at its end that is taken for what it came to.
+# Share of a motion, at its end, that is taken as settled.
 _SETTLED = 0.25
-# So many clearances beyond the wall a linear orbit is drawn no further.
+# Clearances beyond the wall at which a linear orbit is cut off in charts.
 _FAR = 0.5
 
 
@@ -41,21 +42,21 @@ class Release(Result):
     clearance : float
         C [m].
     rest : array, (2,)
-        Where the journal would rest, in X, Y from the bearing's centre [m].
+        Static equilibrium of the journal, in X, Y from the bearing's centre [m].
     linear : array, (n, 2)
-        The journal's places by the linear theory [m]; not a number from where it is far outside.
+        The journal's positions by the linear theory [m]; NaN once it is far outside the wall.
     ellipse : array, (m, 2)
         The synchronous orbit by the linear theory [m].
     whirl : complex
         Growth rate + j frequency [1/s] of the linear theory's least damped whirl.
     film : array, (n,)
-        Thinnest film [m].
+        Minimum film thickness [m].
     spectrum : Spectrum
         Of the last quarter of the motion.
     points : array, (k, 2)
-        The journal's places once a revolution [m].
+        The journal's positions once per revolution [m].
     stopped : str
-        What ended the motion early, in words; empty where nothing did.
+        Why the motion ended early; empty where it did not.
     """
 
     motion: Transient
@@ -71,7 +72,7 @@ class Release(Result):
 
     @property
     def size(self) -> Array:
-        """Distance of the journal from where it would rest, (n,) [m]."""
+        """Distance of the journal from its static equilibrium, (n,) [m]."""
         return np.hypot(*(self.motion.journal - self.rest).T)
 
     @property
@@ -122,7 +123,7 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
     tolerance: float = TOLERANCE,
     progress: Callable[[float], object] | None = None,
 ) -> Release:
-    """Return what becomes of a journal that is let go off its rest.
+    """Return the motion of a journal released away from its equilibrium.
 
     Parameters
     ----------
@@ -131,19 +132,19 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
     speed : float
         Running speed, Ω [rad/s].
     kick : float
-        How far above its rest the journal is let go, against the load [m], zero or more.
+        Initial displacement above the equilibrium, against the load [m], zero or more.
     revolutions, samples_per_revolution, tolerance, progress
         As in `simulate`; 16 revolutions or more.
 
     Returns
     -------
     Release
-        Where the integration cannot go on, as far as it came.
+        Where the integration fails, up to that time.
 
     Raises
     ------
     ValueError
-        As `simulate`, with the place in words where the kick leads out of the clearance.
+        As `simulate`; also where the displacement leads out of the clearance.
     """
     if revolutions < FEWEST_REVOLUTIONS:
         raise ValueError(f"revolutions = {revolutions}: must be {FEWEST_REVOLUTIONS} or more")
@@ -195,7 +196,7 @@ def affordable_revolutions(point: Sweep) -> int:
 
 
 def _drawn(linear: Array, rest: Array, bearing: JournalBearing) -> Array:
-    """Return a linear motion up to where it first is far outside the clearance."""
+    """Return a linear motion up to where it first lies far outside the clearance."""
     C = bearing.radial_clearance
     far = ~(film_of(bearing).gap((linear + rest) / C) > -_FAR)
     end = int(np.argmax(far)) if far.any() else len(linear)

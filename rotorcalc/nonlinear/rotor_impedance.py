@@ -1,4 +1,4 @@
-"""The rotor's impedance to a journal that swings: disk, shaft and journal mass.
+"""The rotor's impedance at the journal: disk, shaft and journal mass.
 
 The rotor is linear, so this holds exactly at each harmonic of a motion.
 """
@@ -8,7 +8,7 @@ from rotorcalc.machine import Rotor
 
 
 def impedance(rotor: Rotor, omega: Array) -> tuple[ComplexArray, ComplexArray]:
-    """Return the rotor's impedance to a journal that swings at ω, and its derivative by ω.
+    """Return the rotor's impedance at the journal for motion at ω, and its derivative by ω.
 
     Z = z/(1 + s z) − ω²M_j with z = −ω²m_d + jωC_s of the disk and s = 1/K_rot of the shaft.
 

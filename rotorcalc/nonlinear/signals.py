@@ -1,4 +1,4 @@
-"""What a measurement would say of a motion: spectrum, whirl ratio, growth rate, Poincaré points.
+"""Measurements on a motion: spectrum, whirl ratio, growth rate, Poincaré points.
 
 Signals are taken from X + jY, so that a positive order turns with the shaft and a negative one
 against it. An order is a frequency over that of the running speed.
@@ -18,11 +18,11 @@ from rotorcalc.arrays import Array, ComplexArray, real_array
 from rotorcalc.display import Result
 from rotorcalc.nonlinear.transient import Transient
 
-# Where the synchronous line and whirl are looked for [orders].
+# Ranges of the synchronous line and of whirl [orders]: whirl lies near ½, and well below 1.
 _SYNCHRONOUS, _WHIRL = (0.97, 1.03), (0.2, 0.85)
-# A line smaller than this share of the largest one is none.
+# A line below this share of the largest is taken for leakage of the window.
 _LEAST_LINE = 1e-3
-# A pencil's rows, and the share of its largest singular value that is taken for rounding.
+# Samples of a pencil at most, and the singular values, over the largest, taken for rounding.
 _MOST_ROWS, _NOISE = 400, 1e-9
 _MOST_MODES = 12
 
@@ -40,7 +40,7 @@ class Spectrum(Result):
     synchronous : float
         Radius of the circle that turns with the shaft, 1× [m].
     whirl_ratio : float
-        Order of the whirl line [-]; not a number where there is none.
+        Order of the whirl line [-]; NaN where there is none.
     whirl : float
         Radius of the whirl's circle [m]; zero where there is none.
     """
@@ -83,13 +83,13 @@ def spectrum(motion: Transient, *, of: str = "journal", last: int | None = None)
     of : str
         "journal" or "disk".
     last : int or None
-        Take the last so many revolutions, where the motion has settled; None for all.
+        Number of final revolutions to take, where the motion has settled; None for all.
 
     Returns
     -------
     Spectrum
-        Lines between the spectrum's points are found by the window's own shape, so an order to
-        about a hundredth of a point and an amplitude to about a part in a thousand.
+        Lines between the spectrum's points are interpolated by the window's shape: an order to
+        about a hundredth of a point, an amplitude to about a part in a thousand.
 
     Raises
     ------
@@ -120,9 +120,9 @@ def waterfall(motion: Transient, *, spectra: int = 200, width: int = 32) -> Wate
     motion : Transient
         The motion, its speed rising or falling.
     spectra : int
-        How many, evenly spaced over the revolutions.
+        Number of spectra, evenly spaced over the revolutions.
     width : int
-        Revolutions that each one spans.
+        Revolutions in each spectrum.
 
     Returns
     -------
@@ -151,7 +151,7 @@ def waterfall(motion: Transient, *, spectra: int = 200, width: int = 32) -> Wate
 
 @checked
 def poincare_points(motion: Transient, *, of: str = "journal") -> Array:
-    """Return where a motion is once a revolution, as the imbalance points along X.
+    """Return the position once per revolution, when the imbalance points along X.
 
     Parameters
     ----------
@@ -163,8 +163,8 @@ def poincare_points(motion: Transient, *, of: str = "journal") -> Array:
     Returns
     -------
     array, (revolutions + 1, 2)
-        Places in X, Y [m]: one point again and again for a synchronous orbit, a closed curve for a
-        whirl at an order that is no ratio of whole numbers.
+        Positions in X, Y [m]: a single point for a synchronous orbit, a closed curve for whirl at
+        an irrational order.
     """
     return _path(motion, of)[:: _samples(motion)]
 
@@ -173,9 +173,9 @@ def poincare_points(motion: Transient, *, of: str = "journal") -> Array:
 def free_modes(
     motion: Transient, *, rest: ArrayLike | None = None, revolutions: int | None = None
 ) -> ComplexArray:
-    """Return the eigenvalues measured on a small free motion: growth rates and frequencies.
+    """Return eigenvalues measured on a small free motion: growth rates and frequencies.
 
-    A sum of exponentials e^{λt} is fitted to X and Y of the journal together (matrix pencil). Of a
+    A sum of exponentials e^{λt} is fitted to X and Y of the journal together (matrix pencil). In a
     nonlinear motion the early part is small enough; the eigenvalues are then the linear theory's.
 
     Parameters
@@ -256,7 +256,7 @@ def growth(
     -------
     complex
         λ = growth rate + j frequency [1/s] of the oscillating mode with the largest share in the
-        motion; not a number where none oscillates.
+        motion; NaN where none oscillates.
 
     Raises
     ------
@@ -265,6 +265,7 @@ def growth(
     """
     values = free_modes(motion, rest=rest, revolutions=revolutions)
     speed = float(motion.speed[0])
+    # Slower or faster modes are not whirl: drift of the fit, or the shaft's own.
     waves = values[(values.imag > 0.02 * speed) & (values.imag < 3.0 * speed)]
     return complex(waves[0]) if len(waves) else complex(math.nan, math.nan)
 
@@ -293,7 +294,7 @@ def _signal(motion: Transient, of: str, last: int | None) -> tuple[ComplexArray,
 
 
 def _circles(signal: ComplexArray, revolutions: int) -> tuple[Array, ComplexArray]:
-    """Return orders and the circles that turn at them, the mean left out."""
+    """Return orders and the phasors of the circles at them, without the mean."""
     n = len(signal)
     window = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(n) / n)
     mean = np.sum(window * signal) / np.sum(window)
@@ -303,7 +304,7 @@ def _circles(signal: ComplexArray, revolutions: int) -> tuple[Array, ComplexArra
 
 
 def _line(order: Array, size: Array, within: tuple[float, float]) -> tuple[float, float]:
-    """Return order and radius of the largest line in a range, not a number where there is none.
+    """Return order and radius of the largest line in a range, NaN where there is none.
 
     With d the line's distance from its highest point in points of the spectrum, a Hann window's
     neighbours are as (1 + d) : (2 − d), and the line's height is that of the point times
@@ -311,7 +312,8 @@ def _line(order: Array, size: Array, within: tuple[float, float]) -> tuple[float
     """
     spacing = order[1] - order[0]
     inside = (order[1:-1] >= within[0]) & (order[1:-1] <= within[1])
-    is_peak = (size[1:-1] > size[:-2]) & (size[1:-1] >= size[2:])  # no flank of a line outside
+    # A maximum inside the range, not the flank of a line outside it.
+    is_peak = (size[1:-1] > size[:-2]) & (size[1:-1] >= size[2:])
     peaks = 1 + np.flatnonzero(inside & is_peak)
     if not len(peaks):
         return math.nan, 0.0
@@ -326,6 +328,7 @@ def _line(order: Array, size: Array, within: tuple[float, float]) -> tuple[float
 def _pencil(path: Array, noise: float) -> ComplexArray:
     """Return the factors e^{λΔt} of the exponentials that add up to a path, (n, 2)."""
     n = len(path)
+    # Pencil parameter n/3 to n/2: the least sensitive to noise (Hua and Sarkar).
     length = n // 3
     rows = np.lib.stride_tricks.sliding_window_view(path, length + 1, axis=0)
     table = rows.reshape(-1, length + 1)

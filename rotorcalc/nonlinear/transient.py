@@ -2,11 +2,11 @@
 
 Model: the film's force at any position and velocity of the journal; a rigid rotor, a disk on a
 flexible shaft with massless journals, or the same with journal masses; midspan damping; imbalance
-from t = 0, turning forward. The load acts on the disk. Massless journals move at the velocity with
-which the film's force balances the shaft's, solved at every step. Speed may run up or down.
+from t = 0, turning forward. The load acts on the disk. A massless journal moves at the velocity at
+which the film's force balances the shaft's, solved for at every step. The speed may run up or down.
 
-Integrator: LSODA (ODEPACK, through SciPy), which turns to an implicit method where the film makes
-the motion stiff; its error control is relative to the motion and to a billionth of the clearance.
+Integrator: LSODA (ODEPACK, through SciPy), which switches to an implicit method where the film
+makes the motion stiff; tolerances are relative to the motion, and absolute in clearances.
 
 Source: San Andrés, Notes 5, Eq. 5.1 with imbalance forward, and the calculation sheet's flexible
 rotor with the film's force in place of its linear coefficients.
@@ -39,19 +39,20 @@ __all__ = [
     "Start",
     "Transient",
     "TransientError",
-    "bifurcation",  # what these motions end on, beside them
+    "bifurcation",  # the limit cycles on which these motions end
     "last_state",
     "resting",
     "simulate",
     "start_on_mode",
 ]
 
+# Bounds of time and memory: two million samples of up to 17 numbers take 0.3 GB.
 MOST_REVOLUTIONS = 5000
 MOST_SAMPLES = 2_000_000
-# Of LSODA's own steps, relative; a hundredth of it in clearances.
+# Relative tolerance of each step of LSODA; the absolute one is a hundredth of it, in clearances.
 TOLERANCE = 1e-10
 _TOLERANCES = (1e-13, 1e-3)
-# A stretch after which progress is told and the wall is looked for [revolutions].
+# Revolutions after which progress is reported and contact with the wall is checked.
 _STRETCH = 20
 
 
@@ -72,8 +73,8 @@ class Transient(Result):
     angle : array, (n,)
         Angle through which the imbalance has turned [rad].
     inner : array, (n, states), or None
-        The film's own states: places of its inner coordinates [m], then velocities of those with
-        a mass [m/s]; None where it has none.
+        The film's inner states: positions of its inner coordinates [m], then velocities of those
+        with a mass [m/s]; None where it has none.
     """
 
     time: Array
@@ -87,7 +88,7 @@ class Transient(Result):
 
     @cached_property
     def journal_velocity(self) -> Array:
-        """The journal's velocity in X, Y [m/s], (n, 2); computed when first asked for.
+        """The journal's velocity in X, Y [m/s], (n, 2); computed on first use.
 
         Without journal mass it is solved from the film's force, sample by sample.
         """
@@ -95,14 +96,14 @@ class Transient(Result):
 
 
 class TransientError(RuntimeError):
-    """The integration could not go on; `partial` holds the motion computed so far."""
+    """The integration failed; `partial` holds the motion computed so far."""
 
     def __init__(self, message: str, partial: Transient) -> None:
         super().__init__(message)
         self.partial = partial
 
     def __reduce__(self) -> tuple[type, tuple[str, Transient]]:
-        """Return what another process makes it of."""
+        """Return the arguments with which another process restores it."""
         return type(self), (str(self), self.partial)
 
 
@@ -139,7 +140,7 @@ def simulate(  # noqa: PLR0913 - how long, from where, to which speed
         Relative error allowed in each of the integrator's steps, 1e-13 to 1e-3. The default keeps
         a motion over 200 revolutions to better than 1e-6.
     progress : callable or None
-        Called now and then with the share done, 0 to 1. What it raises ends the integration.
+        Called repeatedly with the share done, 0 to 1. An exception that it raises ends the work.
 
     Returns
     -------
@@ -152,7 +153,7 @@ def simulate(  # noqa: PLR0913 - how long, from where, to which speed
         Where a speed, the number of revolutions or samples, the start or the tolerance is out of
         bounds.
     TransientError
-        Where the integration cannot go on, with the time and place; it holds the part computed.
+        Where the integration fails, with time and position; it holds the motion computed so far.
     """
     speeds = _checked_speeds(speed, final_speed)
     _check_length(revolutions, samples_per_revolution)
@@ -181,7 +182,7 @@ def start_on_mode(machine: Machine, speed: float, amplitude: float) -> Start:
     Returns
     -------
     Start
-        From which the motion follows that mode while it is small.
+        The motion from it follows that mode while it is small.
 
     Raises
     ------
@@ -206,7 +207,7 @@ def start_on_mode(machine: Machine, speed: float, amplitude: float) -> Start:
 
 @checked
 def last_state(motion: Transient) -> Start:
-    """Return the state in which a motion ends, for another to start from."""
+    """Return the final state of a motion, a start for another."""
     return Start(
         journal=motion.journal[-1],
         disk=motion.disk[-1],
@@ -218,7 +219,7 @@ def last_state(motion: Transient) -> Start:
 
 @dataclass(frozen=True, eq=False)
 class _Run:
-    """Angles at which to tell the state, how many of them make a stretch, and the tolerance."""
+    """Angles at which to return the state, their number in a stretch, and the tolerance."""
 
     angles: Array
     stretch: int
@@ -228,7 +229,7 @@ class _Run:
 def _integrate(
     model: Equations, state: Array, run: _Run, progress: Callable[[float], object] | None
 ) -> Transient:
-    """Integrate stretch by stretch, so that progress can be told and a failure has its place."""
+    """Integrate in stretches, so that progress is reported and a failure located."""
     motion, angles = model.motion(), run.angles
     states = np.empty((len(angles), len(state)))
     states[0] = state
@@ -268,10 +269,10 @@ def _transient(model: Equations, angles: Array, states: Array) -> Transient:
 def _stretch(
     model: Equations, motion: Motion, state: Array, angles: Array, tolerance: float
 ) -> tuple[Array, str]:
-    """Return the good states over a stretch, and what ended it early, if anything did.
+    """Return the valid states over a stretch, and the reason for an early end, if any.
 
-    Where the integrator gives up it does not say which of its states are good: what is left is then
-    found by halving the stretch.
+    Where the integrator fails it does not say which of its states are valid: these are then found
+    by halving the stretch.
     """
     states, message = _attempt(motion, state, angles, tolerance)
     if message and len(angles) > 2:

@@ -1,7 +1,7 @@
 """Where whirl sets in: the film's threshold, and the onset speed of a machine.
 
-`onset_speed` chooses its way itself: the closed form where the rotor is undamped, else the
-characteristic polynomial in floats, and in sixty digits where floats leave doubt.
+`onset_speed` chooses the method: the closed form for an undamped rotor, else the characteristic
+polynomial in floats, and in sixty digits where floats are not conclusive.
 """
 
 from rotorcalc.arguments import checked
@@ -25,7 +25,7 @@ def onset_speed(machine: Machine, flexible: bool = True) -> Onset:
     """Return the lowest speed at which the machine itself becomes unstable.
 
     Each speed has its own equilibrium, so without midspan damping and journal mass it is where
-    Ω = Ω_sf(ε(Ω)) of Eqs. 5.45 to 5.50; it holds with both too.
+    Ω = Ω_sf(ε(Ω)) of Eqs. 5.45 to 5.50; both are allowed here.
 
     Parameters
     ----------

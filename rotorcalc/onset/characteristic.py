@@ -1,7 +1,7 @@
 """The characteristic polynomial of a machine: in floats over speed, in sixty digits at one speed.
 
-On a lightly loaded film, σ ≫ 1, or a soft shaft the growth of a whirl is to the film's own rates
-as 1/σ and as K_rot/K_eq. Where both are small together, a float's sixteen digits do not hold it.
+On a lightly loaded film, σ ≫ 1, or a soft shaft the growth rate of whirl is smaller than the film's
+own rates by factors 1/σ and K_rot/K_eq. Where both are small, sixteen digits do not resolve it.
 """
 
 import functools
@@ -22,8 +22,9 @@ from rotorcalc.numerics import routh
 
 # A division by zero gives infinity as in NumPy, not an error.
 _DIGITS = Context(prec=60, Emax=MAX_EMAX, Emin=MIN_EMIN, traps=[])
-# Secants beside a zero, and how far from it, relative, the first begins.
 _DECIMALS: Callable[[Any], Any] = np.frompyfunc(Decimal, 1, 1)
+# Secant steps to a zero, and the relative distance of the second starting point. Errors multiply:
+# from 1e-9 and a float's 1e-14 four steps exceed sixty digits.
 _SECANTS, _ASIDE = 4, Decimal("1e-9")
 
 P = ParamSpec("P")
@@ -54,9 +55,9 @@ def _rotor_terms(rotor: Rotor, flexible: bool) -> Array:
 
 
 class ExactPolynomial:
-    """The characteristic polynomial of one machine in sixty digits, of its values as they are.
+    """The characteristic polynomial of one machine in sixty digits, its inputs taken as exact.
 
-    So are the coefficients of a short film. Those of another model are the floats that it knows.
+    So are the coefficients of a short film; those of another model are floats.
     """
 
     @many_digits
@@ -82,10 +83,10 @@ class ExactPolynomial:
 
     @many_digits
     def sharpened(self, speed: float) -> tuple[float, float]:
-        """Return the place of a zero of the determinant, and ω of the roots ±jω there [rad/s].
+        """Return a zero of the determinant in more digits, and ω of the roots ±jω there [rad/s].
 
-        By a secant from beside a speed that is the place to a float's digits: what Routh's scheme
-        says of ω can change millions of times as fast as the speed.
+        Secant steps from a speed that is the zero to a float's digits: ω from Routh's scheme can
+        change millions of times as fast as the speed.
         """
         before, here = Decimal(speed) * (1 + _ASIDE), Decimal(speed)
         if not self._is_short:
@@ -93,7 +94,7 @@ class ExactPolynomial:
         value = self._determinant(before)
         for _ in range(_SECANTS):
             there = self._determinant(here)
-            if there == value:
+            if there == value:  # both at rounding: a further secant would divide by zero
                 break
             before, here, value = here, here - there * (here - before) / (there - value), there
         return float(here), float(routh.axis_frequency(self._at(here)))

@@ -5,7 +5,7 @@ it balances the film's K_eq at the film's own whirl ratio ω̄. With X = (ω̄Ω
 
     (K_eq − M_j X)(K_rot − m_d X) = K_rot m_d X
 
-whose lower root is the first met. In A = M X/K_eq = M/M_c, B = m_d X/K_rot and β = M_j/M this is
+whose lower root is reached first. With A = M X/K_eq = M/M_c, B = m_d X/K_rot and β = M_j/M this is
 
     A + B − β A B = 1,  B < 1
 
@@ -30,11 +30,11 @@ from rotorcalc.machine import JournalBearing, Machine
 from rotorcalc.numerics.roots import narrow_root
 from rotorcalc.onset.whirl import Onset, whirl_onset
 
-# The film whose two curves rise with σ.
+# The film whose two curves both rise with σ.
 _CURVE = "short"
 _ANY_BEARING = JournalBearing(diameter=1.0, length=1.0, radial_clearance=0.01)
-# Modified Sommerfeld numbers between which a root is bracketed. Below no film can whirl, above it
-# is all but centred, where both curves grow as σ².
+# Modified Sommerfeld numbers that bracket a root. Below them no film can whirl; above them it is
+# nearly centred, where both curves grow as σ². Forty per decade, refined by a root finder.
 _SIGMA = np.geomspace(1e-3, 1e3, 241)
 _ROOT: Any = {"xatol": 0.0, "xrtol": 1e-15, "fatol": 0.0, "frtol": 0.0}
 
@@ -123,17 +123,17 @@ def _bracket(a: Array, b: Array, beta: Array) -> tuple[Array, Array]:
     rigid, flexible = _table()
     table = excess_mass(a * rigid[:, None], b * flexible[:, None], beta)
     first = np.argmax(table >= 0.0, axis=0)
-    beyond = table[-1] < 0.0  # where the film is centred and both curves grow as σ²
+    beyond = table[-1] < 0.0  # the root lies where the film is centred and both curves grow as σ²
     far = 2.0 * _SIGMA[-1] / np.sqrt(a * rigid[-1] + b * flexible[-1])  # A + B = 4 there
     low = np.where(beyond, _SIGMA[-1], _SIGMA[np.maximum(first - 1, 0)])
     return low, np.where(beyond, far, _SIGMA[first])
 
 
 def excess_mass(A: Any, B: Any, beta: Any) -> Any:
-    """Return A + B − βAB − 1, positive where the rotor is too heavy for the film to hold it.
+    """Return A + B − βAB − 1, positive where the rotor exceeds the critical mass.
 
-    Beyond B = 1, the lower root's end, the product grows no further, so that the sum still rises.
-    Of floats or arrays.
+    The product is held beyond B = 1, where the lower root ends, so that the sum still rises. Of
+    floats or arrays.
     """
     return A * (1.0 - beta * np.minimum(B, 1.0)) + B - 1.0
 

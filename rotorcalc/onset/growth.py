@@ -1,7 +1,7 @@
-"""The onset of machines whose film has coordinates of its own: on the eigenvalues.
+"""The onset of machines whose film has inner coordinates, from the eigenvalues.
 
-Such a film's coefficients depend on the whirl's frequency, so neither Eqs. 5.45 to 5.50 nor a
-polynomial of fixed degree hold. The mode that grows fastest is refined on the machine's impedance.
+Such a film's coefficients depend on the whirl frequency, so neither Eqs. 5.45 to 5.50 nor a
+polynomial of fixed degree apply. The fastest growing mode is refined on the machine's impedance.
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ from rotorcalc.coefficients import dynamics
 from rotorcalc.machine import Machine
 from rotorcalc.numerics.roots import narrow_root
 
-# A refined eigenvalue that has moved further, relative, has gone to another.
+# A refined eigenvalue that has moved further than this, relative, has converged to another one.
 _SAME = 1e-6
 
 
@@ -23,7 +23,7 @@ def fastest(machine: Machine, speed: ArrayLike, flexible: bool) -> ComplexArray:
     matrices = (rotor, film.stiffness, film.damping)
     known = modes.eigenvalues(*matrices, inertia=film.inertia, flexible=flexible)
     refined = modes.refined_eigenvalues(*matrices, inertia=film.inertia, flexible=flexible)
-    refined = refined[..., : known.shape[-1]]  # they begin with these
+    refined = refined[..., : known.shape[-1]]  # the first guesses begin with the matrix eigenvalues
     is_same = np.abs(refined - known) <= _SAME * np.abs(known)
     values: ComplexArray = np.where(is_same, refined, known)
     return np.take_along_axis(values, np.argmax(values.real, axis=-1)[..., None], axis=-1)[..., 0]

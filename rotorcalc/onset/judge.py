@@ -1,8 +1,8 @@
-"""Whether a machine is stable: the one judge by which onset, ranges and charts go.
+"""Whether a machine is stable: the single criterion for onset, unstable ranges and charts.
 
-An undamped rotor is unstable where its mass is more than the film holds (`closed_form`). Of any
-other the characteristic polynomial tells, in floats where rounding cannot matter, else in sixty
-digits. Eigenvalues have no say: those of a state matrix are known no better than its fastest.
+An undamped rotor is unstable where its mass exceeds the film's limit (`closed_form`). For any other
+the characteristic polynomial decides, in floats where rounding cannot matter, else in sixty digits.
+Eigenvalues are not used: the error of each is a rounding error of the fastest.
 """
 
 import itertools
@@ -76,13 +76,13 @@ def unstable_ranges(machine: Machine, speed: ArrayLike) -> Array:
     machine : Machine
         The machine.
     speed : array_like, (n,)
-        Rising speeds, Ω [rad/s]: first and last bound the ranges, those between help to find them.
+        Rising speeds, Ω [rad/s]: the first and last bound the ranges, the others refine the search.
 
     Returns
     -------
     array, (m, 2)
         First and last speed of each range [rad/s], to the digits of `onset_speed`. Ranges narrower
-        than the distance of two speeds are found too, where the search for an onset would.
+        than the spacing of the speeds are found as the search for an onset finds them.
 
     Raises
     ------
@@ -94,6 +94,7 @@ def unstable_ranges(machine: Machine, speed: ArrayLike) -> Array:
     if not film.can_whirl:
         return np.empty((0, 2))
     if covers(machine):
+        # A and B rise with speed, so an undamped rotor stays unstable above its onset.
         first = max(closed_form_onset(machine).speed, speeds[0])
         return np.array([[first, speeds[-1]]] if first < speeds[-1] else np.empty((0, 2)))
     searched = search_speeds(machine)
@@ -106,6 +107,7 @@ def unstable_ranges(machine: Machine, speed: ArrayLike) -> Array:
         return _margins(machine, speed, *stiffness_and_damping(machine, speed))
 
     found = margins(speeds)
+    # The top of a hump splits an unseen range into two edges that the search below refines.
     hidden = [top for _, top in humps(margins, speeds, found)]
     speeds, order = np.unique(np.append(speeds, hidden), return_index=True)
     unstable = np.append(found > 0.0, np.ones(len(hidden), dtype=bool))[order]
@@ -122,7 +124,7 @@ def unstable_ranges(machine: Machine, speed: ArrayLike) -> Array:
 
 
 def _margins(machine: Machine, speed: Array, K: Array, C: Array, *, flexible: bool = True) -> Array:
-    """Return `routh.margin` of a machine at speeds (...), sure of its sign."""
+    """Return `routh.margin` of a machine at speeds (...), with certain sign."""
     least, most = routh.margin_bounds(
         modes.characteristic_polynomial(machine.rotor, K, C, flexible=flexible)
     )
@@ -134,9 +136,9 @@ def _margins(machine: Machine, speed: Array, K: Array, C: Array, *, flexible: bo
 
 
 def _is_too_heavy(rotor: Rotor, speed: Array, K: Array, C: Array, *, flexible: bool) -> BoolArray:
-    """Return whether an undamped rotor is heavier than the film can hold, shape of `speed`."""
+    """Return whether an undamped rotor exceeds the film's critical mass, shape of `speed`."""
     film = whirl_onset(K, C * speed[..., None, None])  # K_eq, and p_s² as M_c Ω²
-    with np.errstate(divide="ignore"):  # without load no mass is held
+    with np.errstate(divide="ignore"):  # without load the critical mass is zero
         A = rotor.half_mass * speed**2 / film.critical_mass
     B = flexible * (film.whirl_ratio * speed) ** 2 * rotor.disk_mass / rotor.shaft_stiffness
     return excess_mass(A, B, rotor.journal_mass / rotor.half_mass) > 0.0

@@ -1,8 +1,8 @@
 """Onset speeds of many machines at once, by their characteristic polynomials alone.
 
-What `onset_speed` does for one machine, on arrays over machines, up to where floats leave doubt:
-there it is asked itself. The films follow one curve over σ: k and c depend on nothing of the
-bearing but its film model.
+As `onset_speed` for one machine, but on arrays over machines; where floats are not conclusive
+`onset_speed` itself is called. The films follow one curve over σ: k and c depend on the film model
+alone, not on the bearing's dimensions.
 """
 
 import math
@@ -23,7 +23,7 @@ from rotorcalc.onset import onset_speed
 from rotorcalc.onset.closed_form import closed_onsets, covers
 from rotorcalc.onset.search import search_speeds
 
-# From so many machines on their onsets are sooner found together than one by one.
+# Number of machines from which solving them together is faster than one by one.
 _FLEET = 4
 
 
@@ -63,16 +63,15 @@ def onset_speeds(machines: Sequence[Machine]) -> Array:
     return speeds
 
 
+# Only the relative step ends the search: an onset may be of any size, its determinant of any too.
 _ROOT: Any = {"xatol": 0.0, "xrtol": 1e-14, "fatol": 0.0, "frtol": 0.0}
-
-
-# How near to an onset, relative, there is no doubt below it that the machine is stable, and none
-# above it that it is not.
+# Relative distance from an onset at which floats must prove stability below and instability above
+# it; otherwise `onset_speed` is called for that machine.
 _SURE = 1e-11
 
 
 def sure_onsets(machines: Sequence[Machine]) -> Array:
-    """Return the onset speeds of many machines as far as their polynomials tell them.
+    """Return the onset speeds of many machines where their polynomials are conclusive.
 
     Parameters
     ----------
@@ -82,7 +81,7 @@ def sure_onsets(machines: Sequence[Machine]) -> Array:
     Returns
     -------
     array, (n,)
-        Onset speed, Ω_s [rad/s], as `onset_speed` gives it; not a number where that must be asked.
+        Onset speed, Ω_s [rad/s], as `onset_speed` gives it; NaN where polynomials cannot decide.
     """
     speeds = np.full(len(machines), np.nan)
     kinds: dict[tuple[Hashable, int], list[int]] = {}
@@ -96,14 +95,14 @@ def sure_onsets(machines: Sequence[Machine]) -> Array:
 
 
 def _curve(machine: Machine) -> Hashable:
-    """Return what is equal for machines whose films follow one curve over σ, None for others."""
+    """Return the name of the curve over σ that a machine's film follows, None where it has none."""
     film = film_of(machine.bearing)
     return film.curve if film.can_whirl and film.inner == 0 else None
 
 
 @dataclass(frozen=True, eq=False)
 class _Fleet:
-    """Machines with one film model and as many states: what their polynomials take.
+    """Machines with the same film model and number of states: the data of their polynomials.
 
     Attributes
     ----------
@@ -146,7 +145,7 @@ def _numbers(machine: Machine) -> tuple[float, ...]:
 
 
 def _sure_onsets(machines: Sequence[Machine], rotor_terms: Array) -> Array:
-    """Return the onsets of machines with one film model and as many states."""
+    """Return the onsets of machines with the same film model and number of states."""
     searches = [search_speeds(machine) for machine in machines]
     first = np.array([search[0] for search in searches])
     ratio = np.array([search[1] / search[0] for search in searches])
@@ -166,14 +165,14 @@ def _sure_onsets(machines: Sequence[Machine], rotor_terms: Array) -> Array:
 
 
 def _has_hump(doubt: Array) -> BoolArray:
-    """Return whether a hump may hide between two points before the first in doubt, (m,)."""
+    """Return whether a hump may lie between two points before the first uncertain one, (m,)."""
     is_peak = (doubt[:, :-2] < doubt[:, 1:-1]) & (doubt[:, 1:-1] >= doubt[:, 2:])
     before = np.cumsum(doubt > 0.0, axis=1) == 0
     return np.any(is_peak & before[:, 1:-1], axis=1)
 
 
 def _crossings(fleet: _Fleet, which: IntArray, low: Array, high: Array) -> Array:
-    """Return the onsets between speeds, (k,), not a number where rounding leaves them in doubt."""
+    """Return the onsets between speeds, (k,), NaN where rounding leaves them uncertain."""
 
     def determinant(speed: Array, which: Array) -> Array:
         polynomials = fleet.polynomials(speed[:, None], which.astype(int))

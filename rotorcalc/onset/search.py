@@ -1,8 +1,8 @@
-"""The onset of any machine whose film is its K and C: on its characteristic polynomial.
+"""The onset of any machine whose film is given by K and C, from its characteristic polynomial.
 
-The speeds that an onset can have are looked through for the first at which some root may not decay,
-and there Hurwitz's last determinant is followed to zero. In floats where these tell it beyond
-doubt, else in sixty digits.
+The possible range of speeds is scanned for the first at which a root may lie in Re λ > 0, and there
+the zero of Hurwitz's last determinant is found: in floats where these are conclusive, else in sixty
+digits.
 """
 
 import math
@@ -22,20 +22,20 @@ from rotorcalc.onset.characteristic import ExactPolynomial, polynomial
 from rotorcalc.onset.growth import growth, growth_crossing
 from rotorcalc.onset.whirl import Method, Onset, whirl_onset
 
-# Speeds a decade at which the search for the onset looks before it closes in.
+# Speeds per decade of the scan before the search refines.
 _POINTS_PER_DECADE = 30
-# It looks at so many speeds at once, and no further than it must.
+# Speeds evaluated at once, in floats and in sixty digits; the scan ends with the block it needs.
 _BLOCK, _EXACT_BLOCK = 64, 4
-# Where a film's synchronous coefficients feed no whirl, its inner coordinates may: near half speed.
+# Whirl ratio assumed where synchronous coefficients allow no whirl but inner coordinates may.
 _HALF = 0.5
-# How much further the search goes for them, and how often it is widened for a film that stiffens.
+# Factor on the range of the search for inner coordinates, and extensions for a stiffening film.
 _INNER, _RISES = 10.0, 60
-# How near to an onset, relative, there is no doubt below it that the machine is stable, and none
-# above it that it is not.
+# Relative distance from an onset at which floats must prove stability below and instability above
+# it; otherwise the onset is computed in sixty digits.
 _SURE = 1e-9
 # Rounding of Hurwitz's determinant, over its largest value between two speeds of the search.
 _NOISE = 1e-11
-# Newton's steps from a root that is all but right, and how near to the axis one then lies.
+# Newton's steps from an accurate first guess, and the distance from the axis at convergence.
 _REFINEMENTS, _ON_AXIS = 3, 1e-8
 
 
@@ -134,7 +134,7 @@ def _onset_at(machine: Machine, speed: float, whirl_frequency: float, *, method:
 def _in_floats(
     machine: Machine, flexible: bool, stable: float, unstable: float
 ) -> tuple[float, float] | None:
-    """Return speed and whirl frequency where a machine changes, None where that is in doubt."""
+    """Return speed and whirl frequency at a change of stability, None where floats cannot tell."""
 
     def polynomials(speed: Array | float) -> Array:
         return polynomial(machine, speed, flexible)
@@ -157,9 +157,9 @@ def _in_floats(
 
 
 def _axis_frequency(polynomial: Array) -> float:
-    """Return ω of the roots ±jω of a polynomial [rad/s], NaN where floats do not tell it.
+    """Return ω of the roots ±jω of a polynomial [rad/s], NaN where floats do not resolve it.
 
-    The row of Routh's scheme tells it worse than the speed is known; Newton's method betters it.
+    Routh's scheme gives it less accurately than the speed is known; Newton's method refines it.
     """
     with np.errstate(invalid="ignore", over="ignore"):
         root, step = 1j * float(routh.axis_frequency(polynomial)), 0.0j
@@ -172,7 +172,7 @@ def _axis_frequency(polynomial: Array) -> float:
 
 
 def _in_many_digits(exact: ExactPolynomial, stable: float, unstable: float) -> tuple[float, float]:
-    """Return speed and whirl frequency where a machine changes between two speeds."""
+    """Return speed and whirl frequency at a change of stability between two speeds."""
     # More than one pair of roots may cross between the two.
     while exact.determinant(stable) <= 0.0 or exact.determinant(unstable) >= 0.0:
         middle = 0.5 * (stable + unstable)
@@ -204,10 +204,10 @@ def first_crossing(
 def humps(
     values: Callable[[Array], Array], speeds: Array, found: Array
 ) -> Iterator[tuple[float, float]]:
-    """Yield where a function is positive between speeds at which it is not, as it were unseen.
+    """Yield places where a function is positive between speeds at which it is not.
 
-    Looked for at each local maximum of the values `found` at the speeds; a speed below the hump
-    and that of its top.
+    Each local maximum of the values `found` at the speeds is examined; yielded are a speed below
+    the hump and that of its top.
     """
     before, here, after = found[:-2], found[1:-1], found[2:]
     for i in np.flatnonzero((before < here) & (here >= after) & (here <= 0.0)):
@@ -221,12 +221,11 @@ def humps(
 
 
 def search_speeds(machine: Machine, flexible: bool = True) -> Array:
-    """Return speeds that span the first of all onsets there can be [rad/s], by equal ratios.
+    """Return speeds in equal ratios that span every possible first onset [rad/s].
 
-    A film that cannot whirl feeds no mode, whatever the rotor, so the search begins at the last
-    speed before the film can; and from some σ on the film no longer changes (`sommerfeld_range`).
-    Without load it is that of the centre at every speed, and the search begins far below every
-    rate of the rotor.
+    Below the σ at which the film can whirl every rotor is stable, so the search begins there; above
+    some σ the film no longer changes (`sommerfeld_range`). Without load the film is the centred one
+    at every speed, and the search begins far below every rate of the rotor.
     """
     unit = float(modified_sommerfeld(machine, 1.0))
     lightest, centred = film_of(machine.bearing).sommerfeld_range
@@ -234,7 +233,7 @@ def search_speeds(machine: Machine, flexible: bool = True) -> Array:
     lowest = lightest / unit if is_loaded else 1e-3 * _slowest_rate(machine, flexible)
     centred = centred / unit if is_loaded else lowest
     highest = 2.0 * _beyond_all_onsets(machine, centred, flexible)
-    if film_of(machine.bearing).inner:  # its own parts whirl beside the rotor
+    if film_of(machine.bearing).inner:  # modes of the film's own parts, beside the rotor's
         highest *= _INNER
     points = 1 + math.ceil(_POINTS_PER_DECADE * math.log10(highest / lowest))
     return np.geomspace(lowest, highest, points)
@@ -266,10 +265,10 @@ def _slowest_rate(machine: Machine, flexible: bool) -> float:
 def _highest_onset(machine: Machine, centred: float, flexible: bool) -> float:
     """Return a speed above every onset on a film that is centred from a speed on [rad/s].
 
-    The whirl's frequency is bounded by the rotor's: on the film's stiffness alone; with midspan
-    damping, which can quench that whirl, also by that of the disk on the shaft and of the journal
-    between shaft and film. The film feeds the whirl at the whirl ratio and more speed feeds it
-    more, by so much as the midspan damping takes from the journal.
+    The whirl frequency is bounded by natural frequencies: the rotor's on the film's stiffness;
+    with midspan damping, which can suppress that whirl, also the disk's on the shaft and the
+    journal's between shaft and film. The film drives the whirl at the whirl ratio, and the speed
+    must exceed that by the share of the midspan damping that acts on the journal.
     """
     stiffness, damping = stiffness_and_damping(machine, centred)
     film, rotor = whirl_onset(stiffness, damping * centred), machine.rotor
@@ -281,8 +280,8 @@ def _highest_onset(machine: Machine, centred: float, flexible: bool) -> float:
         squares.append(2.0 * k / m)
         if rotor.journal_mass > 0.0:
             squares.append((float(np.trace(stiffness)) + 2.0 * k) / rotor.journal_mass)
-        # Largest of k²C_s/|k + z|² over frequency; a light damper's is cut off, for it quenches
-        # no whirl.
+        # Maximum of k²C_s/|k + z|² over frequency; a light damper's resonance is cut off, as it
+        # suppresses no whirl.
         taken = C_s if C_s**2 >= 2.0 * k * m else min(2.0 * k * m / C_s, 1e6 * C)
     ratio = float(film.whirl_ratio) or _HALF
     return math.sqrt(max(squares)) * (1.0 + taken / C) / ratio

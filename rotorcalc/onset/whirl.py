@@ -1,4 +1,4 @@
-"""The threshold of whirl of a rotor on given film coefficients, and the record of an onset.
+"""The whirl threshold of a rotor on given film coefficients, and the record of an onset.
 
 Model: the film's linear force coefficients about static equilibrium; a symmetric rotor. At the
 threshold one mode whirls undamped, at the whirl ratio ω̄ = ω_s/Ω_s times the running speed.
@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from rotorcalc.arrays import Array, real_array
 from rotorcalc.display import Result
 
-# How an onset was found, the surest and soonest first.
+# How an onset was found, from the most accurate and fastest method on.
 Method: TypeAlias = Literal[
     "closed form", "polynomial", "extended precision", "eigenvalues", "film"
 ]
@@ -52,13 +52,13 @@ class Onset:
     speed : float
         Running speed at the onset, Ω_s [rad/s]; infinite where there is none.
     whirl_frequency : float
-        Frequency of the whirl there, ω_s [rad/s]; not a number where there is none.
+        Frequency of the whirl there, ω_s [rad/s]; NaN where there is none.
     eccentricity_ratio : float
-        Eccentricity ratio there, ε [-]; not a number where there is none.
+        Eccentricity ratio there, ε [-]; NaN where there is none.
     method : str
-        How it was found: by the "closed form" of `onset.closed_form`, on the characteristic
-        "polynomial", on that in "extended precision" where floats leave doubt, on the
-        "eigenvalues" where the film has coordinates of its own; by the "film" alone where it cannot
+        How it was found: by the "closed form" of `onset.closed_form`; from the characteristic
+        "polynomial", in "extended precision" where floats are not conclusive; from the
+        "eigenvalues" where the film has inner coordinates; from the "film" alone where it cannot
         whirl.
     """
 
@@ -98,11 +98,13 @@ def whirl_onset(k: ArrayLike, c: ArrayLike) -> WhirlOnset:
         k_eq = (k_XX * c_YY + k_YY * c_XX - c_YX * k_XY - c_XY * k_YX) / (c_XX + c_YY)
         # Eq. 5.46
         ratio2 = ((k_eq - k_XX) * (k_eq - k_YY) - k_XY * k_YX) / (c_XX * c_YY - c_XY * c_YX)
+    # Without load: k_XX, k_YY, c_XY, c_YX are finite beside k_XY = −k_YX = c_XX/2 → ∞, which leave
+    # the mean of the direct terms in Eq. 5.45 and 1/4 in Eq. 5.46.
     centred = np.isinf(k_XY)
     if np.any(centred):
         k_eq = np.where(centred, 0.5 * (k_XX + k_YY), k_eq)
         ratio2 = np.where(centred, 0.25, ratio2)
-    can_whirl = ratio2 > 0.0  # else no real frequency feeds the whirl: stable at any mass
+    can_whirl = ratio2 > 0.0  # else no real whirl frequency exists: stable at any mass
     p_s2 = np.where(can_whirl, k_eq / np.where(can_whirl, ratio2, 1.0), np.inf)
     return WhirlOnset(
         equivalent_stiffness=k_eq,
