@@ -41,7 +41,7 @@ def locus(page: Page) -> None:
             ),
             "position",
             alt="Eccentricity ratio and attitude angle, the running speed marked on both.",
-            caption="More speed or viscosity, less load: nearer the centre. Eqs. 5.7, 5.8.",
+            caption="More speed or viscosity, less load: closer to the centre. Eqs. 5.7, 5.8.",
         )
 
 
@@ -89,8 +89,8 @@ def losses(page: Page) -> None:
     left, right = st.columns(2)
     friction = place.drag_torque if page.computed.unloaded else place.friction_coefficient
     for column, draw, caption in (
-        (left, place.power_loss, "Drag torque times speed, all turned into heat. Sheet."),
-        (right, place.side_flow, "Oil that leaves at both ends and has to be fed. Sheet."),
+        (left, place.power_loss, "Drag torque times speed, all dissipated as heat. Sheet."),
+        (right, place.side_flow, "Oil that leaves at both ends and must be supplied. Sheet."),
         (left, friction, "Drag torque/(R Fₒ); without load the drag torque itself."),
         (right, place.minimum_film_thickness, "C(1 − ε), below the clearance. Eq. 5.19."),
     ):
@@ -109,6 +109,6 @@ def losses(page: Page) -> None:
 show(
     "Static equilibrium",
     "Where the journal sits at the running speed, how its film carries the load, "
-    "and what the film costs.",
+    "and its losses and flow.",
     content,
 )

@@ -105,7 +105,7 @@ def only_cross_coupling(page: Page) -> None:
 
 show(
     "Force coefficients",
-    "How the film pushes back: four stiffness and four damping coefficients for small motions of "
+    "The film's reaction: four stiffness and four damping coefficients for small motions of "
     "the journal about its equilibrium.",
     content,
 )

@@ -38,7 +38,7 @@ def threshold(page: Page) -> None:
             "threshold",
             alt="Threshold speed over running speed for the flexible and the rigid shaft, "
             "with the line of equal speeds, their crossing and the unstable side shaded.",
-            caption="Where the threshold meets the line Ω the rotor goes unstable. "
+            caption="Where the threshold meets the line Ω the rotor becomes unstable. "
             "Eqs. 5.45, 5.46, 5.50.",
         )
     with right:
@@ -107,7 +107,7 @@ def follower_force(page: Page) -> None:
         page.chart(
             lambda c: figures.energy_bars(ask.energies(c), units),
             "energy_bars",
-            alt="Energy fed in and taken out in one turn of the whirl orbit, at the "
+            alt="Energy fed in and dissipated in one turn of the whirl orbit, at the "
             "running speed and at the onset, where the bars meet.",
             caption="Per turn, orbit area (J/m² = N/m) and bearing. Appendix A, Eq. 5.14.",
         )
@@ -115,10 +115,10 @@ def follower_force(page: Page) -> None:
         page.chart(
             lambda c: figures.energy(ask.energies(c), ask.crossing(c), units),
             "energy",
-            alt="Energy fed into and taken out of the whirl orbit over running speed; the "
+            alt="Energy fed in and dissipated in the whirl orbit over running speed; the "
             "two lines meet at the onset.",
             caption="The follower force grows with speed, the damping does not: past the "
-            "onset more is fed in than taken out, and the orbit grows.",
+            "onset more is fed in than dissipated, and the orbit grows.",
         )
     st.latex(ask.WORK)
     st.caption(ask.WORK_WORDS)
@@ -153,7 +153,7 @@ def remedies(page: Page) -> None:
     page.chart(
         lambda c: what_if.tornado(design.sensitivities(c), design.names(units), units),
         "tornado",
-        alt="Movement of the onset speed for ten per cent less and more of each input.",
+        alt="Change of the onset speed for ten per cent less and more of each input.",
         caption=design.TORNADO,
     )
     left, right = st.columns(2)
@@ -174,14 +174,13 @@ def remedies(page: Page) -> None:
             units,
         ),
         "solution",
-        alt="Onset speed over one input, with the onset wanted and the values that give it.",
+        alt="Onset speed over one input, with the target onset and the values that give it.",
         caption="Onset with one input changed, all others kept; each crossing solved.",
     )
 
 
 show(
     "Stability",
-    "The speed above which the rotor whirls by itself, at about half the running speed, and what "
-    "moves it.",
+    "The speed above which the rotor whirls, at about half the running speed, and what affects it.",
     content,
 )

@@ -67,7 +67,7 @@ def mode_shape(page: Page, *, bends: bool) -> None:
     left, right = st.columns([2, 3])
     with left:
         mode = words.choose_mode(locus.here, locus.leading, units)
-        spiral = st.toggle("Let it grow or decay over three turns", key="locus_spiral")
+        spiral = st.toggle("Show growth or decay over three turns", key="locus_spiral")
         st.markdown(words.ABOUT_MODES)
     with right:
         page.chart(

@@ -101,6 +101,6 @@ def family(page: Page) -> None:
 
 show(
     "Imbalance response",
-    "How far disk and journal swing when the disk's mass centre lies off the shaft's axis.",
+    "Vibration of disk and journal when the disk's mass centre lies off the shaft's axis.",
     content,
 )

@@ -38,7 +38,7 @@ def orbit(page: Page, asked: ask.Ask) -> None:
             of_release(draw.orbit, page, asked),
             "orbits_path",
             alt="The journal's path in its clearance circle, with an animation.",
-            caption="Play it, or pull the slider. Blue: M ẍ = F(x, ẋ) + load + imbalance (Eq. 5.1, "
+            caption="Play it, or move the slider. Blue: M ẍ = F(x, ẋ) + load + imbalance (Eq. 5.1, "
             "forward); purple: the linear theory from the same start (Eq. 5.38).",
         )
     with right:
@@ -57,7 +57,7 @@ def in_time(page: Page, asked: ask.Ask) -> None:
         page.chart(
             of_release(draw.growth, page, asked),
             "orbits_growth",
-            alt="Distance from rest over revolutions, logarithmic.",
+            alt="Distance from equilibrium over revolutions, logarithmic.",
             caption="Largest distance over each two revolutions; dashed: e^(Re λ t). Eq. 5.38.",
         )
     with right:
@@ -84,8 +84,8 @@ def spectrum(page: Page, asked: ask.Ask, found: Release) -> None:
         page.chart(
             of_release(draw.once_a_revolution, page, asked),
             "orbits_points",
-            alt="Places of the journal once a revolution.",
-            caption="Once a revolution (Poincaré): synchronous one point, exact half-speed whirl "
+            alt="Positions of the journal once per revolution.",
+            caption="Once per revolution (Poincaré): synchronous one point, exact half-speed whirl "
             "two.",
         )
 
@@ -128,8 +128,7 @@ def onset_three_ways(page: Page) -> None:
 
 show(
     "Nonlinear orbits",
-    "Let the journal go and watch: its motion on the film's full force, the linear theory beside "
-    "it.",
+    "Release the journal: its motion under the film's full force, the linear theory beside it.",
     content,
     has_preview=False,
 )

@@ -22,7 +22,7 @@ def signs(page: Page) -> None:
         lambda _: conventions(),
         "conventions",
         alt=notes.CONVENTIONS_ALT,
-        caption="Seen along the shaft, the clearance drawn far too large. Eqs. 5.3, 5.7, 5.11.",
+        caption="Seen along the shaft, the clearance exaggerated. Eqs. 5.3, 5.7, 5.11.",
     )
     st.markdown(notes.text("conventions"))
 
@@ -33,8 +33,8 @@ def live_validation(_: Page) -> None:
     say = st.success if all(case.holds for case in cases) else st.error
     say(notes.verdict(cases, seconds))
     st.markdown(
-        "Each row is computed by the code that draws the other pages, and set beside a "
-        "number that comes another way. Recorded: found once by an independent calculation."
+        "Each row is computed by the code behind the other pages, and compared with an "
+        "independent reference. Recorded: from a separate calculation."
     )
     st.markdown(notes.checks(cases))
 

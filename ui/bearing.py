@@ -66,7 +66,7 @@ class Field:
         try:
             value = float(word)  # type: ignore[arg-type]
         except (TypeError, ValueError):
-            raise ValueError("is no number") from None
+            raise ValueError("is not a number") from None
         self.rule.check.check(self.key, self.unit(SI).to_si(value))
         return value
 

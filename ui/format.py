@@ -51,7 +51,7 @@ def typed_number(word: object) -> float:
     try:
         value = float(str(word))
     except ValueError:
-        raise ValueError("is no number") from None
+        raise ValueError("is not a number") from None
     if math.isinf(value) and any(digit.isdigit() for digit in str(word)):
         raise ValueError("is too large a number for this program")
     return value

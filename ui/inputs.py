@@ -1,4 +1,4 @@
-"""The quantities that a visitor moves: their keys, symbols, units, ranges and groups.
+"""The inputs of the sliders: their keys, symbols, units, ranges and groups.
 
 A value is kept in the unit of the address bar (SI as engineers write it: mm, µm, mPa·s, rpm), under
 its key there; what shapes a bearing's bore besides is in `ui.bearing`. `machine_of` and `values_of`
@@ -16,13 +16,13 @@ from rotorcalc.units import SI, Unit, Units
 from ui.bearing import Values, bearing_values, shape_of
 from ui.format import quoted, typed_number
 
-# The least of a positive value: below it what is divided by it has no room.
+# Smallest positive value: quotients by a smaller one would overflow.
 _LEAST = 1e-290
 
 
 @dataclass(frozen=True)
 class Input:
-    """A quantity that a visitor moves.
+    """An input that a visitor sets.
 
     `field` is its place in the core's records; `kind` names its unit in `Units`; `low`, `high` and
     `step` are in SI as engineers write it. A logarithmic input has `step` values a decade.
@@ -66,7 +66,7 @@ class Input:
     def taken(self, sent: object, units: Units) -> float:
         """Return what a slider sent, in a visitor's unit, as it is kept.
 
-        Raises ValueError in words where it is no number or lies outside the range.
+        Raises ValueError in words where it is not a number or lies outside the range.
         """
         try:
             reading = math.inf if self.infinite and sent == self.infinite else typed_number(sent)
@@ -84,7 +84,7 @@ class Input:
         if self.infinite and value == math.inf:
             return ""
         if 0.0 < value < _LEAST:
-            return f"lies between 0 and {_LEAST:g}, where numbers lose their digits"
+            return f"lies between 0 and {_LEAST:g}, where floating-point numbers lose precision"
         if self.low <= value <= self.high:
             return ""
         unit = self.unit(SI).name
@@ -120,17 +120,17 @@ INPUTS: dict[str, Input] = {
         Input(
             "TR", "oil.reference_temperature",
             "Reference temperature", "Tᵣ", "temperature", 0, 150, 0.5, "Oil",
-            "Temperature at which the reference viscosity holds.",
+            "Temperature of the reference viscosity.",
         ),
         Input(
             "alpha", "oil.temperature_coefficient",
             "Viscosity coefficient", "α", "per_temperature", 0, 0.08, 0.001, "Oil",
-            "How fast the oil thins as it warms.",
+            "Rate at which viscosity falls with temperature.",
         ),
         Input(
             "rho", "oil.density",
             "Oil density", "ρ", "density", 500, 1500, 5, "Oil",
-            "Enters the film's Reynolds number and added mass only.",
+            "Affects the film's Reynolds number and added mass only.",
         ),
         Input(
             "C", "bearing.radial_clearance",
@@ -166,12 +166,12 @@ INPUTS: dict[str, Input] = {
         Input(
             "mj", "rotor.journal_mass",
             "Journal mass", "Mⱼ", "mass", 0, 500, 0.5, "Shaft and disk",
-            "Mass lumped at each journal, taken out of the disk.",
+            "Mass lumped at each journal, subtracted from the disk's.",
         ),
         Input(
             "rpm", "speed",
             "Running speed", "Ω", "speed", 100, 30000, 10, "Speed",
-            "The speed of the point that every chart marks.",
+            "Every chart marks the point at this speed.",
         ),
         Input(
             "rpm_max", "top_speed",
@@ -184,7 +184,7 @@ INPUTS: dict[str, Input] = {
 DEFAULT_PRESET = "sheet-1e8"
 
 
-# What is no part of a machine: the speeds at which it is looked at.
+# Inputs that are not part of a machine: the speeds at which it is analysed.
 _SPEEDS = ("speed", "top_speed")
 
 
@@ -254,5 +254,5 @@ def speeds_of(values: Values) -> tuple[float, float]:
 def input_named(name: str) -> Input:
     """Return an input by its key, or raise ValueError in words."""
     if name not in INPUTS:
-        raise ValueError(f"{quoted(name)} is no input")
+        raise ValueError(f"{quoted(name)} is not an input")
     return INPUTS[name]

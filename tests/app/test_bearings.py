@@ -68,7 +68,7 @@ def test_a_link_writes_a_bore_in_the_units_of_engineers() -> None:
     [
         ({"bearing": "square"}, "`'square'` is not one of plain"),
         ({"bearing": "ringed", "bearing.share": "-1"}, "must be positive"),
-        ({"bearing": "ringed", "outer_clearance": "wide"}, "is no number"),
+        ({"bearing": "ringed", "outer_clearance": "wide"}, "is not a number"),
         ({"bearing": "sprung", "outer_clearance": "90"}, "is not an input of this machine"),
         ({"film": "finite"}, "film = 'finite'"),
         ({"film": "<b>"}, "film"),

@@ -22,9 +22,9 @@ def press(at: AppTest, key: str) -> None:
 @pytest.mark.parametrize(
     ("demo", "words"),
     [
-        ("below", "comes to rest|still dying"),
+        ("below", "returns to equilibrium|still decaying"),
         ("above", "whirls at 0.5.. of the running speed.*unstable"),
-        ("small", "still dying|comes to rest"),
+        ("small", "still decaying|returns to equilibrium"),
         ("big", "up to 0.86. C.*stable.*too large"),
     ],
 )
@@ -110,7 +110,7 @@ def test_three_onsets_agree_on_the_page(query: dict[str, str]) -> None:
 def test_a_machine_that_swings_often_in_a_revolution_is_followed_for_fewer() -> None:
     at = visit(ORBITS, rpm="100", load="20000")
     assert faults(at) == []
-    assert "only 16 of them are followed" in said(at)
+    assert "only 16 revolutions are computed" in said(at)
 
 
 def test_a_pinned_machine_that_allows_no_release_is_left_out() -> None:

@@ -99,4 +99,4 @@ def test_broken_link_is_answered_in_words(app: AppPage) -> None:
     assert app.slider("Film temperature").input_value() == "70"
     assert app.query() == {"T": "70"}
     app.press("Film temperature", "ArrowRight")
-    expect(app.page.get_by_text("is no quantity of this program")).to_have_count(0)
+    expect(app.page.get_by_text("is not an input of this machine")).to_have_count(0)

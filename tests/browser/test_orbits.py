@@ -26,7 +26,7 @@ def test_demonstrations_set_up_machine_kick_and_answer(app: AppPage) -> None:
     expect(main.get_by_text(re.compile("whirls at 0.5.*unstable"))).to_be_visible()
     assert app.query()["u"] == "0"
     press(app, "Subcritical: small kick")
-    expect(main.get_by_text(re.compile("dying|comes to rest"))).to_be_visible()
+    expect(main.get_by_text(re.compile("decaying|returns to equilibrium"))).to_be_visible()
     press(app, "Subcritical: big kick")
     expect(main.get_by_text(re.compile("up to 0.86.*stable.*too large"))).to_be_visible()
     assert app.query()["mass"] == "660"
@@ -41,7 +41,7 @@ def test_the_orbit_plays_stops_and_is_scrubbed(app: AppPage) -> None:
     chart = app.charts().first
     last = page.evaluate(_NOW)
     assert last[2] == page.evaluate(_FRAMES) - 1
-    # Pull the slider to its beginning: the journal is where it was let go.
+    # Pull the slider to its beginning: the journal is where it was released.
     chart.get_by_text("▶ Play").scroll_into_view_if_needed()
     grip = chart.locator(".slider-grip-rect").bounding_box()
     rail = chart.locator(".slider-rail-rect").bounding_box()
@@ -54,7 +54,7 @@ def test_the_orbit_plays_stops_and_is_scrubbed(app: AppPage) -> None:
     assert app.changes(lambda: page.evaluate(_NOW)[2], last[2])
     start = page.evaluate(_NOW)
     assert start[2] == 0
-    assert start[1] < last[1]  # let go above its rest
+    assert start[1] < last[1]  # released above its equilibrium
     chart.get_by_text("▶ Play").click()
     assert app.changes(lambda: page.evaluate(_NOW)[2] > 5, False)
     chart.get_by_text("Stop").click()
@@ -95,7 +95,7 @@ def test_limit_cycles_and_three_onsets_are_drawn(app: AppPage) -> None:
 
 def test_kick_and_length_survive_a_change_of_page(app: AppPage) -> None:
     app.open("Orbits")
-    app.press("Journal let go", "ArrowRight")
+    app.press("Initial displacement", "ArrowRight")
     app.go("Notes")
     app.go("Orbits")
-    assert app.slider("Journal let go").input_value() == "0.31"
+    assert app.slider("Initial displacement").input_value() == "0.31"

@@ -75,10 +75,10 @@ def choose_typing(tab: AppPage) -> None:
 
 
 def kick(tab: AppPage) -> None:
-    """Let the journal go from further up."""
-    tab.slider("Journal let go").focus()
+    """Increase the initial displacement."""
+    tab.slider("Initial displacement").focus()
     with tab.run():
-        tab.slider("Journal let go").press("ArrowRight")
+        tab.slider("Initial displacement").press("ArrowRight")
 
 
 # --- What must still be there -----------------------------------------------------------------
@@ -101,7 +101,9 @@ def field(tab: AppPage) -> object:
 
 
 def height(tab: AppPage) -> object:
-    return tab.slider("Journal let go").evaluate("handle => handle.value ?? handle.ariaValueNow")
+    return tab.slider("Initial displacement").evaluate(
+        "handle => handle.value ?? handle.ariaValueNow"
+    )
 
 
 @dataclass(frozen=True)

@@ -27,7 +27,7 @@ _TOLERANCE = 1e-7
 def release(
     machine: Machine, speed: float, kick: float, revolutions: int, progress: Progress | None = None
 ) -> releases.Release:
-    """Return what becomes of a journal let go above its rest; `kick` in clearances."""
+    """Return the motion of a journal released above its equilibrium; `kick` in clearances."""
     return releases.release(
         machine,
         speed,

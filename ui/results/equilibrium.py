@@ -113,7 +113,7 @@ EQUILIBRIUM: tuple[Result, ...] = (
         "power_loss", "Power loss", "power", lambda c: float(c.point.power_loss),
         "Sheet", r"P = \Omega\left(\frac{2\pi\mu\Omega R^3L}{C\sqrt{1-\varepsilon^2}}"
         r"+\tfrac12 e F_o\sin\phi\right)", _power,
-        "Per bearing: shear of the turning surface, and half the couple of the load, which "
+        "Per bearing: shear at the journal's surface, and half the couple of the load, which "
         "drives the pressure flow.", unknown="not known", source="drag",
     ),
     Result(

@@ -40,7 +40,7 @@ class Result:
         return getattr(units, self.kind)
 
     def shown(self, computed: Computed, units: Units) -> str:
-        """Return the result with its unit, in words where it is no number."""
+        """Return the result with its unit, or a word where it is NaN."""
         value = self.value(computed)
         if math.isnan(value):
             return self.unknown
@@ -58,7 +58,7 @@ class Result:
         return not self.source or (known is not None and known.equation == self.number)
 
     def change(self, computed: Computed, baseline: Computed) -> str | None:
-        """Return the change from the baseline's result, or nothing where that is no number."""
+        """Return the change from the baseline's result, or nothing where that is NaN."""
         live, pinned = self.value(computed), self.value(baseline)
         if not (math.isfinite(live) and math.isfinite(pinned)) or pinned == 0.0:
             return None

@@ -11,7 +11,7 @@ from ui.results.record import Result
 
 
 def _highest(peaks: ResponsePeaks) -> float:
-    """Return the speed of the highest peak [rad/s], not a number where there is none."""
+    """Return the speed of the highest peak [rad/s], NaN where there is none."""
     return float(peaks.speed[np.argmax(peaks.amplitude)]) if len(peaks.speed) else math.nan
 
 

@@ -67,7 +67,7 @@ def _margin(computed: Computed) -> float:
 
 
 def _onset(computed: Computed, flexible: bool) -> str:
-    """Return Eq. 5.50 with the numbers at the onset, or what holds there where it does not."""
+    """Return Eq. 5.50 with the numbers at the onset, or the condition at the onset otherwise."""
     onset = computed.onset if flexible else computed.rigid_onset
     speed = tex(onset.speed, "rad/s")
     if not math.isfinite(onset.speed) or not closed_form.has_closed_form(computed.machine):
@@ -81,8 +81,8 @@ def _onset(computed: Computed, flexible: bool) -> str:
 
 
 _ONSET_REMARK = (
-    "With the equilibrium at that very speed. With midspan damping or journal mass, for which the "
-    "equation does not hold, it is found on the machine's eigenvalues: max Re λ = 0."
+    "With the equilibrium at the onset speed itself. With midspan damping or journal mass the "
+    "equation does not hold, and the onset follows from the machine's eigenvalues: max Re λ = 0."
 )
 
 STABILITY: tuple[Result, ...] = (
@@ -102,7 +102,7 @@ STABILITY: tuple[Result, ...] = (
         "critical_mass", "Critical mass per bearing", "mass",
         lambda c: float(c.point.critical_mass), "Eq. 5.45",
         r"M_c = \frac{K_{eq}}{(\bar\omega\,\Omega)^2}", _critical_mass,
-        "With more mass per bearing a rigid rotor is unstable at this speed.",
+        "A rigid rotor with more mass per bearing is unstable at this speed.",
     ),
     Result(
         "rigid_threshold", "Threshold, rigid shaft", "speed",
@@ -132,7 +132,7 @@ STABILITY: tuple[Result, ...] = (
         "whirl_frequency", "Whirl frequency", "speed",
         lambda c: c.onset.whirl_frequency, "Eq. 5.47", r"\omega_s = |\mathrm{Im}\,\lambda|",
         lambda c: tex(c.onset.whirl_frequency, "rad/s"), "At the onset. " + _ONSET_REMARK,
-        nought="half of any",
+        nought="½ Ω at any speed",
     ),
     Result(
         "margin", "Margin to onset", "percent", _margin, "Ωₛ/Ω − 1",

@@ -1,4 +1,4 @@
-"""What the page of force coefficients says in words and matrices."""
+"""Texts and matrices of the force coefficients page."""
 
 import numpy as np
 import streamlit as st
@@ -42,28 +42,28 @@ def _without_dimensions(
     symbol: str, film: ForceCoefficients, values: np.ndarray, computed: Computed
 ) -> None:
     if computed.unloaded:
-        st.caption(f"{symbol} is in units of the load, and there is none: no number.")
+        st.caption(f"{symbol} is in units of the load, so it is undefined without load.")
     else:
         st.latex(matrix(symbol, values, Unit("-"), film.axes))
 
 
 def dimensionless_caption(symbol: str, against: str) -> str:
-    """Return what the charts of k and c say."""
+    """Return the caption of the charts of k and c."""
     unit = "k = KC/F_o" if symbol == "k" else "c = CΩC/F_o"
     figure = "5.5" if against == "ε" else "5.6"
     return (
-        f"{unit}; dashed: minus the value, where that is negative. The load is the unit, so this "
-        f"does not show how the coefficients themselves go. Fig. {figure}, Eqs. 5.32 to 5.35"
+        f"{unit}; dashed: negative values, drawn as −{symbol}. The unit is the load, so the trend "
+        f"is not that of K and C themselves. Fig. {figure}, Eqs. 5.32 to 5.35"
         + (", 5.45." if symbol == "k" else ".")
     )
 
 
 def say_unloaded(computed: Computed) -> None:
-    """Say why the dimensionless charts show no point without load."""
+    """Show why the dimensionless charts have no point without load."""
     if computed.unloaded:
         st.info(
-            "Without load σ is infinite, ε is 0, and k and c, which are in units of the load, have "
-            "no value: the charts show no running speed. K and C against speed do."
+            "Without load σ is infinite, ε is 0, and k and c, which are in units of the load, are "
+            "undefined: the charts show no running speed. K and C against speed do."
         )
 
 
@@ -122,7 +122,7 @@ def knows_added_mass(computed: Computed) -> bool:
 
 
 def show_added_mass(computed: Computed, units: Units) -> None:
-    """Tell how much the film's added mass is, on what assumption, and whether it matters."""
+    """Show the film's added mass, its assumptions, and whether it matters."""
     laminar, bulk = computed.added_mass_here(LAMINAR), computed.added_mass_here(BULK_FLOW)
     share = float(laminar.to_rotor)
     st.latex(matrix("M", laminar.mass, units.mass))
@@ -137,16 +137,16 @@ def show_added_mass(computed: Computed, units: Units) -> None:
     st.caption(
         "Assumes laminar flow, α_m = 6/5, temporal inertia only, the film over half the "
         f"circumference, and the oil's density of {density} (sidebar, Oil). "
-        "Definition: Eq. 5.14. The rest of the program leaves added mass out, as the notes do."
+        "Definition: Eq. 5.14. The rest of the program neglects added mass, as the notes do."
     )
 
 
 def _verdict(share: float) -> str:
     if share < _SMALL:
-        return "it does not matter."
+        return "negligible."
     if share < _LARGE:
         return "small; it would lower frequencies by about half as much at most."
-    return "worth counting; it would lower natural frequencies and the onset, which leave it out."
+    return "not negligible; it would lower natural frequencies and the onset, which neglect it."
 
 
 def _percent(share: float) -> str:

@@ -27,14 +27,14 @@ _onset_map = cache.Cached(work.onset_map, entries=32, megabytes=8)
 _sensitivities = cache.Cached(design.sensitivities, entries=64, megabytes=4)
 _solution = cache.Cached(work.solution, entries=64, megabytes=4)
 TORNADO = (
-    "One input 10 % less or more, all others kept; a temperature, whose zero means nothing, moves "
-    "by the degrees shown. Beside each input: the onset's movement for less / more. Rotor mass "
-    "takes the load with it where that is half the weight. Inputs at zero or infinite are left out."
+    "Each input is varied alone by ±10 %, a temperature by the degrees shown. Beside each input: "
+    "the onset's change for less / more. Rotor mass changes the load too where that is half the "
+    "weight. Inputs at zero or infinity are left out."
 )
 
 
 def quantity(key: str, machine: Machine, units: Units) -> Quantity:
-    """Return an input as an axis over its slider's range, as far as that makes machines."""
+    """Return an input as an axis over its slider's range, where that gives valid machines."""
     item, in_si = INPUTS[key], INPUTS[key].unit(SI)
     low, high = in_si.to_si(item.low), in_si.to_si(item.high)
     if key == "load":
@@ -47,7 +47,7 @@ def quantity(key: str, machine: Machine, units: Units) -> Quantity:
 
 
 def choose_input(label: str, default: str, key: str, without: str = "") -> str:
-    """Show a choice among the inputs that move the onset; return the chosen one's key."""
+    """Show a choice of the inputs that affect the onset; return the chosen one's key."""
     options = [name for name in FIELDS if name != without]
     chosen = st.selectbox(
         label,
@@ -61,12 +61,12 @@ def choose_input(label: str, default: str, key: str, without: str = "") -> str:
 
 
 def choose_target(computed: Computed, units: Units) -> float:
-    """Show a field for the onset wanted; return it [rad/s]."""
+    """Show a field for the target onset; return it [rad/s]."""
     key = "stability_target"
     if not st.session_state.get("stability_target_typed"):
         st.session_state[key] = float(round(1.2 * float(units.speed.of(computed.speed)), -1))
     rpm = st.number_input(
-        f"Onset wanted [{units.speed.name}]",
+        f"Target onset [{units.speed.name}]",
         min_value=10.0,
         max_value=1e6,
         step=100.0,
@@ -74,7 +74,7 @@ def choose_target(computed: Computed, units: Units) -> float:
         key=key,
         persist_state="session",
         on_change=lambda: st.session_state.update(stability_target_typed=True),
-        help="Until you type one, 1.2 times the running speed.",
+        help="By default 1.2 times the running speed.",
     )
     return units.speed.to_si(rpm)
 
@@ -85,7 +85,7 @@ def value(computed: Computed, key: str) -> float:
 
 
 def names(units: Units) -> dict[str, str]:
-    """Return the words for the core's inputs, as the tornado lists them."""
+    """Return the names of the core's inputs for the tornado chart."""
     step = f"{design.TEMPERATURE_STEP * units.temperature.per_si:g} {units.temperature.name}"
     return {name: f"{INPUTS[key].label} {INPUTS[key].symbol}" for name, key in _KEYS.items()} | {
         "temperature": f"{INPUTS['T'].label} {INPUTS['T'].symbol} ±{step}"
@@ -106,7 +106,7 @@ def onset_map(computed: Computed, x: str, y: str, units: Units) -> design.OnsetM
 
 
 def sensitivities(computed: Computed) -> design.Sensitivities:
-    """Return how far the onset moves with each input."""
+    """Return the onset's change with each input."""
     return _sensitivities(computed.machine)
 
 
@@ -117,7 +117,7 @@ def solution(computed: Computed, key: str, target: float, units: Units) -> desig
 
 
 def answer(found: design.OnsetSolution, axis: Quantity, now: float, units: Units) -> str:
-    """Return in words which values meet the target, or that none does and what can be reached."""
+    """Return a text with the values that meet the target, or the range that can be reached."""
     speed = amount(units.speed, found.target)
     if len(found.solutions):
         values = " or ".join(f"**{axis.text(value)}**" for value in found.solutions)
@@ -125,7 +125,7 @@ def answer(found: design.OnsetSolution, axis: Quantity, now: float, units: Units
     low, high = (float(units.speed.of(end)) for end in found.reachable)
     ends = f"{axis.text(axis.low)} and {axis.text(axis.high)}"
     if low == high:
-        return f"{axis.words} does not move the onset of this machine."
+        return f"{axis.words} does not affect the onset of this machine."
     reached = f"{digits(low)} and {_speed_word(high)} {units.speed.name}"
     return (
         f"No value of the {axis.words.lower()} between {ends} puts the onset at {speed}: it stays "

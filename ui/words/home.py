@@ -47,8 +47,8 @@ def content(page: Page) -> None:
         page.chart(
             lambda c: style.small(equilibrium.locus(c.path, c.point, units)),
             "home_locus",
-            alt="Path of the journal's centre in the clearance circle, and its place now",
-            caption="Where the journal sits. Eqs. 5.7, 5.8.",
+            alt="Path of the journal's centre in the clearance circle, and its present position",
+            caption="Position of the journal. Eqs. 5.7, 5.8.",
         )
         st.page_link("pages/1_Equilibrium.py", label="Static equilibrium")
     with threshold:
@@ -63,7 +63,7 @@ def content(page: Page) -> None:
             ),
             "home_threshold",
             alt="Threshold speed over running speed, and the line that it crosses at the onset",
-            caption="Where it goes unstable: the threshold meets the line Ω. Eqs. 5.45–5.50.",
+            caption="Onset of whirl: the threshold meets the line Ω. Eqs. 5.45–5.50.",
         )
         st.page_link("pages/3_Stability.py", label="Stability")
     with swing:
@@ -71,7 +71,7 @@ def content(page: Page) -> None:
             lambda c: style.small(response.amplitude(c.response, "axes", units)),
             "home_response",
             alt="Size of the orbits of disk and journal over running speed",
-            caption="How far disk and journals swing. Eq. 5.38.",
+            caption="Amplitudes of disk and journals. Eq. 5.38.",
         )
         st.page_link("pages/5_Response.py", label="Imbalance response")
 

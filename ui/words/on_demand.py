@@ -50,7 +50,7 @@ def on_demand(
     page.run_whole()
     with place.container():
         if key in visitor.begun:
-            st.info("This computation was interrupted, and has begun again.")
+            st.info("This computation was interrupted and has started again.")
         bar = st.progress(0.0, "Computing …")
         st.button("Cancel", key=f"{key}_cancel", on_click=visitor.ask_no_more, args=(key,))
     visitor.begun.add(key)
@@ -62,7 +62,7 @@ def on_demand(
 
 
 def ask_run_up(page: Page) -> RunUp | None:
-    """Return the run-up's spectra once asked for."""
+    """Return the run-up's spectra, on request."""
     computed = page.computed
     token = ("run-up", computed.machine, computed.top_speed)
     found = on_demand(
@@ -75,17 +75,17 @@ def ask_run_up(page: Page) -> RunUp | None:
 
 
 def run_up_caption(computed: Computed) -> str:
-    """Return what the waterfall shows."""
+    """Return the caption of the waterfall."""
     stirred = computed.machine.rotor.imbalance == 0.0
     return (
         f"{run_up.REVOLUTIONS} revolutions from {run_up.FROM:g} times the top speed to "
         "the top speed, the journal's forward circles; dashed: Im λ/Ω of the least damped whirl."
-        + (" An imbalance of C/1000 stirs the balanced rotor." if stirred else "")
+        + (" An imbalance of C/1000 excites the balanced rotor." if stirred else "")
     )
 
 
 def ask_cycles(page: Page) -> Bifurcation | None:
-    """Return the limit cycles once asked for; say in words why there are none."""
+    """Return the limit cycles on request, or show why there are none."""
     computed, onset = page.computed, page.computed.onset.speed
     if not 0.0 < onset < math.inf:
         st.info(_no_onset(onset))
@@ -97,7 +97,7 @@ def ask_cycles(page: Page) -> Bifurcation | None:
 
 
 def swept(branch: Bifurcation) -> tuple[Array, Array, Array]:
-    """Return speeds, and the amplitudes of creeping up and down through them."""
+    """Return speeds, and the amplitudes as the speed slowly rises and falls through them."""
     onset = branch.hopf.speed
     low, high = min(float(branch.speed.min()), 0.97 * onset), float(branch.speed.max())
     speeds = np.linspace(low - 0.1 * (high - low), max(high, 1.001 * onset), 400)
@@ -105,7 +105,7 @@ def swept(branch: Bifurcation) -> tuple[Array, Array, Array]:
 
 
 def say_cycles(branch: Bifurcation, units: Units) -> None:
-    """Say which way the whirl sets in."""
+    """Show whether the onset is subcritical or supercritical."""
     found = branch.hopf
     rate = f"ℓ = {'−' if found.lyapunov < 0.0 else ''}{digits(abs(found.lyapunov))} 1/s"
     error = f"± {found.lyapunov_error:.1g}"
@@ -121,20 +121,20 @@ def say_cycles(branch: Bifurcation, units: Units) -> None:
             fold = amount(units.speed, branch.folds.min())
             share = digits((1.0 - branch.folds.min() / found.speed) * 100.0)
             where = (
-                f" From {fold}, {share} % below the onset, a large enough kick "
-                "makes the machine whirl for good, and creeping down it whirls as far."
+                f" From {fold}, {share} % below the onset, a large enough disturbance makes the "
+                "machine whirl permanently; with falling speed whirl persists down to there."
             )
         st.warning(f"Subcritical at {at}: {rate} ({error}).{where}")
     else:
         st.info(
-            f"Supercritical at {at}: {rate} ({error}). Above the onset a small whirl grows gently "
-            "with speed and goes with it."
+            f"Supercritical at {at}: {rate} ({error}). Above the onset a small whirl grows "
+            "gradually with speed, and disappears as the speed falls below it."
         )
     st.caption(f"The branch of limit cycles {branch.ended}.")
 
 
 def ask_onsets(computed: Computed) -> tuple[Onsets, GrowthCurve] | None:
-    """Return the onset found three ways, and growth over speed; say why where there is none."""
+    """Return the onset found three ways, and growth over speed, or show why there is none."""
     onset = computed.onset.speed
     if not 0.0 < onset < math.inf:
         st.info(_no_onset(onset))
@@ -156,11 +156,11 @@ def with_onset(page: Page) -> Page:
 
 
 def say_onsets(found: Onsets, units: Units) -> None:
-    """Show the three answers side by side, and say whether they agree."""
+    """Show the three results side by side, and whether they agree."""
     rows = (
         ("Closed form", found.closed_form, "Eqs. 5.45 to 5.50, Ω = Ωₛ(ε(Ω))"),
         ("Eigenvalues", found.eigenvalues, "max Re λ = 0"),
-        ("Measured growth in time", found.measured, "the nonlinear motion neither grows nor dies"),
+        ("Measured growth in time", found.measured, "the motion neither grows nor decays"),
     )
     with st.container(key="results_onsets"):
         for label, speed, how in rows:
@@ -172,8 +172,8 @@ def say_onsets(found: Onsets, units: Units) -> None:
         st.success(f"They agree: the largest difference is {found.spread:.1e} of the onset.")
     elif found.agree == "not measured":
         st.warning(
-            "Not measured: from half to twice the speed that the eigenvalues give, no change from "
-            "decay to growth could be watched in the time allowed."
+            "Not measured: from half to twice the onset of the eigenvalues, no change from decay "
+            "to growth was found within the time allowed."
         )
     else:
         st.error(f"They disagree by {found.spread:.1%} of the onset.")
@@ -186,14 +186,14 @@ def _balanced(machine: Machine) -> Machine:
 def _no_onset(onset: float) -> str:
     if onset == 0.0:
         return (
-            "Without load this machine whirls at any speed (Eq. 5.37): there is no onset at which "
-            "a limit cycle could be born, and none to compare."
+            "Without load this machine whirls at any speed (Eq. 5.37): there is no onset from "
+            "which limit cycles could branch off, and none to compare."
         )
-    return "No speed makes this machine whirl: it has no onset, and no limit cycles are born."
+    return "No speed makes this machine whirl: it has no onset, and no limit cycles."
 
 
 def _try(work: Callable[[], T]) -> T | None:
-    """Return what work gives, or say in words why it gives nothing."""
+    """Return the result of a computation, or show why there is none."""
     try:
         return work()
     except (ValueError, TransientError, BifurcationError) as error:

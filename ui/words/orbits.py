@@ -37,15 +37,15 @@ _DEMOS: dict[Demo, tuple[str, float, int]] = {
     "big": ("Subcritical: big kick", 0.25, 400),
 }
 _ABOUT_DEMOS = (
-    "The first two take this machine without its imbalance, which can hold a whirl down. The last "
-    "two take a rigid rotor 0.5 % below its onset, at ε = 0.06, where the linear theory promises "
-    "that every whirl dies."
+    "The first two take this machine without its imbalance, which can suppress whirl. The last two "
+    "take a rigid rotor 0.5 % below its onset, at ε = 0.06, where the linear theory predicts that "
+    "every whirl decays."
 )
 
 
 @dataclass(frozen=True)
 class Ask:
-    """How the journal is let go: how far off its rest, in clearances, and for how long."""
+    """A release: the initial displacement of the journal, in clearances, and the revolutions."""
 
     kick: float
     revolutions: int
@@ -57,7 +57,7 @@ _long_release = cache.Cached(work.release, entries=16, megabytes=40)
 
 
 def choose_release(computed: Computed) -> Ask:
-    """Show the demonstrations, kick and length; return what is asked for."""
+    """Show the demonstrations, displacement and length; return the chosen release."""
     visitor = session()
     with st.container(horizontal=True, gap="small"):
         for demo, (label, _, _) in _DEMOS.items():
@@ -68,9 +68,9 @@ def choose_release(computed: Computed) -> Ask:
     left, right = st.columns(2)
     with left:
         kick = st.slider(
-            "Journal let go above its rest by, over C [-]", 0.0, 1.2,
+            "Initial displacement over clearance [-]", 0.0, 1.2,
             visitor.choice(_KICK, 0.30, 0.0, 1.2), 0.01, key=_KICK, persist_state="session",
-            help="Against the load, at rest, the shaft with its sag.",
+            help="Above the equilibrium, against the load; released at rest.",
         )  # fmt: skip
     with right:
         turns = st.slider(
@@ -109,7 +109,7 @@ def let_go(computed: Computed, ask: Ask, tell: Progress | None = None) -> Releas
 
 
 def _affordable(computed: Computed, ask: Ask) -> Ask:
-    """Return what is asked for, shorter where the machine swings many times in a revolution."""
+    """Return the release, shorter where the machine vibrates many times in a revolution."""
     most = affordable_revolutions(computed.point)
     return ask if ask.revolutions <= most else replace(ask, revolutions=most)
 
@@ -138,12 +138,12 @@ def try_out(page: Page, ask: Ask) -> tuple[Page, Release]:
 
 
 def say_outcome(computed: Computed, asked: Ask, found: Release, units: Units) -> None:
-    """Say in one sentence what the journal did, and in another what the linear theory said."""
+    """Show what the journal did, and what the linear theory predicts."""
     followed = round(float(found.revolutions[-1]))
     if followed < asked.revolutions and not found.stopped:
         st.info(
-            f"This machine swings so often in a revolution that only {followed} of them are "
-            "followed."
+            f"This machine vibrates so many times per revolution that only {followed} revolutions "
+            "are computed."
         )
     if found.stopped:
         st.warning(f"The integration ended early: {found.stopped}.")
@@ -166,8 +166,8 @@ def _trend(found: Release) -> float:
 
 def _outcome(found: Release, units: Units) -> str:
     C, seen, turns = found.clearance, found.spectrum, f"{found.revolutions[-1]:.0f} revolutions"
-    size = f"{found.last_size / C:.3g} C from rest"
-    thin = f"its film gets as thin as {amount(units.film, found.film.min())}"
+    size = f"{found.last_size / C:.3g} C from equilibrium"
+    thin = f"the smallest film is {amount(units.film, found.film.min())}"
     if _is_whirling(found):
         grows = " and growing" if _trend(found) > _STAYS[1] else ""
         return (
@@ -175,31 +175,33 @@ def _outcome(found: Release, units: Units) -> str:
             f"to {size}{grows}; {thin}."
         )
     if found.last_size < _AT_REST * C:
-        return f"Within {turns} the journal comes to rest."
+        return f"Within {turns} the journal returns to equilibrium."
     if seen.synchronous > 0.5 * found.last_size:
         return f"After {turns} the journal follows the imbalance, up to {size}; {thin}."
     low, high = _STAYS
-    way = "dying" if _trend(found) < low else "growing" if _trend(found) > high else "going on"
+    way = "decaying" if _trend(found) < low else "growing" if _trend(found) > high else "going on"
     return f"After {turns} the motion is still {way}, up to {size}; {thin}."
 
 
 def _theory(computed: Computed, found: Release) -> str:
     rate = digits(abs(found.whirl.real))
     if math.isnan(found.whirl.real):
-        return "The linear theory knows no whirl here."
+        return "The linear theory has no oscillating mode here."
     if not computed.is_stable:
         said = f"The linear theory: unstable, a small whirl grows at {rate} 1/s"
         if not _is_whirling(found) and found.spectrum.synchronous > 0.0:
-            return f"{said}. It takes whirl and imbalance apart; together, this holds that down."
+            return (
+                f"{said}. It treats whirl and imbalance separately; here imbalance suppresses it."
+            )
         return f"{said}."
-    said = f"The linear theory: stable, a small whirl dies at {rate} 1/s"
+    said = f"The linear theory: stable, a small whirl decays at {rate} 1/s"
     if _is_whirling(found) and found.last_size > found.first_size:
-        return f"{said}. This kick was too large for it."
+        return f"{said}. This displacement was too large for the linear theory to hold."
     return f"{said}."
 
 
 def show_measured(computed: Computed, found: Release, units: Units) -> None:
-    """Show what the spectrum says beside what the linear theory says."""
+    """Show whirl ratio and amplitudes, measured and by the linear theory."""
     seen, C = found.spectrum, found.clearance
     ratio = "no whirl" if math.isnan(seen.whirl_ratio) else f"{seen.whirl_ratio:.4f}"
     predicted = found.whirl.imag / computed.speed
@@ -208,7 +210,7 @@ def show_measured(computed: Computed, found: Release, units: Units) -> None:
         ("Whirl ratio, linear", "none" if math.isnan(predicted) else f"{predicted:.4f}"),
         ("Whirl's circle", amount(units.film, seen.whirl)),
         ("1× circle", amount(units.film, seen.synchronous)),
-        ("Ends within", f"{found.last_size / C:.3g} C of rest"),
+        ("Ends within", f"{found.last_size / C:.3g} C of equilibrium"),
     ]
     with st.container(horizontal=True):
         for label, value in rows:

@@ -1,4 +1,4 @@
-"""What the page of the imbalance response says in words."""
+"""Texts of the imbalance response page."""
 
 from collections.abc import Callable
 from typing import Literal
@@ -26,19 +26,19 @@ VARIANTS: dict[str, Callable[[Machine], tuple[Rotor, ...]]] = {
 
 
 def say_balanced(computed: Computed) -> bool:
-    """Say that a balanced rotor stands still, and return whether it is one."""
+    """Return whether the rotor is balanced; show a note if it is."""
     balanced = computed.machine.rotor.imbalance == 0.0
     if balanced:
         st.info(
             "The rotor is perfectly balanced (u = 0): nothing drives a synchronous motion, and "
-            "disk and journal rest in their equilibrium. Move the slider **Imbalance u** in the "
+            "disk and journal stay in equilibrium. Move the slider **Imbalance u** in the "
             "sidebar's group Shaft and disk to see a response."
         )
     return balanced
 
 
 def say_limits(computed: Computed, units: Units) -> None:
-    """Warn where the response shown is not what would happen."""
+    """Warn where the response shown would not occur."""
     if not computed.is_stable:
         st.error(
             "The machine is unstable at its running speed: it whirls with growing amplitude, and "
@@ -50,12 +50,12 @@ def say_limits(computed: Computed, units: Units) -> None:
         st.warning(
             f"By this linear theory the journal would move {digits(-closest * C)} "
             f"{units.film.name} into the wall; the clearance is {digits(C)} {units.film.name}. "
-            "The film stiffens long before: take the orbit as a sign of trouble, not as a size."
+            "The film stiffens well before that: the orbit is then a warning, not an amplitude."
         )
 
 
 def amplitude_caption(computed: Computed) -> str:
-    """Return what the chart of amplitudes says."""
+    """Return the caption of the chart of amplitudes."""
     peaks = (
         "diamonds (with X and Y dotted lines) mark the largest orbits"
         if len(computed.disk_peaks.speed) or len(computed.journal_peaks.speed)
@@ -68,7 +68,7 @@ def amplitude_caption(computed: Computed) -> str:
 
 
 def senses(computed: Computed) -> str:
-    """Return in which sense disk and journal whirl at the running speed."""
+    """Return the sense of whirl of disk and journal at the running speed."""
     orbits = computed.orbits
     journal = _sense(bool(orbits.journal_forward))
     if orbits.is_rigid:
@@ -80,7 +80,7 @@ def senses(computed: Computed) -> str:
 
 
 def explain_family(computed: Computed, varied: Literal["damping", "mass"]) -> None:
-    """Say what the family's lines are."""
+    """Show what the family's lines are."""
     rotor = computed.machine.rotor
     if varied == "damping":
         shares = (
@@ -89,14 +89,14 @@ def explain_family(computed: Computed, varied: Literal["damping", "mass"]) -> No
             else "the critical damping of the disk on its shaft, 2√(Kᵣₒₜ M)"
         )
         st.markdown(
-            "The thickest line is this machine, the others the same with a damper at midspan of "
+            "The thickest line is this machine, the others the same with midspan damping of "
             f"0, 5, 10, 20 and 50 % of {shares}. Dotted where the machine is unstable."
         )
         return
     st.markdown(
         "The thickest line is this machine, the others the same with 0, 5, 10, 20 and 40 % of half "
         "the rotor's mass moved from the disk to each journal. Dotted where the machine is "
-        "unstable. The imbalance is the disk's, so a lighter disk is also driven less."
+        "unstable. The imbalance is the disk's, so a lighter disk is also excited less."
     )
 
 

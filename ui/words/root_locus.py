@@ -1,4 +1,4 @@
-"""The modes at the running speed, in words."""
+"""Texts and tables of the modes at the running speed."""
 
 import math
 
@@ -15,7 +15,7 @@ from ui.format import minus
 
 ALTS = {
     "locus": "Eigenvalues in the complex plane as the speed rises: left of the imaginary axis a "
-    "mode decays, right of it the mode grows. A slider under the chart moves the speed.",
+    "mode decays, right of it the mode grows. A slider below the chart sets the speed.",
     "growth": "Real part of each eigenvalue against speed; positive is unstable.",
     "frequency": "Whirl frequency of each mode against speed, with the speed and half of it.",
     "damping": "Damping ratio of each mode against speed.",
@@ -26,14 +26,14 @@ ALTS = {
 }
 CAPTIONS = {
     "locus": "Eigenvalues λ of Eq. 5.38 (rigid) and of the calculation sheet (flexible), the upper "
-    "half of the plane; the lower is its mirror image. Dotted rays: constant damping ratio ζ.",
+    "half-plane; the lower one is its mirror image. Dotted rays: constant damping ratio ζ.",
     "growth": "Real part of λ: unstable as soon as one is positive. Eq. 5.42 holds at zero.",
     "frequency": "Imaginary part of λ. The film's whirl follows ½× (Eq. 5.48); imbalance excites "
     "a mode where it crosses 1×.",
     "damping": "ζ = −Re λ/|λ|: zero at the onset; 1, dotted, where a mode does not oscillate.",
     "natural": "|λ|, beside √(K_eq/M) of a rigid rotor on the film (Eq. 5.47) and √(K_rot/M) of "
     "the shaft in rigid bearings. The rigid rotor's onset is where its mode meets √(K_eq/M).",
-    "decrement": "δ = −2π Re λ/|Im λ|: each turn's amplitude is e^(−δ) of the one before.",
+    "decrement": "δ = −2π Re λ/|Im λ|: each cycle's amplitude is e^(−δ) times the previous one's.",
     "shape": "Right eigenvector of λ, its largest displacement 1; orbits about equilibrium. X "
     "points down along the load, the shaft turns counterclockwise, from X to Y.",
 }
@@ -70,13 +70,13 @@ def choose_shaft(computed: Computed) -> bool:
         key="locus_shaft",
         required=True,
         persist_state="session",
-        help="The shaft as the sidebar has it, or the same rotor on a rigid shaft.",
+        help="The shaft of the sidebar, or the same rotor on a rigid shaft.",
     )
     return chosen != "rigid"
 
 
 def crossing(onset: Onset, top_speed: float, units: Units) -> str:
-    """Return in words where a mode crosses the imaginary axis."""
+    """Return a text that says where a mode crosses the imaginary axis."""
     if math.isinf(onset.speed):
         return "No mode crosses the imaginary axis: this film cannot make this rotor whirl."
     speed = f"{float(units.speed.of(onset.speed)):.0f} {units.speed.name}"
@@ -103,7 +103,7 @@ def choose_mode(here: ModeShapes, leading: int, units: Units) -> int:
 
 
 def table(here: ModeShapes, speed: float, units: Units) -> str:
-    """Return the modes at the running speed as a table in Markdown, a column each for a phone."""
+    """Return the modes at the running speed as a Markdown table, narrow enough for a phone."""
     count = len(here.eigenvalues)
     columns = (_column(here, i, speed, units) for i in range(count))
     names = (

@@ -1,4 +1,4 @@
-"""What the stability page says of threshold, film and whirl orbit."""
+"""Texts of the stability page on threshold, film and whirl orbit."""
 
 import math
 from functools import lru_cache
@@ -17,34 +17,34 @@ from ui.computed import Computed
 from ui.format import amount
 
 BARE = (
-    "Midspan damping or journal mass: the closed forms, drawn dashed, are those of the rotor "
-    "without them and no longer tell the onset. The vertical line does, found on the eigenvalues."
+    "Midspan damping or journal mass: the closed forms, drawn dashed, neglect both and no longer "
+    "give the onset. The vertical line marks it, from the eigenvalues."
 )
 WORK = r"""
 \begin{gathered}
 \oint \mathbf F\cdot d\mathbf x = \underbrace{(K_{XY}-K_{YX})\,A}_{\text{fed in}}
- - \underbrace{\pi\omega\,\mathbf P^{*}\mathbf C\,\mathbf P}_{\text{taken out}} \\
+ - \underbrace{\pi\omega\,\mathbf P^{*}\mathbf C\,\mathbf P}_{\text{dissipated}} \\
 \mathbf F=-\mathbf K\mathbf x-\mathbf C\dot{\mathbf x},\quad
 \mathbf x=\mathrm{Re}\{\mathbf P e^{j\omega t}\} \\
 A=\oint x\,dy=\pi\,\mathrm{Im}(P_X\overline{P}_Y)
 \end{gathered}
 """
 WORK_WORDS = (
-    "The symmetric part of K gives back what it takes. Only $K_{XY}-K_{YX}$ does work on a closed "
-    "orbit: it pushes along the motion, a force that follows the whirl, and in proportion to the "
-    "orbit's area."
+    "The symmetric part of K does no work over a closed orbit. Only $K_{XY}-K_{YX}$ does: it acts "
+    "along the motion, a force that follows the whirl, and its work is proportional to the orbit's "
+    "area."
 )
 # Fig. 5.10's static sags over clearance, beside this machine's own.
 _SAGS = (0.0, 0.3, 1.0, 3.0, 10.0)
 
 
 def crossing(computed: Computed) -> Crossing:
-    """Return where the machine goes unstable."""
+    """Return the onset and whether the closed form applies."""
     return Crossing(onset=computed.onset, closed_form=closed_form.has_closed_form(computed.machine))
 
 
 def film_figure(computed: Computed, over_eccentricity: bool = False) -> FilmFigure:
-    """Return what the notes' figures share."""
+    """Return the common data of the notes' figures."""
     bearing = computed.machine.bearing
     here = None if computed.unloaded else film_curves(bearing, computed.point.sommerfeld)
     return FilmFigure(
@@ -110,27 +110,27 @@ def energies(computed: Computed) -> Energies:
 
 
 def has_orbit(computed: Computed) -> bool:
-    """Return whether the machine has an onset and so a whirl orbit; say so if it has none."""
+    """Return whether the machine has an onset and so a whirl orbit; show a note if it has none."""
     if math.isinf(computed.onset.speed):
-        st.info("No speed makes this machine whirl, so there is no whirl orbit to feed.")
+        st.info("No speed makes this machine whirl, so there is no whirl orbit.")
         return False
     return True
 
 
 def balance(computed: Computed, units: Units) -> str:
-    """Return the energy balance at the running speed in words."""
+    """Return a text on the energy balance at the running speed."""
     here, running = energies(computed).here, amount(units.speed, computed.speed)
     if computed.onset.speed == 0.0:
         return (
             "Without load the film has no direct stiffness and the whirl is infinitely slow: "
-            f"damping takes nothing out, and at {running} as at any speed the orbit grows."
+            f"damping dissipates nothing, and at {running} as at any speed the orbit grows."
         )
     ratio = float((here.film_loss + here.disk_loss) / here.fed_in)
     whirl = amount(units.speed, computed.onset.whirl_frequency)
-    outcome = "dies away" if ratio > 1.0 else "grows"
+    outcome = "decays" if ratio > 1.0 else "grows"
     return (
-        f"At its onset this machine whirls at {whirl}. In that orbit, but at a running "
-        f"speed of {running}, damping takes out **{ratio:.3g} times** what cross-coupling feeds "
+        f"At its onset this machine whirls at {whirl}. On that orbit, but at a running "
+        f"speed of {running}, damping dissipates **{ratio:.3g} times** what cross-coupling feeds "
         f"in: the whirl {outcome}."
     )
 

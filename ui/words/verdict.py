@@ -1,4 +1,4 @@
-"""One sentence: is the machine stable, where does it go unstable, and how does it whirl there."""
+"""One sentence: whether the machine is stable, its onset speed, and its whirl frequency there."""
 
 import math
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from ui.format import amount, digits
 
 @dataclass(frozen=True)
 class Verdict:
-    """A sentence, and whether it is good news."""
+    """A sentence and its level."""
 
     level: Literal["stable", "unstable"]
     sentence: str
@@ -40,7 +40,7 @@ def _outlook(computed: Computed, units: Units) -> str:
         where = f"{amount(units.speed, onset.speed)}, {digits(margin)} % above"
         return f"it goes unstable at {where}, {_whirl(computed, units)}."
     return (
-        f"it is past its range of whirl, which begins at {amount(units.speed, onset.speed)}, "
+        f"it is above its range of whirl, which begins at {amount(units.speed, onset.speed)}, "
         f"{_whirl(computed, units)}."
     )
 
