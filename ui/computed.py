@@ -1,4 +1,4 @@
-"""A machine at its running speed, and its results, each computed when a page first asks for it."""
+"""A machine at its running speed, and its results, each computed on first use."""
 
 import math
 from collections.abc import Callable
@@ -58,7 +58,7 @@ POINTS = 240
 _SOMMERFELD = np.geomspace(1e-2, 1e2, POINTS)
 # 100, 200, 500 … 50000 rpm, to mark on the journal's locus.
 _ROUND_SPEEDS = np.array([a * 10.0**b for b in (2, 3, 4) for a in (1, 2, 5)]) * math.pi / 30
-# From next to the wall, ε = 0.997, to near the centre.
+# From close to the wall, ε = 0.997, to near the centre.
 _TO_THE_WALL = np.geomspace(1e-5, 1e2, POINTS)
 # Around and along the film: every two degrees, every twentieth of the length.
 _THETA = np.linspace(0.0, 2.0 * np.pi, 181)
@@ -92,7 +92,7 @@ class Computed:
 
     @cached_property
     def at_round_speeds(self) -> Equilibrium:
-        """Where the journal sits at round speeds, up to the top speed."""
+        """Equilibrium positions at round speeds, up to the top speed."""
         number = np.searchsorted(_ROUND_SPEEDS, self.top_speed * (1 + 1e-9), side="right")
         return _from_first_answer(
             lambda speed: equilibrium(self.machine, speed), _ROUND_SPEEDS[:number]
@@ -128,22 +128,22 @@ class Computed:
 
     @property
     def onset(self) -> Onset:
-        """Where the machine becomes unstable, its shaft as it is."""
+        """Onset of whirl of the machine."""
         return _onset(self.machine, True)
 
     @property
     def rigid_onset(self) -> Onset:
-        """Where the machine would become unstable if its shaft were rigid."""
+        """Onset of whirl with a rigid shaft."""
         return _onset(self.machine, False)
 
     @property
     def rigid_branches(self) -> ComplexArray:
-        """Eigenvalues of the rigid rotor over the sweep, a column a mode."""
+        """Eigenvalues of the rigid rotor over the sweep, one column per mode."""
         return _branches(self.machine, self.top_speed, False)
 
     @property
     def branches(self) -> ComplexArray:
-        """Eigenvalues of the rotor over the sweep, a column a mode."""
+        """Eigenvalues of the rotor over the sweep, one column per mode."""
         return _branches(self.machine, self.top_speed, True)
 
     def locus(self, flexible: bool) -> Locus:
@@ -191,7 +191,7 @@ class Computed:
 
     @property
     def unloading(self) -> Unloading:
-        """K and (Ω/2)·C at the running speed as the load is taken off."""
+        """K and (Ω/2)·C at the running speed as the load is removed."""
         return _from_first_answer(
             lambda sigma: unloading(self.machine, self.speed, sommerfeld=sigma), _SOMMERFELD
         )
@@ -207,11 +207,11 @@ class Computed:
         return unloading(self.machine, self.speed, sommerfeld=self.point.sommerfeld)
 
     def added_mass(self, factor: float) -> AddedMass:
-        """Return the film's added mass over the sweep, for a profile of velocity."""
+        """Return the film's added mass over the sweep, for a velocity profile."""
         return added_mass(self.machine, self.sweep.speed, factor=factor)
 
     def added_mass_here(self, factor: float) -> AddedMass:
-        """Return the film's added mass at the running speed, for a profile of velocity."""
+        """Return the film's added mass at the running speed, for a velocity profile."""
         return added_mass(self.machine, self.speed, factor=factor)
 
     @cached_property
@@ -255,7 +255,7 @@ class Computed:
 
 
 def computed_from(values: Values) -> Computed:
-    """Return what kept values lead to, or raise the core's ValueError."""
+    """Return the results of kept values, or raise the core's ValueError."""
     return _computed(machine_of(values), *speeds_of(values))
 
 

@@ -1,4 +1,4 @@
-"""Numbers as readers see them, with digits, unit, in LaTeX; and what a visitor typed, harmless."""
+"""Display of numbers, with digits and unit, in LaTeX; and safe display of a visitor's input."""
 
 import math
 import reprlib
@@ -21,7 +21,7 @@ def amount(unit: Unit, value: ArrayLike) -> str:
 
 
 def minus(text: str) -> str:
-    """Return a number with the sign that print uses for minus."""
+    """Return a number with a typographic minus sign."""
     return text.replace("-", "−") if any(c.isdigit() for c in text) else text
 
 
@@ -38,13 +38,13 @@ def tex(value: float, unit: str = "") -> str:
 
 
 def quoted(word: object) -> str:
-    """Return what a visitor typed, short, and with nothing that a page could take for markup."""
+    """Return a visitor's input, shortened and without markup."""
     text = reprlib.repr(word).replace("`", "'")
     return f"`{text}`"
 
 
 def typed_number(word: object) -> float:
-    """Return what a visitor wrote as a number, or raise ValueError in words.
+    """Return a visitor's input as a number, or raise ValueError with a clear message.
 
     Infinity is written as such: a number too large for this program is not meant so.
     """

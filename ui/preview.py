@@ -1,4 +1,4 @@
-"""A preview: what a page shows, for the value to which an input is being dragged."""
+"""A preview: a page's content at the value to which an input is being dragged."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -17,7 +17,7 @@ Draw = Callable[[Computed], Chart]
 
 @dataclass
 class Preview:
-    """A page as it was last drawn: its machine, the pinned one, and what it shows of them."""
+    """A page as last drawn: its machine, the pinned one, and its charts and results."""
 
     values: Values
     baseline: Computed | None
@@ -41,7 +41,7 @@ class Preview:
         }
 
     def _still(self, draw: Draw, computed: Computed) -> Chart:
-        """Return a chart without its frames: nobody plays an animation while dragging a slider."""
+        """Return a chart without its frames: no animation plays while a slider is dragged."""
         chart = dict(compared(draw, computed, self.baseline))
         chart.pop("frames", None)
         return themed(chart, dark=self.dark)

@@ -1,4 +1,4 @@
-"""What a visitor's session holds: one machine, its preset, the units shown, the pinned baseline.
+"""A visitor's session: one machine, its preset, the units of display, the pinned baseline.
 
 Widgets read from here and write to here, and the address bar is written from here. So a value
 survives a change of page, whether it was moved or came with a link.
@@ -38,7 +38,7 @@ class Session:
     # The preview of the page as it was last drawn, and the secret to ask for it.
     preview: Preview | None = None
     token: str = field(default_factory=secrets.token_urlsafe)
-    # Whether the page's content is to run with its frame as one, the next time.
+    # Whether the page's content runs together with its frame the next time.
     whole: bool = False
     # How often a page's frame was drawn: whether sliders or preview know better what a value is.
     frame: int = 0
@@ -57,7 +57,7 @@ class Session:
         return SYSTEMS[self.units_name]
 
     def set_value(self, key: str, value: Value) -> None:
-        """Keep a moved value; what a link or a file got wrong has been read by now."""
+        """Keep a moved value, and drop the problems of a link or a file, by now read."""
         self.values[key] = value
         self.problems.clear()
 
@@ -80,12 +80,12 @@ class Session:
             self.values, self.baseline = self.baseline, self.values
 
     def ask_for(self, work: str, name: str) -> None:
-        """Ask for a long computation; `name` tells it from others of its kind."""
+        """Request a long computation; `name` distinguishes it from others of its kind."""
         self.asked[work] = name
         self.begun.discard(work)
 
     def ask_no_more(self, work: str) -> None:
-        """Forget that a long computation was asked for."""
+        """Withdraw the request of a long computation."""
         self.asked.pop(work, None)
         self.begun.discard(work)
 
@@ -104,7 +104,7 @@ class Session:
         }  # fmt: skip
 
     def recall(self, kept: object) -> None:
-        """Take over what a browser kept, as far as it can be used: it may be anything."""
+        """Restore what a browser kept, as far as it is valid: it is untrusted."""
         given: dict[str, Any] = kept if isinstance(kept, dict) else {}
         if isinstance(pinned := given.get("pinned"), dict):
             self.baseline = address.read({key: str(word) for key, word in pinned.items()}).values
@@ -123,7 +123,7 @@ class Session:
 
 
 def _words(given: object, kind: type | tuple[type, ...]) -> dict[str, Any]:
-    """Return those of a mapping's values that are of a kind."""
+    """Return the values of a mapping that have a type."""
     items = given.items() if isinstance(given, dict) else ()
     return {key: value for key, value in items if isinstance(value, kind)}
 

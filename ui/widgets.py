@@ -38,7 +38,7 @@ class _Checked(BaseFigure):
 
 
 def show_chart(chart: Chart, *, key: str, alt: str) -> None:
-    """Show a chart; `alt` says in words what is to be seen."""
+    """Show a chart; `alt` is its text alternative."""
     config: dict[str, Any] = {
         "displaylogo": False,
         "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d"],
@@ -64,12 +64,12 @@ def show_preview(preview: Preview | None) -> None:
 
 
 def show_connection(kept: dict[str, Any] | None) -> object:
-    """Tell the browser what to keep of the session; return what it kept for a server without it."""
+    """Give the browser what to keep of the session; return what it kept for a server without it."""
     return None if settings.live() == "off" else _live().show_connection(kept)
 
 
 def chart_key(key: str) -> str:
-    """Return the key under which the preview knows a chart."""
+    """Return a chart's key in the preview."""
     return f"chart_{key}"
 
 
@@ -147,12 +147,12 @@ def _sent(item: Input, values: Values, units: Units) -> float | str:
 
 
 def _mover(units: Units) -> Callable[[str, object, bool], None]:
-    """Return what takes in the values that live sliders send in these units."""
+    """Return the handler of values that live sliders send in these units."""
     return lambda name, value, dragging: _moved(name, units, value, dragging=dragging)
 
 
 def _moved(name: str, units: Units, value: object, *, dragging: bool) -> None:
-    """Keep what a live slider sent, or report why not."""
+    """Keep a live slider's value, or report why it is refused."""
     visitor = session()
     visitor.dragging = dragging
     try:

@@ -23,7 +23,7 @@ from ui.words import validity
 _ICON = str(Path(__file__).with_name("icon.svg"))
 
 _ABOUT = f"{version.label()}: rotors on fluid-film bearings, after San Andrés, Notes 5."
-# The answer first: Streamlit leaves six rem free above a page.
+# The verdict near the top: Streamlit leaves six rem free above a page.
 # Results and what stands below each, a caption or a popover, come in pairs, a column each. On a
 # narrow screen results stand two in a row, equations break between their terms, tables are
 # tight and a wide one's rows run over several lines: nothing there scrolls sideways, which a
@@ -91,11 +91,11 @@ class Page:
                     draw(self)
 
     def alone(self) -> "Page":
-        """Return the page without the pinned machine, for what is too long to compute twice."""
+        """Return the page without the pinned machine, for results too costly to compute twice."""
         return replace(self, baseline=None)
 
     def run_whole(self) -> None:
-        """Let the page run whole, for a click can end such a run, but none of a fragment's."""
+        """Run the whole page: a click can end such a run, but not that of a fragment."""
         if not self.whole:
             session().whole = True
             st.rerun()
@@ -107,7 +107,7 @@ class Page:
 
 
 class Places(NamedTuple):
-    """Where in the frame something stands that changes while sliders move."""
+    """Places in the frame whose content changes while sliders move."""
 
     navigation: DeltaGenerator
     foot: DeltaGenerator
@@ -116,7 +116,7 @@ class Places(NamedTuple):
 def show(
     title: str, sentence: str, content: Callable[[Page], None], *, has_preview: bool = True
 ) -> None:
-    """Draw a page: its frame, then its content, which alone is drawn anew where a slider moved.
+    """Draw a page: its frame, then its content, which alone is redrawn when a slider moves.
 
     While a slider is dragged, charts and results have a preview, unless `has_preview` is false:
     then the content runs for each value, for charts that take long and show their progress.
@@ -132,7 +132,7 @@ def show(
 
 
 def _frame(title: str, sentence: str) -> Places:
-    """Draw what stands while sliders move; return the places for what does not."""
+    """Draw what stays while sliders move; return the places for what changes."""
     st.set_page_config(
         page_title=f"{title} · rotorcalc",
         page_icon=_ICON,

@@ -1,4 +1,4 @@
-"""The sidebar: presets, inputs in groups, the oil library, and how all of it is shown."""
+"""The sidebar: presets, inputs in groups, the oil library, and display settings."""
 
 import streamlit as st
 
@@ -11,7 +11,7 @@ from ui.widgets import show_inputs
 
 
 def draw_inputs() -> None:
-    """Draw the inputs in their groups, and how all of it is shown."""
+    """Draw the inputs in their groups, and the display settings."""
     for group in GROUPS:
         with st.expander(group, expanded=group in OPEN_GROUPS):
             items = [i for i in INPUTS.values() if i.group == group and i.key != "load"]
@@ -97,12 +97,12 @@ def _fit() -> None:
 
 
 def _take_over(oil: Oil) -> None:
-    """Put an oil into the inputs, and report what of it lies outside their ranges."""
+    """Set the inputs to an oil's values, and report those outside their ranges."""
     visitor = session()
     visitor.problems.clear()
     for key, item in INPUTS.items():
         record, _, name = item.field.rpartition(".")
-        if record != "oil" or name == "density":  # the library knows nothing of the density
+        if record != "oil" or name == "density":  # the library has no density
             continue
         reading = float(f"{float(item.unit(SI).of(getattr(oil, name))):.6g}")
         if problem := item.problem(reading):

@@ -1,1 +1,1 @@
-"""Long computations: their lines, their processes, the results that are kept."""
+"""Long computations: queues, worker processes, and the cache of results."""

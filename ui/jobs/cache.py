@@ -1,4 +1,4 @@
-"""Heavy functions whose last results are kept, up to a size."""
+"""Caches for costly functions, bounded in bytes."""
 
 import threading
 from collections import OrderedDict
@@ -19,7 +19,7 @@ THE_SAME = "Another visitor has asked for the same computation: its result will 
 
 
 class Cached(Generic[T]):
-    """A module's heavy function, computed in its turn; its last results are kept up to a size."""
+    """A costly function that is computed in a queue, its latest results cached up to a size."""
 
     def __init__(
         self, work: Callable[..., T], *, entries: int, megabytes: float, turns: Turns = LONG
@@ -31,7 +31,7 @@ class Cached(Generic[T]):
         self._changed = threading.Condition()
 
     def __call__(self, *args: Hashable, tell: Progress | None = None) -> T:
-        """Return a kept result, or compute it when its turn has come, and tell the progress.
+        """Return a cached result, or compute it in its turn and report the progress.
 
         Who asks for what is under way already waits for it outside the line; if that computation
         fails or its visitor leaves, the next who waits takes it over.
@@ -44,7 +44,7 @@ class Cached(Generic[T]):
         return found[0]
 
     def _begin(self, key: object) -> bool:
-        """Take a computation on, if nobody else has and it is not there meanwhile."""
+        """Start a computation, unless another has started or finished it meanwhile."""
         with self._changed:
             if key in self._under_way or key in self._found:
                 return False
@@ -64,7 +64,7 @@ class Cached(Generic[T]):
 
     @property
     def size(self) -> int:
-        """Bytes of the results kept."""
+        """Bytes of the cached results."""
         with self._changed:
             return sum(size for _, size in self._found.values())
 
@@ -87,7 +87,7 @@ class Cached(Generic[T]):
 
 
 def size_of(result: object) -> int:
-    """Return about how many bytes a result takes: its arrays, and a little for each other part."""
+    """Return roughly the bytes of a result: its arrays, and a little for each other part."""
     if isinstance(result, np.ndarray):
         return result.nbytes
     if is_dataclass(result):

@@ -1,4 +1,4 @@
-"""A process of its own for heavy computations, which leaves the pages theirs.
+"""A separate process for costly computations, so that pages keep theirs.
 
 Python computes one thing at a time in a process, so a long computation among the pages would make
 every visitor's slider stick. `Worker` is the pages' side of such a process; this file run as a
@@ -25,7 +25,7 @@ from typing import IO, Any, Literal
 from ui.jobs.work import Progress  # imported with all that will be asked for, while nobody waits
 
 _ROOT = Path(__file__).parents[2]
-# Pages come first where both want the processor.
+# Pages have priority over a worker for the processor.
 NICER = 10
 
 Order = tuple[int, Callable[..., Any], tuple[Any, ...], bool]
@@ -33,11 +33,11 @@ Answer = tuple[Literal["at", "done", "failed"], Any]
 
 
 class WorkerError(RuntimeError):
-    """The process ended in the middle of a computation."""
+    """The process ended during a computation."""
 
 
 class Worker:
-    """A process that computes one thing at a time, and is told so by one thread at a time.
+    """A process that runs one computation at a time, for one thread at a time.
 
     `nicer` is by how much it stands back behind other processes.
     """
@@ -99,18 +99,18 @@ class Worker:
 
 
 def places(error: BaseException) -> list[str]:
-    """Return an exception's places in the code, outermost first, in both processes."""
+    """Return an exception's stack in both processes, outermost frame first."""
     frames = traceback.extract_tb(error.__traceback__)
     here = [f"{frame.filename}:{frame.lineno} {frame.name}" for frame in frames]
     return here + error.__dict__.get("places", [])
 
 
 class StoppedError(Exception):
-    """Nobody wants the computation any more."""
+    """The computation was cancelled."""
 
 
 class _Orders:
-    """What comes in: computations in their order, and the number of one that is to stop."""
+    """Incoming orders: computations in sequence, and the number of one to stop."""
 
     def __init__(self, stream: IO[bytes]) -> None:
         self.queue: SimpleQueue[Order] = SimpleQueue()
@@ -118,7 +118,7 @@ class _Orders:
         self._stream = stream
 
     def listen(self) -> None:
-        """Take orders until the other side ends, then end with it."""
+        """Read orders until the other side ends, then exit."""
         try:
             while True:
                 message = pickle.load(self._stream)  # noqa: S301 - of the process that began this
@@ -131,7 +131,7 @@ class _Orders:
 
 
 def main(nicer: int) -> None:
-    """Compute what is asked for on standard input, and answer on standard output."""
+    """Run the computations requested on standard input, and write results to standard output."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the server's, which ends this by itself
     with suppress(AttributeError, PermissionError):  # not everywhere there, nor allowed
         os.nice(nicer)

@@ -1,4 +1,4 @@
-"""The lines of long computations: the first of each run, in processes of their own.
+"""The queues of long computations: the first of each run, in separate processes.
 
 Ten visitors' maps at once would come ten times later. Here they come one after the other, each as
 soon as it can, and who waits is told how many are ahead. Short ones do not wait behind long ones.
@@ -16,7 +16,7 @@ from streamlit.runtime.scriptrunner import get_script_run_ctx
 from ui.jobs.process import Worker
 from ui.serving import settings
 
-# Who would be further back than this is asked to come again.
+# A request that would be further back than this in the queue is refused.
 LONGEST_LINE = 30
 
 _LOOK = 0.25  # seconds between two looks at the line
@@ -25,7 +25,7 @@ BUSY = "Many visitors ask for long computations just now. Try again in a minute.
 
 
 class Turns:
-    """A line of computations, of which the first `limit` run, each in a process of its own."""
+    """A queue of computations, of which the first `limit` run, each in a separate process."""
 
     def __init__(
         self, limit: int, longest: int = LONGEST_LINE, hire: Callable[[], Worker] = Worker
@@ -40,7 +40,7 @@ class Turns:
 
     @contextmanager
     def turn(self) -> Iterator[Worker]:
-        """Wait for a turn, and hold it with a process that is free."""
+        """Wait for a turn, and hold it with a free process."""
         ticket = object()
         worker = None
         try:
@@ -53,17 +53,17 @@ class Turns:
             self._leave(ticket)
 
     def begin(self) -> None:
-        """Begin a process before anybody asks for it."""
+        """Start a process before it is needed."""
         with self.turn():
             pass
 
     def end(self) -> None:
-        """End the processes that are free."""
+        """End the free processes."""
         while worker := self._free():
             worker.close()
 
     def ahead(self, ticket: object) -> int:
-        """Return how many must end before a computation begins."""
+        """Return how many computations must end before one begins."""
         return max(self._line.index(ticket) + 1 - self._limit, 0)
 
     def _free(self) -> Worker | None:
@@ -104,7 +104,7 @@ class Turns:
 
 
 def wait_while(why: Callable[[], str], changed: threading.Condition) -> None:
-    """Wait as long as there is a reason, and show it where a visitor looks at a page."""
+    """Wait while there is a reason to, and show it to a visitor."""
     with changed:
         words = why()
     if not words:
@@ -120,7 +120,7 @@ def wait_while(why: Callable[[], str], changed: threading.Condition) -> None:
         place.empty()
 
 
-# What a visitor waits for as for a page has a process for itself; what takes seconds stands back.
+# Computations about as short as a page have their own process; longer ones have lower priority.
 SHORT = Turns(1, hire=partial(Worker, nicer=0))
 LONG = Turns(settings.heavy_jobs())
 LINES = SHORT, LONG

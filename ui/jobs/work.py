@@ -1,4 +1,4 @@
-"""The computations that take long; another process can be asked for them (`ui.jobs.process`).
+"""The long computations, which another process can run (`ui.jobs.process`).
 
 Nothing of Streamlit is imported here: that process is small, and soon begun.
 """
@@ -20,7 +20,7 @@ Axis = tuple[str, float, float, bool]
 
 # Revolutions from which a release is sampled half as finely.
 LONG = 150
-# Of the integrator's steps: a picture needs less than the core's default.
+# Tolerance of the integrator's steps: a chart needs less than the core's default.
 _TOLERANCE = 1e-7
 
 

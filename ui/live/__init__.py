@@ -1,4 +1,4 @@
-"""Charts redrawn in place, sliders that send while they move, what joins them, the connection.
+"""Charts redrawn in place, sliders that send while they move, previews, and the connection.
 
 Four Streamlit components, each a small script beside this file. While a slider is dragged its
 values ask for a preview, which has charts and numbers alone; on release the page runs. With

@@ -10,13 +10,13 @@ from streamlit.components.v2 import component
 from rotorcalc.figures import Chart
 from ui.live import assets
 
-# So few numbers are sooner written than packed.
+# Arrays this short are sent faster as text than packed.
 _FEW = 8
 _component = component("rotorcalc.chart", js=assets.module("chart"), isolate_styles=False)
 
 
 def show(chart: Chart, *, key: str, alt: str, config: dict[str, Any]) -> None:
-    """Show a chart; `alt` says in words what is to be seen, `config` is Plotly's."""
+    """Show a chart; `alt` is its text alternative, `config` is Plotly's."""
     message = {
         "key": key, "chart": chart, "config": config, "alt": alt,
         "plotly": assets.plotly_bundle(), "mover": assets.script("move"),

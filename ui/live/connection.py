@@ -1,4 +1,4 @@
-"""The connection in a browser: how soon it is back, and what is kept there for another server.
+"""The browser's connection: fast reconnection, and what the browser keeps for another server.
 
 A session goes with its server. What it held beside the address bar is told to the browser here with
 each run of the whole page, and comes back with the first run that a server without that session
@@ -18,7 +18,7 @@ _component = component("rotorcalc.connection", js=assets.module("connection"), i
 
 
 def show(kept: dict[str, Any] | None) -> object:
-    """Tell the browser what to keep, or nothing yet; return what it kept, which may be anything.
+    """Give the browser what to keep, or nothing yet; return what it kept, which is untrusted.
 
     It kept nothing, None, before its connection was lost for the first time.
     """

@@ -1,17 +1,17 @@
-"""What a browser sends when a slider is moved, and how it learns that it has been answered."""
+"""The messages of a moved slider, and their acknowledgement."""
 
 from collections.abc import Callable
 
 import streamlit as st
 
-# Gets a slider's name, what it sent, which may be anything, and whether it is still dragged.
+# Takes a slider's name, what it sent, which is untrusted, and whether it is still being dragged.
 Move = Callable[[str, object, bool], None]
 
 _ECHO = "live_echo"
 
 
 def taken(key: str, on_move: Move) -> None:
-    """Pass on what the component of a key sent, and keep its number."""
+    """Pass on the message of a component, and keep its number."""
     sent = st.session_state[key]["moved"]
     if isinstance(sent, dict):
         st.session_state[_ECHO] = sent.get("number")
@@ -19,5 +19,5 @@ def taken(key: str, on_move: Move) -> None:
 
 
 def echo() -> object:
-    """Return the number of what was taken last."""
+    """Return the number of the last message taken."""
     return st.session_state.get(_ECHO)

@@ -1,4 +1,4 @@
-"""The preview in a browser: charts and numbers for the value to which a slider is being dragged.
+"""The preview in a browser: charts and numbers at the value of a slider being dragged.
 
 While a slider is dragged the browser asks the server at `path()` for what a value would give, with
 the token of the page's session, past all of Streamlit's own running and drawing, and draws the
@@ -29,7 +29,7 @@ _component = component("rotorcalc.preview", js=assets.module("preview"), isolate
 
 
 class Preview(Protocol):
-    """A visitor's page as it was last drawn."""
+    """A visitor's page as last drawn."""
 
     def at(self, name: str, value: str) -> dict[str, Any]:
         """Return {"charts": {key: chart}, "rows": {key: numbers as text}} at one input's value.
@@ -39,9 +39,9 @@ class Preview(Protocol):
         ...
 
 
-# The preview of the page drawn last in each session, as long as the session keeps it.
+# The preview of each session's last page, for as long as the session keeps it.
 _previews: WeakValueDictionary[str, Preview] = WeakValueDictionary()
-# A page asks one thing at a time.
+# A page sends one request at a time.
 _asking: set[str] = set()
 
 
@@ -69,7 +69,7 @@ def path() -> str:
 
 
 async def answer(request: Request) -> Response:
-    """Answer with a preview, in a thread of its own: the server goes on with others meanwhile."""
+    """Answer with a preview, in a separate thread so that the server can serve others."""
     token = request.headers.get(_TOKEN, "")
     preview = _previews.get(token)
     if preview is None:
@@ -92,5 +92,5 @@ def _packed(token: str, preview: Preview, name: str, value: str) -> bytes:
             shown = preview.at(name, value)
     except ValueError:  # said in words when the slider is released
         shown = {"charts": {}, "rows": {}}
-    # Packed at its fastest, where Streamlit would at its smallest and ten times slower.
+    # Compressed at the fastest level; Streamlit would use the smallest, ten times slower.
     return gzip.compress(encoded(shown), compresslevel=1, mtime=0)

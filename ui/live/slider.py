@@ -1,4 +1,4 @@
-"""Sliders that send while they move, each with a field to type its value in."""
+"""Sliders that send while they move, each with a field to type a value."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass

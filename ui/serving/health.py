@@ -1,4 +1,4 @@
-"""Whether this server computes, and computes right: python -m ui.serving.health [ADDRESS]
+"""Health check, whether this server computes correctly: python -m ui.serving.health [ADDRESS]
 
 `check` solves the calculation sheet's machine and compares. The app answers with it at /healthz,
 where Streamlit's own /_stcore/health tells only that a web server runs: a process whose core is
@@ -22,7 +22,7 @@ _TOLERANCE = 1e-4  # above the last printed digits
 
 
 class WrongAnswerError(Exception):
-    """The core answers, but not what the calculation sheet says."""
+    """The core's results differ from the calculation sheet's."""
 
 
 def check() -> None:
@@ -40,7 +40,7 @@ def check() -> None:
 
 
 def main() -> None:
-    """Ask a server, by default the one whose settings the environment holds."""
+    """Query a server, by default the one of the environment's settings."""
     port = os.environ.get("STREAMLIT_SERVER_PORT", "8501")
     path = os.environ.get("STREAMLIT_SERVER_BASE_URL_PATH", "").strip("/")
     own = "/".join(filter(None, (f"http://127.0.0.1:{port}", path, "healthz")))

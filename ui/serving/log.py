@@ -1,4 +1,4 @@
-"""The server's log: a line of JSON an event, and never what a visitor entered.
+"""The server's log: one line of JSON per event, and never a visitor's input.
 
 An exception's message can hold a visitor's numbers, so of an exception only its type and its places
 in the code are written. What failed for a visitor has an id, which the visitor's page shows too.
@@ -54,7 +54,7 @@ class Record(logging.LogRecord):
 
 
 def begin() -> None:
-    """Let no visit be written, and every logger write JSON where the host wants it."""
+    """Log no visits, and let every logger write JSON where the host wants it."""
     for name in _VISITS:
         logging.getLogger(name).setLevel(logging.WARNING)
     for name in _SESSIONS:
@@ -83,17 +83,17 @@ def event(name: str, *, level: int = logging.INFO, **fields: object) -> None:
 
 
 def failed(error: Exception) -> bool:
-    """Report what a page's script raised, in the log and to its visitor, under one id."""
+    """Report an exception of a page's script in the log and to the visitor, under one id."""
     number = secrets.token_hex(4)
     event("failed", level=logging.ERROR, id=number, **described(error))
     st.error(
-        f"Tell whoever runs this server the number **{number}**, under which its log says what "
-        "happened. Your inputs stand in the address bar: reload the page to go on.",
+        f"Give this server's operator the number **{number}**, under which its log records what "
+        "happened. Your inputs are in the address bar: reload the page to continue.",
         title="Something went wrong here",
     )
     return True
 
 
 def described(error: BaseException) -> dict[str, Any]:
-    """Return an exception's type and its places in the code, outermost first."""
+    """Return an exception's type and stack, outermost frame first."""
     return {"type": type(error).__name__, "places": places(error)}

@@ -11,7 +11,7 @@ from starlette.responses import JSONResponse
 from starlette.types import ASGIApp, Receive, Scope, Send
 from streamlit.url_util import make_url_path
 
-# As Streamlit answers by itself.
+# The rest of Streamlit's own answer.
 REST = {
     "useExternalAuthToken": False,
     "enableCustomParentMessages": False,

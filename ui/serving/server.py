@@ -1,4 +1,4 @@
-"""The app with what a server needs round it: its health, its log, and its name among others."""
+"""The app with a server's parts: health, log, and the name of the replica."""
 
 import asyncio
 import gc
@@ -34,14 +34,14 @@ _COLLECT_AFTER = (20_000, 4, 4)
 
 
 class NamedReplica:
-    """Tells by a header which replica answers, so that a proxy can keep a visitor with it."""
+    """Names the replica in a header, so that a proxy can keep a visitor on it."""
 
     def __init__(self, app: ASGIApp, name: str) -> None:
         self._app = app
         self._header = (_HEADER, name.encode())
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Answer as the app does, with the header."""
+        """Pass on the app's answer, with the header added."""
 
         async def named(message: Message) -> None:
             if message["type"] in ("http.response.start", "websocket.accept"):
@@ -52,7 +52,7 @@ class NamedReplica:
 
 
 def routes() -> list[Route]:
-    """Return what is served beside the pages: the core's health, and previews."""
+    """Return the routes beside the pages: health and previews."""
     base = st.get_option("server.baseUrlPath") or ""
     health_route = Route(make_url_path(base, "healthz"), answer_health)
     if settings.live() != "drag":
@@ -62,14 +62,14 @@ def routes() -> list[Route]:
 
 
 def middleware() -> list[Middleware]:
-    """Return what stands between the server and its visitors."""
+    """Return the middleware between server and visitors."""
     name = settings.replica()
     named = [Middleware(NamedReplica, name=name)] if name else []
     return [*named, *guard.middleware(), Middleware(OwnOrigin)]
 
 
 async def answer_health(_: Request) -> JSONResponse:
-    """Answer whether the core computes right, and how long it took."""
+    """Answer whether the core computes correctly, and how long it took."""
     start = time.perf_counter()
     try:
         await asyncio.wait_for(asyncio.to_thread(health.check), health.TIMEOUT)
@@ -101,7 +101,7 @@ async def life(_: st.App) -> AsyncIterator[None]:
 
 
 def _warm() -> None:
-    """Import and compute what every visitor needs, and let no collection look at it again.
+    """Import and compute what every visitor needs, and exempt it from garbage collection.
 
     Otherwise each full collection goes through all objects of all imported modules, and every
     session waits for it.

@@ -1,4 +1,4 @@
-"""What a host decides by environment variables.
+"""The host's settings, from environment variables.
 
 The app's own, each a function below: ROTORCALC_LIVE, ROTORCALC_HEAVY_JOBS, ROTORCALC_REPLICA,
 ROTORCALC_COMMIT, ROTORCALC_LOG, and ROTORCALC_MAX_... for each of the limits. Streamlit's settings
@@ -84,17 +84,17 @@ def replica() -> str:
 
 
 def commit() -> str:
-    """Return the commit that runs, ROTORCALC_COMMIT, where there is no checkout to ask; or ""."""
+    """Return the running commit, ROTORCALC_COMMIT, where there is no checkout to read; or ""."""
     return os.environ.get("ROTORCALC_COMMIT", "")
 
 
 def log() -> str:
-    """Return how the log is written, ROTORCALC_LOG: "text", or "json", a line an event."""
+    """Return how the log is written, ROTORCALC_LOG: "text", or "json", one line per event."""
     return _word("ROTORCALC_LOG", _LOG)
 
 
 def _word(name: str, words: tuple[str, ...]) -> str:
-    """Return a variable's word, the first of those it may be where it is unset."""
+    """Return a variable's word, by default the first of the admitted ones."""
     word = os.environ.get(name, words[0])
     if word not in words:
         raise ValueError(f"{name} = {word!r}: must be one of {', '.join(words)}")

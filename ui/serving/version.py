@@ -1,4 +1,4 @@
-"""Which program runs: its version, and its commit where that is known."""
+"""The running program's version, and its commit where known."""
 
 import subprocess
 from functools import cache
@@ -12,7 +12,7 @@ _ROOT = Path(__file__).resolve().parents[2]
 
 @cache
 def commit() -> str:
-    """Return the commit that runs, short; "" where neither the host nor a checkout tells."""
+    """Return the running commit, abbreviated; "" where neither the host nor a checkout gives it."""
     if named := settings.commit():
         return named[:12]
     # A checkout is often another user's than the server's, which git would not read by itself.
