@@ -144,7 +144,7 @@ def onset_map(page: Page) -> None:
         alt="Contour map of the onset speed over two inputs, with this machine and the "
         "line on which the onset is the running speed.",
         caption="Onset of this machine with two inputs changed, all others kept. On the "
-        "dark side of the line it would be unstable at the running speed.",
+        "side of lower onset it would be unstable at the running speed.",
     )
 
 

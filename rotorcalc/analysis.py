@@ -301,6 +301,7 @@ def force_coefficients(source: Sweep | FilmCurves, *, axes: Axes) -> ForceCoeffi
     ForceCoefficients
         Its fields have the leading shape of the source's.
     """
+    # A sweep's K and C have dimensions; a bearing's curves have k and c in units of the load.
     if isinstance(source, Sweep):
         found = ForceCoefficients(
             axes="XY",

@@ -153,6 +153,7 @@ def _sequence(element: Any, length: int | None = None) -> _Kind | None:
         return None
 
     def admits(values: Any) -> bool:
+        # A text is a sequence of texts, but never meant as a list.
         listed = isinstance(values, Sequence | np.ndarray) and not isinstance(values, str | bytes)
         right = listed and length in (None, len(cast("Sequence[Any]", values)))
         return right and all(map(kind.admits, cast("Sequence[Any]", values)))
@@ -200,6 +201,7 @@ def _is_list(value: Any) -> bool:
     return isinstance(value, Iterable) and not isinstance(value, str | bytes | Mapping)
 
 
+# Annotations with a fixed test; types in "surely" pass without it.
 _PLAIN: dict[Any, _Kind] = {
     types.NoneType: _Kind(_of(types.NoneType), "None", (types.NoneType,)),
     bool: _Kind(_of(bool, np.bool_), "True or False", (bool,)),

@@ -348,6 +348,7 @@ def _with_extremes(
 ) -> tuple[Array, Array]:
     """Return a scan with its local extremes added, each refined between its neighbours."""
     before, here, after = onsets[:-2], onsets[1:-1], onsets[2:]
+    # An infinite onset is no maximum that a search could refine.
     tops = np.flatnonzero((here > before) & (here >= after) & np.isfinite(here))
     bottoms = np.flatnonzero((here < before) & (here <= after))
     extremes = [

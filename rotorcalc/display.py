@@ -98,6 +98,7 @@ def _described(record: type) -> tuple[str, dict[str, tuple[str, str]]]:
     texts: dict[str, str] = {}
     names = ""
     for line in rest.splitlines():
+        # Headings start a line; the indented lines below one are its text.
         if heading := _ATTRIBUTE.match(line):
             names = heading[1]
         elif line.startswith(" "):

@@ -479,6 +479,7 @@ def _impedance(
     dZ = C[..., None, :, :] + 2.0 * at * mass
     if K.shape[-1] == 2:
         return Z, dZ
+    # Derivative of Z_qq − Z_qi Z_ii⁻¹ Z_iq, with `drives` = −Z_qi Z_ii⁻¹.
     follows = -np.linalg.solve(Z[..., 2:, 2:], Z[..., 2:, :2])
     drives = -np.linalg.solve(Z[..., 2:, 2:].swapaxes(-1, -2), Z[..., :2, 2:].swapaxes(-1, -2))
     drives = drives.swapaxes(-1, -2)

@@ -165,6 +165,7 @@ def from_tree(cls: type[R], tree: object, *, where: str) -> R:
     if issubclass(cls, Kind):
         cls = _kind_of(cls, values, where)
     known = rules(cls)
+    # Unknown keys are errors: a misspelt field would otherwise silently take its default.
     for unknown in values.keys() - known.keys():
         raise ValueError(f"{where}{_key(unknown)}: unknown key; known are {', '.join(known)}")
     for name, rule in known.items():

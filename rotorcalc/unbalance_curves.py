@@ -193,6 +193,7 @@ def response_curves(
     """
     machine = sweep.machine
     near = _near(sweep.speed, np.concatenate([disk_peaks.speed, journal_peaks.speed]))
+    # Only the added speeds are computed; the sweep's own responses are known.
     there = synchronous_response(machine.rotor, *stiffness_and_damping(machine, near), near)
     speed, order = np.unique(np.concatenate([sweep.speed, near]), return_index=True)
     known = sweep.disk_response, sweep.journal_response
@@ -324,6 +325,7 @@ def response_family(
     denser, order = np.unique(np.concatenate([speeds, near]), return_index=True)
     disk, journal = np.concatenate([sizes, sizes_there], axis=-1)[..., order]
     K, C = (np.concatenate(pair)[order] for pair in zip(film, film_there, strict=True))
+    # The load stays the machine's, so that all variants run at the same equilibrium.
     machines = [replace(machine, rotor=rotor, load=machine.static_load) for rotor in rotors]
     return ResponseFamily(
         rotors=tuple(rotors),

@@ -110,6 +110,7 @@ def both_peaks(sweep: Sweep) -> tuple[ResponsePeaks, ResponsePeaks]:
     machine, rotor, speed = sweep.machine, sweep.machine.rotor, sweep.speed
     rising_speed(speed, name="sweep.speed")
     near = _near_resonances(machine, rotor, speed, (sweep.stiffness, sweep.damping))
+    # The sweep's own sizes are reused; only speeds near resonances are added.
     known = orbit_sizes(sweep.disk_response, sweep.journal_response)
     dense, size = _denser(speed, known, near, lambda more: _orbit_sizes(machine, rotor, more))
     body, place = np.nonzero(_is_peak(size))

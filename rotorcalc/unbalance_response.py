@@ -146,6 +146,7 @@ def orbit_ellipse(x: ArrayLike, y: ArrayLike | None = None) -> OrbitEllipse:
         both = complex_array("x", x, ends=(2,))
         x, y = both[..., 0], both[..., 1]
     x, y = np.broadcast_arrays(complex_array("x", x), complex_array("y", y))
+    # x + jy = f e^{jΩt} + b e^{−jΩt}: two circles, whose radii add along the major axis.
     forward: ComplexArray = (x + 1j * y) / 2.0
     backward: ComplexArray = (x - 1j * y).conj() / 2.0
     return OrbitEllipse(

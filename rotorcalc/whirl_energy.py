@@ -321,6 +321,7 @@ def whirl_orbit(machine: Machine, onset: Onset) -> WhirlOrbit:
     """
     if not math.isfinite(onset.speed):
         raise ValueError(f"onset = {onset.speed} rad/s: without an onset there is no whirl orbit")
+    # Without load film and disk whirl infinitely slowly about the centre: a circle by symmetry.
     if onset.speed == 0.0:
         circle = _CIRCLE / np.complex128(math.sqrt(np.pi))
         return WhirlOrbit(speed=0.0, frequency=0.0, journal=circle, disk=circle)

@@ -5,6 +5,7 @@ from typing import Any
 
 from rotorcalc.figures.style import Chart, Trace
 
+# A frame without transition and redraw: only the traces' data change.
 _STILL: dict[str, Any] = {
     "mode": "immediate",
     "frame": {"duration": 0, "redraw": False},

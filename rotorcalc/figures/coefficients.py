@@ -16,6 +16,7 @@ from rotorcalc.figures import style
 from rotorcalc.figures.style import Axis, Chart, Trace
 from rotorcalc.units import Unit, Units
 
+# An element keeps its colour in both frames: XX and rr, XY and rt, and so on.
 _COLOURS = {
     (0, 0): style.XX,
     (0, 1): style.XY,

@@ -17,6 +17,7 @@ from rotorcalc.onset import Onset
 from rotorcalc.root_locus import Locus
 from rotorcalc.units import Units
 
+# By a mode's place in the locus; red, which elsewhere means unstable, comes last.
 COLOURS = (style.BLUE, style.OCHRE, style.GREEN, style.PURPLE, style.GREY, style.RED)
 Item = dict[str, Any]
 

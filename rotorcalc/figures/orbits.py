@@ -22,6 +22,7 @@ from rotorcalc.units import Unit, Units
 
 LINEAR = style.PURPLE
 UP, DOWN = style.GREEN, style.OCHRE
+# Tall: the clearance circle is the page's main picture.
 _PLANE_HEIGHT = 680
 # Frames of an animation at most, points of the journal's trail, revolutions that the trail spans.
 _FRAMES, _TRAIL, _REACH = 120, 48, 2.0

@@ -23,6 +23,7 @@ LEGEND = {"orientation": "h", "x": 0, "yref": "container", "y": 0, "yanchor": "b
 MARGIN = {"l": 64, "r": 16, "t": 16, "b": 112}
 # Stands for infinity: a line rises to it, beyond the end of any axis.
 _BEYOND = 1e7
+# Green, against the red of the unstable side.
 _STABLE = "rgba(0,145,106,0.13)"
 # Half the space between the two bars at one speed, and their width.
 _BESIDE, _WIDE = 0.19, 0.34

@@ -19,6 +19,7 @@ Chart: TypeAlias = dict[str, Any]
 Trace: TypeAlias = dict[str, Any]
 Axis: TypeAlias = dict[str, Any]
 
+# Each has a contrast of at least 3 : 1 to a white and to a near-black page.
 BLUE, GREEN, PURPLE, OCHRE, RED, GREY = (
     "#2b7bba", "#00916a", "#b0569f", "#a8780a", "#d1541f", "#7d7d7d",
 )  # fmt: skip
@@ -26,8 +27,10 @@ X, Y = BLUE, GREEN
 XX, YY, XY, YX = BLUE, GREEN, PURPLE, OCHRE
 JOURNAL, DISK = BLUE, OCHRE
 FLEXIBLE, RIGID = BLUE, PURPLE
+# Reserved for instability, on lines, areas and the onset's mark.
 UNSTABLE = RED
 HERE = "#f0b400"
+# Transparent, so that they suit both pages.
 FAINT = "rgba(127,127,127,0.28)"
 SHADE = "rgba(209,84,31,0.12)"
 

@@ -39,6 +39,7 @@ class FilmDynamics:
         return len(self.inertia)
 
 
+# A film without inner coordinates: n = 0.
 NO_INERTIA: Array = np.zeros(0)
 
 

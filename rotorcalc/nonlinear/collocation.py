@@ -76,6 +76,7 @@ class Balance:
         D = differentiation(m)
         velocity = cycle.ratio * (D @ cycle.path)
         film, by_place, by_velocity = self.film(cycle.path, velocity)
+        # The unknowns are ln ω̄ and ln Ω, so that both stay positive.
         omega = cycle.ratio * cycle.speed
         rotor, by_log = self.rotor(omega, m)
         scale = self.C / unit
@@ -88,6 +89,7 @@ class Balance:
                 block = by_velocity[:, i, j, None] * (cycle.ratio * D)
                 block[np.diag_indices(m)] += by_place[:, i, j]
                 jacobian[rows, j * m : (j + 1) * m] = block - (scale * rotor if i == j else 0.0)
+            # By ln ω̄ velocity and rotor frequency grow; by ln Ω that frequency and the film's unit.
             stiffer = scale * (by_log @ cycle.path[:, i])
             jacobian[rows, -2] = np.sum(by_velocity[:, i] * velocity, axis=-1) - stiffer
             jacobian[rows, -1] = scale * (rotor @ cycle.path[:, i]) - load[i] - stiffer

@@ -67,6 +67,7 @@ class Branch:
         last, step = _born(self.balance.machine, self.onset), _FIRST_STEP
         cycle = self._first()
         for _ in range(_MOST_CYCLES):
+            # Past a bound the branch ends with the cycle exactly at it.
             bounded = min(max(cycle.speed, self.lowest), self.highest)
             if bounded != cycle.speed:
                 word = "highest" if bounded == self.highest else "lowest"
@@ -95,6 +96,7 @@ class Branch:
             self.ended = f"came to within {_NEAREST_WALL:.0%} of the clearance to the wall"
             return None, step
         last = last.resampled(len(cycle.path))
+        # The secant through the last two cycles stands for the tangent.
         chord = cycle.vector() - last.vector()
         tangent = chord / _length(chord, len(cycle.path))
         while step >= _SHORTEST_STEP:

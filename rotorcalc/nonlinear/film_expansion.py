@@ -58,12 +58,14 @@ class FilmExpansion:
         """Return the second and third derivatives of the force along a direction, (2, 2)."""
         size = float(np.linalg.norm(direction))
         unit = direction / size
+        # A line mostly along velocity hardly approaches the wall: its length is bounded anyway.
         reach = _FARTHEST * self.gap / max(float(np.linalg.norm(unit[:2])), 0.1)
         last = best = self._tried(unit, reach)
         least = np.full(2, np.inf)
         for _ in range(_MOST_REACHES):
             reach *= _SHORTER
             found = self._tried(unit, reach)
+            # Second and third derivative each take the length at which they change least.
             change = np.abs(found - last).max(axis=1)
             best = np.where((change < least)[:, None], found, best)
             least, last = np.minimum(change, least), found

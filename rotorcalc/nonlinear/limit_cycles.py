@@ -150,6 +150,7 @@ def bifurcation(
     for cycle in branch:
         found.append(_measured(balance, cycle))
         if progress is not None:
+            # A branch ends at the wall or at the highest speed, whichever is nearer.
             ratio = cycle.speed / onset.speed
             nearest_wall = (1.0 - found[-1].gap) ** 2
             share = min(max(share, nearest_wall, (ratio - 1.0) / (highest - 1.0)), 1.0)

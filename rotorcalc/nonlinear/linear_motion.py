@@ -138,6 +138,7 @@ def started(machine: Machine, speed: float, places: Array, velocities: Array) ->
     if film_of(machine.bearing).inner > 0:
         own = slice(journal.stop, None)
         massive = dynamics(machine, speed).inertia > 0.0
+        # A coordinate without mass has a position but no velocity among its states.
         inner = np.append(_inner_rest(machine, speed) + places[own], velocities[own][massive])
     return Start(
         journal=rest.journal + places[journal],

@@ -230,6 +230,7 @@ def measured_onset(
 
     lower, upper = _SPREAD[0::2], _SPREAD[1::2]
     for low, high in zip(lower, upper, strict=True):
+        # Stable below, unstable above: the narrowest pair that brackets a change is refined.
         if rate(low * near) < 0.0 < rate(high * near):
             found = brentq(rate, low * near, high * near, xtol=_SHARP * near, rtol=_SHARP)
             return float(found)

@@ -100,6 +100,7 @@ def spectrum(motion: Transient, *, of: str = "journal", last: int | None = None)
     order, circles = _circles(signal, revolutions)
     size = np.abs(circles)
     at_1x, radius_1x = _line(order, size, _SYNCHRONOUS)
+    # Whirl and imbalance are read in separate ranges: a large 1× line would hide a small whirl.
     ratio, radius = _line(order, size, _WHIRL)
     exists = radius > _LEAST_LINE * size.max() and not math.isnan(ratio)
     return Spectrum(
@@ -138,6 +139,7 @@ def waterfall(motion: Transient, *, spectra: int = 200, width: int = 32) -> Wate
     if not 4 <= width <= revolutions:
         raise ValueError(f"width = {width}: must be 4 to {revolutions} revolutions")
     samples = round(len(whole) / revolutions)
+    # Windows overlap where there are more spectra than would fit side by side.
     starts = np.linspace(0, len(whole) - width * samples, spectra).astype(int)
     order, _ = _circles(whole[: width * samples], width)
     shown = (order >= 0.0) & (order <= 1.5)

@@ -235,6 +235,7 @@ def _integrate(
     states[0] = state
     for first in range(0, len(angles) - 1, run.stretch):
         span = slice(first, min(first + run.stretch, len(angles) - 1) + 1)
+        # Every stretch starts LSODA again: its history is lost, which costs a few small steps.
         rows, message = _stretch(model, motion, states[first], angles[span], run.tolerance)
         states[first : first + len(rows)] = rows
         done = first + len(rows)
@@ -274,6 +275,7 @@ def _stretch(
     Where the integrator fails it does not say which of its states are valid: these are then found
     by halving the stretch.
     """
+    # A failure inside the stretch may leave arbitrary numbers behind its place.
     states, message = _attempt(motion, state, angles, tolerance)
     if message and len(angles) > 2:
         middle = len(angles) // 2
@@ -339,6 +341,7 @@ def _checked_start(machine: Machine, speed: float, start: ArrayLike | Start | No
         start = resting(machine, _checked_vector("start", start))
     for name in ("journal", "disk", "journal_velocity", "disk_velocity"):
         _checked_vector(f"start.{name}", getattr(start, name))
+    # Contact is the film's own gap, not |position| ≥ C: bores need not be circular.
     if float(film_of(machine.bearing).gap(start.journal / C)) <= 0.0:
         distance = float(np.hypot(*start.journal))
         raise ValueError(

@@ -32,10 +32,12 @@ from rotorcalc.onset.whirl import Onset, whirl_onset
 
 # The film whose two curves both rise with σ.
 _CURVE = "short"
+# k and c over σ are the same for all short bearings, so any dimensions serve.
 _ANY_BEARING = JournalBearing(diameter=1.0, length=1.0, radial_clearance=0.01)
 # Modified Sommerfeld numbers that bracket a root. Below them no film can whirl; above them it is
 # nearly centred, where both curves grow as σ². Forty per decade, refined by a root finder.
 _SIGMA = np.geomspace(1e-3, 1e3, 241)
+# Only the relative step ends the search, as σ spans many decades.
 _ROOT: Any = {"xatol": 0.0, "xrtol": 1e-15, "fatol": 0.0, "frtol": 0.0}
 
 
@@ -79,6 +81,7 @@ def closed_form_onset(machine: Machine, *, flexible: bool = True) -> Onset:
     a, b, beta, speed_of = _numbers(machine, flexible)
     [low], [high] = _bracket(*(np.array([x]) for x in (a, b, beta)))
     sigma = narrow_root(lambda sigma: _excess(sigma, a, b, beta), low, high)
+    # ω̄ from K and C in film units: the ratio does not depend on the unit.
     state = film_state(machine.bearing, sigma)
     speed = sigma * speed_of
     ratio = float(whirl_onset(state.stiffness, state.damping).whirl_ratio)

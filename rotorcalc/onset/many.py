@@ -55,6 +55,7 @@ def onset_speeds(machines: Sequence[Machine]) -> Array:
         for i, (machine, known) in enumerate(zip(machines, is_closed, strict=True))
         if not known and _curve(machine) is not None
     ]
+    # What is left NaN here, and the few, goes to `onset_speed` one by one.
     if len(others) >= _FLEET:
         speeds[others] = sure_onsets([machines[i] for i in others])
     for i, machine in enumerate(machines):
@@ -149,12 +150,14 @@ def _sure_onsets(machines: Sequence[Machine], rotor_terms: Array) -> Array:
     searches = [search_speeds(machine) for machine in machines]
     first = np.array([search[0] for search in searches])
     ratio = np.array([search[1] / search[0] for search in searches])
+    # Shorter searches are continued, each at its own ratio, to a common length.
     points = max(len(search) for search in searches)
     speeds: Array = first[:, None] * ratio[:, None] ** np.arange(points, dtype=float)
     fleet = _fleet(machines, rotor_terms)
     doubt = routh.margin_bounds(fleet.polynomials(speeds, np.arange(len(machines))))[1]
     in_doubt = doubt > 0.0
     end: IntArray = np.where(np.any(in_doubt, axis=1), np.argmax(in_doubt, axis=1), points)
+    # No uncertain point: no onset. The first point uncertain: no bracket, left to the search.
     smooth = ~_has_hump(doubt)
     onsets = np.where(smooth & (end == points), np.inf, np.nan)
     which = np.flatnonzero(smooth & (end > 0) & (end < points))

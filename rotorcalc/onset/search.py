@@ -141,12 +141,14 @@ def _in_floats(
 
     if stable == 0.0:
         return None
+    # A single sign change of the determinant between the two, proved at both ends.
     decays, grows = polynomials(np.array([stable, unstable]))
     if routh.determinant(decays) <= 0.0 or not routh.surely_crossed(grows):
         return None
     low, high = sorted((stable, unstable))
     root = narrow_root(lambda speed: routh.determinant(polynomials(speed)), low, high, noise=_NOISE)
     aside = math.copysign(_SURE, unstable - stable)
+    # The root counts only where the polynomial is provably stable before it and unstable after it.
     before, there, after = polynomials(root * np.array([1.0 - aside, 1.0, 1.0 + aside]))
     if routh.margin_bounds(before)[1] > 0.0 or not routh.surely_crossed(after):
         return None

@@ -32,6 +32,7 @@ from rotorcalc.machine import JournalBearing
 # centred, and the coefficients in film units equal those of the centre within 1 part in 5000.
 _WHIRLS_ABOVE, _CENTRED_ABOVE = 0.066385, 10.0
 
+# As printed in the notes, with their misprints corrected.
 _SOURCES: dict[str, Source] = {
     "eccentricity": Source(
         "Eq. 5.8",
