@@ -115,7 +115,7 @@ def test_a_word_is_neither_true_nor_false(name, flag, word):
         function(**good(name, function) | {flag: word})
 
 
-def test_the_words_name_argument_value_and_what_is_wanted():
+def test_the_message_names_argument_value_and_admitted_kind():
     with pytest.raises(ValueError, match=r"^machine = 'x': must be a Machine$"):
         rc.analyse("x", 5.0)
     with pytest.raises(ValueError, match=r"^flexible = 'rigid': must be True or False$"):

@@ -128,7 +128,7 @@ def test_which_machines_have_a_closed_form(rotor: dict[str, float], closed: bool
 # --- Inputs by name -------------------------------------------------------------------------
 
 
-def test_an_input_goes_by_its_path_or_its_name() -> None:
+def test_an_input_is_named_by_its_path_or_its_last_name() -> None:
     for field in ("bearing.radial_clearance", "radial_clearance"):
         assert variation.value_of(SHEET, field) == 60e-6
         other = variation.varied(SHEET, {field: 80e-6})
@@ -204,7 +204,7 @@ def test_a_map_is_the_onset_of_each_machine_on_it(key: str, x: str, y: str) -> N
         assert found.speed[i, j] == pytest.approx(onset_speed(cell).speed, rel=1e-9)
 
 
-def test_a_map_with_damping_tells_its_progress() -> None:
+def test_a_map_with_damping_reports_its_progress() -> None:
     told: list[float] = []
     xs, ys = np.array([5e-5, 1e-4]), np.array([0.0, 1e3, 1e4])
     found = design.onset_map(
@@ -220,7 +220,7 @@ def test_a_map_with_damping_tells_its_progress() -> None:
 
 
 @pytest.mark.parametrize(("rows", "blocks"), [(1, 1), (3, 3), (4, 4), (8, 4), (11, 4)])
-def test_a_map_of_many_rows_tells_its_progress_by_blocks(rows: int, blocks: int) -> None:
+def test_a_map_of_many_rows_reports_its_progress_by_blocks(rows: int, blocks: int) -> None:
     heard: list[float] = []
     axes = {"xs": [60e-6], "ys": np.linspace(1e3, 1e4, rows)}
     found = design.onset_map(
@@ -346,7 +346,7 @@ def test_both_solutions_beside_an_extreme_are_found() -> None:
     assert len(none.solutions) == 0
 
 
-def test_without_a_solution_the_reachable_range_is_told() -> None:
+def test_without_a_solution_the_reachable_range_is_given() -> None:
     found = design.solve_onset(SHEET, vary="temperature", target=20000 * RPM, low=0.0, high=150.0)
     assert len(found.solutions) == 0
     onsets = [

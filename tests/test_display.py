@@ -63,14 +63,14 @@ def test_every_record_of_arrays_shows_itself_briefly(record):
     assert record.__repr__ is Result.__repr__
 
 
-def test_the_text_tells_shape_range_and_unit():
+def test_the_text_gives_shape_range_and_unit():
     speed = repr(SWEEP).splitlines()[2]
     assert speed.split() == ["speed", "(100,)", "104.72", "…", "1256.6", "rad/s"]
     one = repr(RESULTS["one speed"]).splitlines()[2]
     assert one.split() == ["speed", "600", "rad/s"]
 
 
-def test_numbers_that_are_none_and_complex_ones_have_a_range_too():
+def test_nan_and_complex_numbers_have_a_range_too():
     x = np.array([3.0 + 4.0j, math.nan, 0.0, 0.0, 1.0])
     assert "size 0 … 2.5" in repr(orbit_ellipse(x, np.zeros(5)))
     assert "nan" in repr(orbit_ellipse(np.full(5, np.nan), np.zeros(5)))

@@ -96,7 +96,7 @@ def test_a_rigid_rotors_disk_is_its_journal():
 
 @pytest.mark.parametrize("name", PRESETS)
 @pytest.mark.parametrize("speed", [0.1, 0.4, 1.0])
-def test_locus_holds_each_mode_once_and_the_running_speed_in_the_same_order(name, speed):
+def test_locus_has_each_mode_once_and_the_running_speed_in_the_same_order(name, speed):
     preset = PRESETS[name]
     top = preset.top_speed
     locus = locus_of(preset.machine, speed * top, top)
@@ -120,7 +120,7 @@ def test_branches_keep_their_kind_beside_far_eigenvalues_that_move_fast():
     assert np.array_equal(branches[:, 0].conj(), branches[:, 3])
 
 
-def test_two_real_eigenvalues_that_meet_go_on_as_the_mode_that_comes_first():
+def test_two_real_eigenvalues_that_meet_continue_as_the_first_mode():
     preset = PRESETS["fig-5-2"]
     locus = locus_of(preset.machine, preset.speed, preset.top_speed)
     assert locus.branches.shape[1] == 3

@@ -23,7 +23,7 @@ def test_it_has_a_row_a_speed_and_a_unit_in_every_name():
     assert TABLE["speed [rad/s]"].to_numpy() == pytest.approx(SPEEDS)
 
 
-def test_every_field_stands_in_it():
+def test_every_field_is_in_the_table():
     for field in fields(SWEEP):
         if field.name != "machine":
             assert any(name.startswith(field.name) for name in TABLE), field.name

@@ -243,7 +243,7 @@ def test_on_a_soft_shaft_the_disk_lags_from_zero_to_half_a_turn(stiffness):
     assert np.abs(np.diff(lag, axis=0)).max() < math.pi / 2
 
 
-def test_phase_lag_is_how_much_later_the_orbit_comes():
+def test_phase_lag_is_the_delay_of_the_orbit():
     lag = np.array([[0.3, 0.3], [0.4, 0.4]])
     late = np.exp(-1j * lag) * np.array([1, -1j])
     assert phase_lag(late) == pytest.approx(lag, rel=8 * EPS)

@@ -79,7 +79,7 @@ def test_orbit_area_is_that_of_the_polygon_through_the_orbit(x: tuple[float, ...
     )
 
 
-def test_orbit_area_tells_forward_from_backward() -> None:
+def test_orbit_area_distinguishes_forward_from_backward() -> None:
     assert whirl_energy.orbit_area([1.0, -1.0j]) == pytest.approx(np.pi)
     assert whirl_energy.orbit_area([1.0, 1.0j]) == pytest.approx(-np.pi)
 
@@ -126,7 +126,7 @@ def test_the_orbit_of_the_onset_solves_the_equation_of_whirl() -> None:
     assert whirl_energy.orbit_area(orbit.journal) == pytest.approx(1.0)
 
 
-def test_without_load_nothing_brakes_the_whirl() -> None:
+def test_without_load_damping_dissipates_nothing() -> None:
     machine = replace(SHEET, load=0.0)
     orbit = whirl_energy.whirl_orbit(machine, onset_speed(machine))
     energy = whirl_energy.whirl_energy(machine, np.array([10.0, 100.0]), orbit)
@@ -191,7 +191,7 @@ def _curves() -> FilmCurves:
     return film_curves(SHEET.bearing, np.geomspace(0.1, 100.0, 30))
 
 
-def test_film_limit_is_the_eccentricity_above_which_nothing_whirls() -> None:
+def test_film_limit_is_the_eccentricity_above_which_no_rotor_whirls() -> None:
     bearing = JournalBearing(diameter=0.3, length=0.1, radial_clearance=2e-4)
     limit = whirl_energy.film_limit(bearing)
     assert limit.film.eccentricity_ratio == pytest.approx(0.756030386471, abs=1e-11)

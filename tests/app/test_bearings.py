@@ -130,7 +130,7 @@ def test_a_film_that_cannot_whirl_is_said_to(path: str) -> None:
         assert "cannot whirl" in said
 
 
-def test_a_pinned_bearing_is_told_from_the_live_one() -> None:
+def test_a_pinned_bearing_is_distinguished_from_the_live_one() -> None:
     at = visit(HOME, **query("ringed"))
     at.button(key="pin").click().run()
     session_of(at).values = values_of(SHEET, SPEED, TOP)

@@ -167,7 +167,7 @@ def test_a_file_is_a_machine_or_a_reason_why_not(text: str) -> None:
 
 
 @pytest.mark.parametrize("kind", MONSTERS)
-def test_no_file_holds_the_server_up(kind: str) -> None:
+def test_no_file_blocks_the_server(kind: str) -> None:
     start = time.process_time()
     with pytest.raises(ValueError, match=r"."):
         Machine.from_json(MONSTERS[kind])

@@ -19,7 +19,7 @@ def _flat(tree: object) -> list[object]:
 
 
 @pytest.mark.parametrize("preset", PRESETS)
-def test_a_presets_machine_comes_back(preset: str) -> None:
+def test_a_presets_machine_survives_values_and_back(preset: str) -> None:
     machine = PRESETS[preset].machine
     again = machine_of(PRESET_VALUES[preset])
     # Values are kept to fourteen digits, so that a link shows 150 and not 150.00000000000003.
@@ -46,7 +46,7 @@ def test_a_preset_lies_within_the_sliders(preset: str) -> None:
 @pytest.mark.parametrize("key", INPUTS)
 @pytest.mark.parametrize("units", SYSTEMS)
 @given(data=st.data())
-def test_a_reading_comes_back(key: str, units: str, data: st.DataObject) -> None:
+def test_a_reading_survives_conversion_and_back(key: str, units: str, data: st.DataObject) -> None:
     item = INPUTS[key]
     value = data.draw(st.floats(item.low, item.high))
     there_and_back = item.stored(item.shown(value, SYSTEMS[units]), SYSTEMS[units])

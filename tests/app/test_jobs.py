@@ -90,7 +90,7 @@ def test_a_process_left_in_the_middle_of_something_is_ended_and_another_hired() 
     assert second.closed
 
 
-def test_a_visitor_at_the_end_of_a_full_line_is_told_and_not_kept_waiting(monkeypatch) -> None:
+def test_a_visitor_beyond_a_full_queue_gets_a_message_at_once(monkeypatch) -> None:
     said: list[str] = []
     monkeypatch.setattr(queue.st, "warning", said.append)
 

@@ -81,7 +81,7 @@ def test_a_rigid_shaft_is_written_as_infinity(word: str) -> None:
 
 @pytest.mark.parametrize("key", INPUTS)
 @given(data=st.data())
-def test_a_link_holds_what_a_visitor_read_in_other_units_and_no_rounding(
+def test_a_link_keeps_a_reading_in_other_units_without_rounding(
     key: str, data: st.DataObject
 ) -> None:
     item = INPUTS[key]

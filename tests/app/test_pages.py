@@ -159,7 +159,7 @@ def _axes(figure: dict) -> Iterator[tuple[str, dict]]:
 
 
 @every_page
-def test_every_chart_has_a_text_for_those_who_do_not_see_it(path: str) -> None:
+def test_every_chart_has_a_text_alternative(path: str) -> None:
     at, seen = visit(path), 0
     for label in tours(at):
         for chart in at.get("plotly_chart"):

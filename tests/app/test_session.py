@@ -41,7 +41,7 @@ def test_a_value_survives_a_change_of_page() -> None:
         assert at.query_params == {"C": "85"}
 
 
-def test_a_link_holds_on_every_page_with_no_slider_touched() -> None:
+def test_a_link_is_kept_on_every_page_until_a_slider_moves() -> None:
     at = visit(OTHERS[0], preset="sheet-1e7", C="80", rpm="3000", k="inf")
     before = dict(session_of(at).values)
     for path in (HOME, *OTHERS):
@@ -146,7 +146,7 @@ def test_the_pinned_machine_survives_a_change_of_page_and_of_units() -> None:
     assert any(_ghosts(figure) for figure in charts(at).values())
 
 
-def test_a_broken_link_is_answered_in_words_and_nothing_else_is_lost() -> None:
+def test_a_broken_link_gets_a_message_and_keeps_the_valid_values() -> None:
     at = visit(HOME, C="-5", D="abc", mu="nan", T="70", colour="red")
     said = [box.value for box in at.warning]
     assert len(said) == 4
@@ -178,7 +178,7 @@ def test_a_machine_file_comes_back_the_same() -> None:
         ("<b>markup</b>", "JSON"),
     ],
 )
-def test_a_broken_machine_file_is_answered_in_words(text: str, word: str) -> None:
+def test_a_broken_machine_file_gets_a_message(text: str, word: str) -> None:
     at = visit(HOME, C="80")
     open_part(at, "share")
     at.file_uploader(key="upload").upload("bad.json", text.encode()).run()
@@ -200,7 +200,7 @@ def test_a_value_out_of_a_files_range_is_reported_by_name() -> None:
     assert session_of(at).values == PRESET_VALUES["sheet-1e8"] | {"T": 70.0}
 
 
-def test_the_shared_link_holds_the_whole_machine() -> None:
+def test_the_shared_link_contains_the_whole_machine() -> None:
     at = visit(HOME, preset="sheet-1e7", C="81.3", u="3.7")
     open_part(at, "share")
     query = dict(part.split("=") for part in at.code[0].value.split("?")[1].split("&"))
@@ -304,7 +304,7 @@ def test_what_a_browser_kept_makes_a_session_that_its_server_has_lost() -> None:
         {"pinned": None, "chosen": {"orbits_kick": 1e300}, "image_format": "exe"},
     ],
 )  # fmt: skip
-def test_what_a_browser_says_it_kept_may_be_anything(kept: object) -> None:
+def test_what_a_browser_kept_is_untrusted(kept: object) -> None:
     visitor = session_of(visit(HOME, C="72"))
     visitor.recall(kept)
     assert visitor.baseline in (None, PRESET_VALUES["sheet-1e8"])

@@ -63,7 +63,7 @@ def test_an_error_is_raised_here_with_its_places_in_the_code(worker: Worker) -> 
     assert worker.run(np.zeros, (3,), None).shape == (3,)
 
 
-def test_a_motion_that_ends_early_comes_with_its_part(worker: Worker) -> None:
+def test_a_motion_that_ends_early_is_returned_so_far(worker: Worker) -> None:
     with pytest.raises(TransientError, match="after") as caught:
         worker.run(break_off, (), None)
     assert len(caught.value.partial.time) == 5

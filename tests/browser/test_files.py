@@ -47,7 +47,7 @@ def _below(folder: Path) -> Path:
     return below
 
 
-def test_a_file_without_a_machine_is_answered_in_words(shared: AppPage, tmp_path: Path) -> None:
+def test_a_file_without_a_machine_gets_a_message(shared: AppPage, tmp_path: Path) -> None:
     broken = tmp_path / "broken.json"
     broken.write_text(json.dumps({"version": 1, "oil": "olive"}))
     with shared.run():

@@ -91,7 +91,7 @@ def test_the_browsers_reload_keeps_the_machine(app: AppPage) -> None:
     assert _shown(app) == shown
 
 
-def test_broken_link_is_answered_in_words(app: AppPage) -> None:
+def test_broken_link_gets_a_message(app: AppPage) -> None:
     app.open("Stability", C="-5", D="abc", T="70", colour="<b>red</b>")
     said = app.page.get_by_test_id("stAlert").all_inner_texts()
     for word in ("Radial clearance", "Diameter", "colour"):

@@ -104,7 +104,7 @@ def test_value_typed_beside_the_slider(app: AppPage) -> None:
     expect(field).to_have_value("83.5")
 
 
-def test_typed_value_out_of_range_is_answered_in_words_and_the_old_one_kept(app: AppPage) -> None:
+def test_typed_value_out_of_range_gets_a_message_and_the_old_one_stays(app: AppPage) -> None:
     app.open("Machine")
     field = app.page.get_by_role("textbox", name=re.compile("^Radial clearance"))
     for word, answer in (

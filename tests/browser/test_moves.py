@@ -131,7 +131,7 @@ def test_chart_is_saved_as_a_picture(app: AppPage, kind: str, tmp_path) -> None:
     assert start.startswith(b"\x89PNG") if kind == "png" else b"<svg" in start
 
 
-def test_zero_load_and_rigid_shaft_are_explained_in_words(app: AppPage) -> None:
+def test_zero_load_and_rigid_shaft_are_explained(app: AppPage) -> None:
     app.open("Machine", load="0", k="inf")
     expect(app.page.get_by_test_id("stAlert").first).to_contain_text("without load")
     for name in LIVE:

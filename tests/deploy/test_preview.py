@@ -23,7 +23,7 @@ def server() -> Iterator[Replica]:
 
 
 @awaited
-async def test_a_preview_has_charts_and_numbers_and_is_kept_by_nobody(server: Replica) -> None:
+async def test_a_preview_has_charts_and_numbers_and_is_not_cached(server: Replica) -> None:
     async with Visitor(server.address) as visitor:
         await visitor.open("Stability")
         said = visitor.texts()
@@ -50,7 +50,7 @@ async def test_every_page_has_a_preview(server: Replica, name: str) -> None:
 
 
 @awaited
-async def test_a_stranger_is_told_nothing(server: Replica) -> None:
+async def test_a_stranger_gets_no_preview(server: Replica) -> None:
     async with Visitor(server.address) as visitor:
         await visitor.open()
         for token in ("0", "x" * 2000, "../etc"):
@@ -58,7 +58,7 @@ async def test_a_stranger_is_told_nothing(server: Replica) -> None:
 
 
 @awaited
-async def test_what_is_no_value_moves_nothing(server: Replica) -> None:
+async def test_an_invalid_value_gets_no_preview(server: Replica) -> None:
     async with Visitor(server.address) as visitor:
         await visitor.open()
         for name, value in [
@@ -70,7 +70,7 @@ async def test_what_is_no_value_moves_nothing(server: Replica) -> None:
 
 
 @awaited
-async def test_a_page_asks_one_thing_at_a_time(server: Replica) -> None:
+async def test_a_page_sends_one_request_at_a_time(server: Replica) -> None:
     async with Visitor(server.address) as visitor:
         await visitor.open()
         known = visitor.preview_data()

@@ -217,7 +217,7 @@ def test_a_value_under_way_is_not_lost(place: Place, tabs: dict[str, AppPage]) -
     assert field(typing) == f"{wanted[1]:g}"
 
 
-def test_a_computation_under_way_begins_again_and_says_so(
+def test_a_running_computation_restarts_and_the_page_says_so(
     place: Place, tabs: dict[str, AppPage]
 ) -> None:
     tab = tabs["a kick"]
@@ -233,7 +233,7 @@ def test_a_computation_under_way_begins_again_and_says_so(
     assert tab.page.locator(".live-chart").count()
 
 
-def test_a_link_to_another_page_holds_the_machine(tabs: dict[str, AppPage]) -> None:
+def test_a_link_to_another_page_contains_the_machine(tabs: dict[str, AppPage]) -> None:
     tab = tabs["a slider"]
     slide(tab)
     link = tab.page.get_by_test_id("stMain").get_by_role("link", name="Response", exact=True)

@@ -65,7 +65,7 @@ async def test_ten_sessions_dragging_have_one_run_each_and_all_see_the_last_valu
 
 
 @awaited
-async def test_a_stranger_knows_nothing_of_another_visitors_session(server: Replica) -> None:
+async def test_a_visitor_cannot_read_another_visitors_session(server: Replica) -> None:
     async with Visitor(server.address) as one, Visitor(server.address) as other:
         await one.open(query="C=81.2345")
         await other.open()

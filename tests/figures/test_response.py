@@ -198,7 +198,7 @@ def test_the_lag_at_the_running_speed_lies_on_its_curve() -> None:
             assert_allclose(here.lag, at, atol=0.05)
 
 
-def test_the_journals_path_surrounds_its_equilibrium_and_tells_its_reach() -> None:
+def test_the_journals_path_surrounds_its_equilibrium_and_gives_its_reach() -> None:
     orbit = clearance_orbit(analyse(SHEET, SPEED))
     assert_allclose(orbit.path[:-1].mean(axis=0), orbit.centre, rtol=1e-9)
     assert_allclose(np.hypot(*orbit.wall.T), orbit.clearance)
@@ -211,7 +211,7 @@ def test_the_journals_path_surrounds_its_equilibrium_and_tells_its_reach() -> No
     assert_allclose(np.abs(wall).max(axis=1), orbit.clearance)
 
 
-def test_a_family_holds_each_rotors_own_response() -> None:
+def test_a_family_contains_each_rotors_own_response() -> None:
     rotors = damping_variants(SHEET)
     family = response_family(SHEET, SPEEDS, rotors=rotors)
     assert family.rotors[0] == SHEET.rotor

@@ -99,7 +99,7 @@ def _texts(chart: Chart) -> list[str]:
 
 @every_machine
 @every_chart
-def test_chart_is_valid_and_says_no_nan(
+def test_chart_is_valid_and_shows_no_nan(
     values: Values, draw: Callable[[Computed, Units], Chart]
 ) -> None:
     _check(draw(computed_from(values), SI))
@@ -240,7 +240,7 @@ def test_the_solutions_stand_on_the_wanted_line() -> None:
     assert "459.4 µm" in moves.answer(found, axis, 60e-6, SI)
 
 
-def test_an_answer_says_what_can_be_reached_where_there_is_no_solution() -> None:
+def test_without_a_solution_the_text_gives_the_range_that_can_be_reached() -> None:
     computed, axis = computed_from(SHEET), moves.quantity("T", computed_from(SHEET).machine, SI)
     found = moves.solution(computed, "T", 2.0 * computed.speed, SI)
     words = moves.answer(found, axis, 60.0, SI)

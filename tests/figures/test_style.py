@@ -19,7 +19,7 @@ def drawn(top):
 
 
 @given(st.floats(1e-9, 1e12))
-def test_an_axis_holds_its_values_and_wastes_little(top):
+def test_an_axis_contains_its_values_and_little_empty_space(top):
     assert top <= style.ceiling(top) * (1 + 1e-12)
     assert style.ceiling(top) <= 1.3334 * top * (1 + 1e-9)
 

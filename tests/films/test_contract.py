@@ -42,7 +42,7 @@ def resting(film, at):
 
 @ALL
 @pytest.mark.parametrize("sigma", SIGMA)
-def test_at_rest_the_film_carries_the_load_and_nothing_else(bearing, sigma):
+def test_at_rest_the_film_force_equals_the_load(bearing, sigma):
     film, at = film_of(bearing), points(bearing, sigma)
     place = film.state(at).position
     inner = resting(film, at)

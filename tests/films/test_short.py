@@ -561,7 +561,7 @@ def test_an_unloaded_film_is_centred():
 
 
 @pytest.mark.parametrize("sigma", [0.0, -1.0, math.nan, [1.0, 0.0]])
-def test_a_film_is_asked_at_positive_sommerfeld_numbers(sigma):
+def test_sommerfeld_numbers_must_be_positive(sigma):
     with pytest.raises(ValueError, match=r"sommerfeld = .*: must be positive"):
         film_state(BEARING, sigma)
 

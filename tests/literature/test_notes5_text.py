@@ -102,7 +102,7 @@ def test_centred_coefficients():
 # Statements
 
 
-def test_attitude_angle_runs_from_a_right_angle_to_nothing():
+def test_attitude_angle_falls_from_a_right_angle_to_zero():
     """As ε → 0, φ → ½π; as ε → 1, φ → 0 (below Eq. 5.7)."""
     assert short.attitude_angle(1e-9) == pytest.approx(math.pi / 2, abs=2e-9)
     assert short.attitude_angle(1 - 1e-12) == pytest.approx(0, abs=2e-6)

@@ -97,7 +97,7 @@ def test_energy_balances_on_every_film(name, kind):
 
 
 @ALL
-def test_a_motion_goes_on_from_its_last_state(name):
+def test_a_motion_continues_from_its_last_state(name):
     machine = machine_on(name, "massless journals", 0.1 * C)
     whole = simulate(machine, SPEED, revolutions=2)
     half = simulate(machine, SPEED, revolutions=1)

@@ -110,7 +110,7 @@ def test_another_film_has_the_coefficient_of_its_limit_cycles(spring, stiffness)
 
 
 @pytest.mark.parametrize("name", ["ringed", "ringed, heavy"])
-def test_films_with_parts_that_move_are_refused_in_words(name):
+def test_films_with_inner_coordinates_are_refused(name):
     with pytest.raises(ValueError, match="inner coordinates"):
         hopf(replace(SHEET, bearing=BEARINGS[name]))
 

@@ -35,7 +35,7 @@ def supercritical():
 
 
 @pytest.mark.parametrize("kind", ROTORS)
-def test_cycles_are_born_as_the_normal_form_says(kind):
+def test_small_cycles_follow_the_normal_form(kind):
     machine = balanced(ROTORS[kind])
     branch = bifurcation(machine, lowest=0.999, highest=1.001)
     first = branch.amplitude[0]
@@ -152,7 +152,7 @@ def rigid(mass, **bearing):
     )
 
 
-def test_a_branch_goes_on_where_its_film_is_all_but_in_half_speed_whirl():
+def test_a_branch_continues_where_its_film_is_nearly_in_half_speed_whirl():
     """There the force's slopes change within a millionth of CΩ."""
     branch = bifurcation(rigid(50.0), highest=1.5)
     onset = branch.hopf.speed
@@ -210,7 +210,7 @@ def test_a_branch_may_shrink_to_rest_at_another_onset():
 @given(machine=machines(stiffness=RIGID | log_uniform(1e5, 1e10), damped=True, journals=True))
 @example(machine=rigid(2000.0, length=0.02))
 @example(machine=rigid(0.5, radial_clearance=200e-6))
-def test_a_branch_goes_where_it_was_asked_or_says_why_not(machine):
+def test_a_branch_reaches_the_bound_or_names_why_it_ended(machine):
     try:
         branch = bifurcation(machine)
     except ValueError:
@@ -235,7 +235,7 @@ def test_the_imbalance_plays_no_part():
     assert speeds[0] == pytest.approx(speeds[1], rel=1e-9)
 
 
-def test_progress_is_told_and_what_it_raises_ends_the_work():
+def test_progress_is_reported_and_its_exception_ends_the_work():
     told = []
     bifurcation(SHEET, highest=1.05, progress=told.append)
     assert told == sorted(told)

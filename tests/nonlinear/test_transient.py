@@ -74,7 +74,7 @@ def test_wherever_the_search_for_a_velocity_begins_it_ends_in_the_same(
     assert found == pytest.approx(velocity, abs=1e-10)
 
 
-def test_a_search_goes_on_from_the_last_and_then_looks_once(monkeypatch):
+def test_a_search_starts_from_the_last_solution_and_needs_one_step(monkeypatch):
     looks, near, impedance = [], [], motion._impedance
     force = motion.force(0.3, -0.6, 0.1, 0.4)
     monkeypatch.setattr(motion, "_impedance", lambda *at: looks.append(at) or impedance(*at))
@@ -261,7 +261,7 @@ def test_the_error_falls_with_the_tolerance_and_is_below_a_millionth_by_default(
 
 
 @pytest.mark.parametrize("kind", ROTORS)
-def test_the_journal_stays_inside_whatever_throws_it(kind):
+def test_the_journal_stays_inside_under_any_start(kind):
     rotor = replace(ROTORS[kind], imbalance=C)
     machine = replace(SHEET, rotor=rotor, load=50_000.0)
     motion = simulate(machine, 9000 * RPM, revolutions=20, start=(-0.99 * C, 0.0))
@@ -279,7 +279,7 @@ def test_integrations_side_by_side_do_not_meddle():
     assert all(np.array_equal(a, b) for a, b in zip(alone, together, strict=True))
 
 
-def test_a_motion_goes_on_from_its_last_state():
+def test_a_motion_continues_from_its_last_state():
     machine = balanced(ROTORS["journal mass"])
     whole = simulate(machine, 5000 * RPM, revolutions=4, start=FAR)
     half = simulate(machine, 5000 * RPM, revolutions=2, start=FAR)
@@ -298,7 +298,7 @@ def test_samples_are_evenly_spaced_in_the_angle_of_rotation():
     )
 
 
-def test_progress_is_told_and_what_it_raises_ends_the_work():
+def test_progress_is_reported_and_its_exception_ends_the_work():
     told = []
     simulate(SHEET, 5000 * RPM, revolutions=60, progress=told.append)
     assert told[-1] == 1.0
@@ -352,7 +352,7 @@ def test_a_bad_request_is_refused_in_words(changes, words):
         simulate(SHEET, asked.pop("speed"), **asked)
 
 
-def test_a_motion_that_cannot_go_on_is_told_with_time_place_and_what_was_computed(monkeypatch):
+def test_a_failed_integration_reports_time_place_and_the_motion_so_far(monkeypatch):
     calls = itertools.count()
 
     def fails_from_then_on(x, y, f_x, f_y, *near):
@@ -366,7 +366,7 @@ def test_a_motion_that_cannot_go_on_is_told_with_time_place_and_what_was_compute
     assert len(failure.value.partial.time) >= 1
 
 
-def test_an_integrator_that_gives_up_says_so_once_and_keeps_what_is_good(monkeypatch):
+def test_a_failed_integrator_reports_once_and_keeps_valid_states(monkeypatch):
     """In the error alone: SciPy's own warning would be an error here."""
     good = simulate(SHEET, 5000 * RPM, revolutions=3, start=FAR)
     rates = Equations.motion

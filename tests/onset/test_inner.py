@@ -103,7 +103,7 @@ def test_a_film_that_cannot_whirl_has_no_onset(rotor, load):
 
 
 @pytest.mark.parametrize("rotor", ["rigid", "massless journals", "journal mass"])
-def test_a_film_that_holds_the_journal_in_its_centre_is_stable_without_load(rotor):
+def test_a_film_with_stiffness_in_the_centre_is_stable_without_load(rotor):
     """κ in film units: M(Ω/2)² = κ μΩRL³/C³ of a rigid rotor, and any other balances there too."""
     machine = machine_of("preloaded", rotor, load=0.0)
     onset = onset_speed(machine)

@@ -74,7 +74,7 @@ def test_a_hump_before_the_first_doubt_is_seen(doubt, hump):
     assert list(_has_hump(np.array([doubt, [1, -3, -2, -3, 1]]))) == [hump, False]
 
 
-def test_a_machine_with_a_hump_is_left_to_be_asked():
+def test_a_machine_with_a_hump_is_left_to_onset_speed():
     """Midspan damping quenches its whirl, all but: the growth rises and falls below zero."""
     humped = with_rotor(disk_damping=1e5)
     assert np.isnan(sure_onsets([humped])).all()

@@ -55,7 +55,7 @@ def test_the_onset_is_right_where_floats_leave_doubt(machine):
     assert 0.0 < onset.whirl_frequency < onset.speed
 
 
-def test_the_onset_says_how_it_was_found():
+def test_an_onset_names_the_method_that_found_it():
     assert onset_speed(SHEET).method == "closed form"
     assert onset_speed(with_rotor(journal_mass=10.0)).method == "closed form"
     assert onset_speed(with_rotor(disk_damping=2e3)).method == "polynomial"

@@ -148,7 +148,7 @@ def test_threshold_speed_has_its_minimum():
     assert math.sqrt(least.fun) == pytest.approx(2.5317057092, abs=0.5e-10)
 
 
-def test_without_cross_coupling_nothing_whirls():
+def test_without_cross_coupling_no_rotor_whirls():
     onset = whirl_onset([[1.0, 0.0], [0.0, 2.0]], [[1.0, 0.2], [0.2, 1.0]])
     assert onset.whirl_ratio == 0
     assert onset.threshold_speed == math.inf
@@ -319,7 +319,7 @@ def test_a_vanishing_damping_gives_the_undamped_onset(machine, flexible):
 
 @few
 @given(machines(damped=True, journals=True, load=loads), st.floats(ALWAYS_STABLE + 1e-9, 0.9999))
-def test_nothing_is_unstable_above_the_limit_of_eccentricity(machine, eps):
+def test_every_rotor_is_stable_above_the_limit_of_eccentricity(machine, eps):
     """Whatever mass, shaft, midspan damping and journals."""
     speed = float(short.modified_sommerfeld(eps) / modified_sommerfeld(machine, 1.0))
     assume(equilibrium(machine, speed).film.eccentricity_ratio > ALWAYS_STABLE)

@@ -117,7 +117,7 @@ def test_csv_holds_every_eigenvalue_of_the_sweep(case: str) -> None:
         assert np.all(apart.min(axis=2) <= 1e-9 * abs(values).max(axis=1, keepdims=True))
 
 
-def test_csv_writes_nan_and_infinity_in_words_that_python_reads() -> None:
+def test_csv_writes_nan_and_infinity_as_python_reads_them() -> None:
     text = export.sweep_csv(computed("no load"), SI).decode("utf-8-sig")
     assert ",inf," in text
     still = export.sweep_csv(computed("no imbalance"), SI).decode("utf-8-sig")
@@ -200,7 +200,7 @@ def test_ross_axes_agree_with_the_textbook_that_ross_follows() -> None:
     np.testing.assert_allclose(K, [[12.81, 16.39], [-25.06, 8.815]], rtol=5e-4)
 
 
-def test_ross_sheet_says_nothing_that_ross_takes_for_another_unit() -> None:
+def test_ross_sheet_has_no_unit_that_ross_would_misread() -> None:
     words = " ".join(
         cell for row in ross_rows("sheet-1e8") for cell in row if isinstance(cell, str)
     )
@@ -260,7 +260,7 @@ compared = pytest.mark.parametrize("pinned", [None, "sheet-1e7"])
 
 @every_case
 @compared
-def test_report_is_whole_and_says_no_nan(case: str, pinned: str | None) -> None:
+def test_report_is_complete_and_shows_no_nan(case: str, pinned: str | None) -> None:
     page = read(case, pinned)
     text = " ".join(page.text)
     assert not re.search(r"\b(nan|None|Traceback)\b", text)
@@ -287,7 +287,7 @@ def test_report_shows_every_input_and_result(case: str, units: Units) -> None:
         assert result.label in text
 
 
-def test_report_says_rigid_weight_and_no_onset_in_words() -> None:
+def test_report_names_rigid_shaft_weight_and_missing_onset() -> None:
     assert "rigid" in read("rigid", None).text
     assert "half the weight" in read("sheet-1e8", None).text
     assert "no limit" in read("no onset", None).text
@@ -303,7 +303,7 @@ def test_report_shows_the_baseline_where_it_differs() -> None:
     )
 
 
-def test_report_fetches_nothing() -> None:
+def test_report_loads_nothing_from_the_network() -> None:
     page = read("sheet-1e8", "sheet-1e7")
     names = [tag for tag, _ in page.tags]
     assert not {"link", "img", "iframe", "object", "embed", "base", "source"} & set(names)
@@ -332,7 +332,7 @@ def test_tables_escape_what_they_show() -> None:
     assert report._row([("<b>&", "")]) == "<tr><td>&lt;b&gt;&amp;</td></tr>"
 
 
-def test_charts_cannot_end_the_script_that_holds_them() -> None:
+def test_charts_cannot_close_the_script_that_contains_them() -> None:
     script = report._script({"x": {"data": [], "layout": {"title": {"text": "</script><b>"}}}})
     assert "<" not in script
     assert json.loads(script)["x"]["layout"]["title"]["text"] == "</script><b>"
