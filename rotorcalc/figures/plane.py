@@ -67,7 +67,10 @@ def circle(radius: float) -> Part:
 
 
 def outline(places: ArrayLike) -> Part:
-    """Return a closed line through places, shape (n, 2), behind all lines."""
+    """Return a closed line through places, shape (n, 2), behind all lines; a circle as one."""
+    radius = np.hypot(*np.asarray(places, dtype=float).T)
+    if np.ptp(radius) < 1e-9 * radius[0]:
+        return circle(float(radius[0]))
     points = "L".join(f"{Y:.5g},{X:.5g}" for X, Y in np.asarray(places, dtype=float))
     return {
         "type": "path", "path": f"M{points}Z", "line": {"color": style.GREY, "width": 2},
