@@ -114,6 +114,24 @@ def test_that_a_page_is_closed_is_seen_before_what_waits() -> None:
     _run(go)
 
 
+def test_who_goes_while_waiting_leaves_no_debt_to_an_address() -> None:
+    async def go() -> None:
+        address = Bucket(rate=0.01, burst=1)
+        for _ in range(5):
+            socket = Socket(_WANTED, _said(), _said())
+            paced = socket.paced(address)
+            await paced.receive()
+            waiting = asyncio.create_task(paced.receive())
+            await asyncio.sleep(0)
+            socket.coming.put_nowait(_GONE)
+            await waiting
+            while (await paced.receive()) != _GONE:
+                pass
+        assert address.reserve() <= 100.0  # one token's time: nobody else waits
+
+    _run(go)
+
+
 def test_a_websocket_that_ends_at_once_has_begun_nevertheless() -> None:
     async def go() -> None:
         paced = Socket(_WANTED, _GONE).paced(Bucket(1, 1))

@@ -39,6 +39,10 @@ class Bucket:
         self._tokens -= 1
         return max(0.0, -self._tokens / self._rate)
 
+    def give_back(self) -> None:
+        """Give back a token that was reserved and not used."""
+        self._tokens += 1
+
     def take(self) -> bool:
         """Take a token if there is one."""
         self._fill()
@@ -92,7 +96,12 @@ class Paced:
         pause = max(bucket.reserve() for bucket in self._buckets)
         if pause > 0:
             await asyncio.wait({self._reading}, timeout=pause)
-        return self._end or message
+        if self._end is None:
+            return message
+        # Else a flood of websockets, each closed in turn, would leave its address in debt.
+        for bucket in self._buckets:
+            bucket.give_back()
+        return self._end
 
     async def send(self, message: Message) -> None:
         """Send, as long as the guard has not closed the websocket itself."""
