@@ -38,7 +38,7 @@ class Limits:
     sockets: int = 400  # open at once
     sockets_address: int = 300  # of them of one address, and its burst of new ones
     openings_address: int = 5  # new ones a second of one address after that
-    messages: int = 2  # a second of one page
+    messages: int = 5  # a second of one page: an arrow key held on a slider sends some ten
     messages_burst: int = 60
     messages_address: int = 40  # a second of one address: as many as a core computes
     messages_address_burst: int = 60
