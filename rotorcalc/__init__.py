@@ -7,6 +7,7 @@ rotation. `analyse(machine, speed)` computes the whole chain; the modules hold i
 from rotorcalc import coefficients, films, frames, modes, oils, stability, unbalance_response
 from rotorcalc.analysis import FilmCurves, Sweep, analyse, film_curves
 from rotorcalc.design import onset_map, sensitivities, solve_onset
+from rotorcalc.geometry import Plain
 from rotorcalc.machine import JournalBearing, Machine, Oil, Rotor
 from rotorcalc.nonlinear import signals
 from rotorcalc.nonlinear.continuation import BifurcationError
@@ -41,6 +42,7 @@ __all__ = [
     "Onset",
     "Onsets",
     "OrbitEllipse",
+    "Plain",
     "Preset",
     "Rotor",
     "Start",

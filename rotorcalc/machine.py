@@ -179,8 +179,8 @@ class Rotor(Record):
         super().__post_init__()
         if self.journal_mass >= self.half_mass:
             raise ValueError(
-                f"journal_mass = {self.journal_mass!r} kg: must be less than half the rotor's "
-                f"mass, {self.half_mass!r} kg, or no disk is left"
+                f"journal_mass = {self.journal_mass:g} kg: must be less than half the rotor's "
+                f"mass, {self.half_mass:g} kg, or no disk is left"
             )
 
     @property

@@ -213,13 +213,15 @@ def response_curves(
 
 
 @checked
-def unstable_ranges(sweep: Sweep) -> Array:
+def unstable_ranges(sweep: Sweep | Machine, speed: ArrayLike | None = None) -> Array:
     """Return the ranges of speed within a sweep where some mode grows.
 
     Parameters
     ----------
-    sweep : Sweep
-        A machine over rising speeds, (n,).
+    sweep : Sweep or Machine
+        A machine over rising speeds, (n,); or a machine, with its speeds.
+    speed : array_like, (n,), or None
+        Rising speeds of a machine, Ω [rad/s]; None with a sweep, which has its own.
 
     Returns
     -------
@@ -229,10 +231,16 @@ def unstable_ranges(sweep: Sweep) -> Array:
     Raises
     ------
     ValueError
-        Where the speeds are not in one row and rising.
+        Where the speeds are not in one row and rising, or a machine comes without them.
     """
-    rising_speed(sweep.speed, name="sweep.speed")
-    return judge.unstable_ranges(sweep.machine, sweep.speed)
+    if isinstance(sweep, Sweep):
+        if speed is not None:
+            raise ValueError("speed: a sweep has its own; give it with a machine only")
+        speeds = rising_speed(sweep.speed, name="sweep.speed")
+        return judge.unstable_ranges(sweep.machine, speeds)
+    if speed is None:
+        raise ValueError("speed = None: a machine needs rising speeds in rad/s")
+    return judge.unstable_ranges(sweep, rising_speed(speed))
 
 
 @checked

@@ -212,8 +212,8 @@ def test_an_unknown_film_model_is_refused(film):
 @pytest.mark.parametrize("journal_mass", [100.0, 100.1, 1e300])
 def test_journals_that_leave_no_disk_are_refused(journal_mass):
     message = error(Rotor, journal_mass=journal_mass)
-    assert message.startswith(f"journal_mass = {journal_mass!r} kg: must be less than half ")
-    assert "100.0 kg" in message
+    assert message.startswith(f"journal_mass = {journal_mass:g} kg: must be less than half ")
+    assert "100 kg" in message
 
 
 def test_journals_that_leave_the_least_disk_are_accepted():

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
+from numpy.testing import assert_array_equal
 
-from rotorcalc import PRESETS, analyse, orbit_ellipse
+from rotorcalc import PRESETS, analyse, orbit_ellipse, unstable_ranges
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.unbalance_response import (
     orbit_points,
@@ -258,3 +259,13 @@ def test_load_direction_sets_the_axes_and_not_the_size(machine, share):
     for orbit in (orbit_ellipse(*disk), orbit_ellipse(*journal)):
         assume(orbit.semi_major > 1e-12)
         assert orbit.semi_minor == pytest.approx(orbit.semi_major, rel=1e-9)
+
+
+def test_unstable_ranges_are_of_a_sweep_or_of_a_machine_with_speeds():
+    speeds = np.linspace(10.0, 1256.0, 60)
+    machine = PRESETS["sheet-1e7"].machine
+    assert_array_equal(unstable_ranges(machine, speeds), unstable_ranges(analyse(machine, speeds)))
+    with pytest.raises(ValueError, match="speed = None: a machine needs rising speeds"):
+        unstable_ranges(machine)
+    with pytest.raises(ValueError, match="speed: a sweep has its own"):
+        unstable_ranges(analyse(machine, speeds), speeds)

@@ -43,6 +43,12 @@ def quoted(word: object) -> str:
     return f"`{text}`"
 
 
+def literal(message: str, most: int = 400) -> str:
+    """Return a message that may hold a visitor's input, whole up to a length, without markup."""
+    shown = message if len(message) <= most else f"{message[:most]} …"
+    return f"`{' '.join(shown.split()).replace('`', chr(39))}`"
+
+
 def typed_number(word: object) -> float:
     """Return a visitor's input as a number, or raise ValueError with a clear message.
 

@@ -63,12 +63,13 @@ def exact_determinant(polynomial: NDArray[np.object_]) -> Any:
 
 
 def axis_frequency(polynomial: NDArray[Any]) -> Array:
-    """Return ω of the roots ±jω of a polynomial whose `determinant` vanishes.
+    """Return ω of the roots ±jω of a polynomial whose `determinant` vanishes, else NaN.
 
     Source: the row of Routh's scheme above the one that vanishes, a λ² + b, divides it.
     """
     above, _ = _scheme(polynomial)
-    return np.sqrt(np.asarray(above[1] / above[0], dtype=float))
+    square = np.asarray(above[1] / above[0], dtype=float)
+    return np.sqrt(np.where(square > 0.0, square, np.nan))
 
 
 def _bounds(polynomial: Array) -> Array:

@@ -75,7 +75,7 @@ def closed_form_onset(machine: Machine, *, flexible: bool = True) -> Onset:
         Where the machine has midspan damping.
     """
     if not covers(machine):
-        raise ValueError("no closed form for a machine with midspan damping")
+        raise ValueError("machine: has midspan damping or another film, so no closed form")
     if machine.static_load == 0.0:
         return Onset(speed=0.0, whirl_frequency=0.0, eccentricity_ratio=0.0, method="closed form")
     a, b, beta, speed_of = _numbers(machine, flexible)

@@ -88,7 +88,7 @@ def sure_onsets(machines: Sequence[Machine]) -> Array:
     kinds: dict[tuple[Hashable, int], list[int]] = {}
     terms = [modes.rotor_terms(machine.rotor) for machine in machines]
     for i, machine in enumerate(machines):
-        if machine.static_load > 0.0:
+        if machine.static_load > 0.0 and _curve(machine) is not None:
             kinds.setdefault((_curve(machine), terms[i].shape[-1]), []).append(i)
     for same in kinds.values():
         speeds[same] = _sure_onsets([machines[i] for i in same], np.stack([terms[i] for i in same]))

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.polynomial.polynomial import polyval
 from scipy.optimize import brentq, minimize_scalar
 
+from rotorcalc import modes
 from rotorcalc.arrays import Array
 from rotorcalc.coefficients import modified_sommerfeld, stiffness_and_damping
 from rotorcalc.films import film_of, film_state
@@ -72,7 +73,7 @@ def _onset_by_polynomial(machine: Machine, flexible: bool, speeds: Array) -> Ons
         return _no_onset("polynomial")
     found = _in_floats(machine, flexible, *bracket)
     if found is not None:
-        return _onset_at(machine, *found, method="polynomial")
+        return _onset_at(machine, *found, method="polynomial", flexible=flexible)
     return _onset_in_many_digits(machine, flexible, speeds[speeds >= bracket[0]])
 
 
@@ -82,7 +83,7 @@ def _onset_in_many_digits(machine: Machine, flexible: bool, speeds: Array) -> On
     if bracket is None:
         return _no_onset("extended precision")
     found = (0.0, 0.0) if bracket[0] == 0.0 else _in_many_digits(exact, *bracket)
-    return _onset_at(machine, *found, method="extended precision")
+    return _onset_at(machine, *found, method="extended precision", flexible=flexible)
 
 
 def _onset_by_growth(machine: Machine, flexible: bool, speeds: Array) -> Onset:
@@ -90,7 +91,7 @@ def _onset_by_growth(machine: Machine, flexible: bool, speeds: Array) -> Onset:
     if bracket is None:
         return _no_onset("eigenvalues")
     found = (0.0, 0.0) if bracket[0] == 0.0 else growth_crossing(machine, flexible, *bracket)
-    return _onset_at(machine, *found, method="eigenvalues")
+    return _onset_at(machine, *found, method="eigenvalues", flexible=flexible)
 
 
 def crossing(machine: Machine, stable: float, unstable: float, *, flexible: bool = True) -> float:
@@ -122,13 +123,28 @@ def _no_onset(method: Method) -> Onset:
     )
 
 
-def _onset_at(machine: Machine, speed: float, whirl_frequency: float, *, method: Method) -> Onset:
+def _onset_at(
+    machine: Machine, speed: float, whirl_frequency: float, *, method: Method, flexible: bool
+) -> Onset:
     # At speed 0, where it is without load, the journal sits in the centre.
     sigma = modified_sommerfeld(machine, speed) if speed > 0.0 else math.inf
     eps = film_state(machine.bearing, sigma).eccentricity_ratio
+    if math.isnan(whirl_frequency):
+        whirl_frequency = _frequency_nearest_the_axis(machine, speed, flexible)
     return Onset(
         speed=speed, whirl_frequency=whirl_frequency, eccentricity_ratio=float(eps), method=method
     )
+
+
+def _frequency_nearest_the_axis(machine: Machine, speed: float, flexible: bool) -> float:
+    """Return ω of the mode that neither grows nor decays, by the eigenvalues at an onset [rad/s].
+
+    Routh's row gives ω as a ratio of differences, of which rounding may leave nothing.
+    """
+    K, C = stiffness_and_damping(machine, speed)
+    values = modes.refined_eigenvalues(machine.rotor, K, C, flexible=flexible)
+    swings = values[np.isfinite(values) & (values.imag > 0.0)]
+    return float(swings[np.argmin(np.abs(swings.real) / np.abs(swings))].imag)
 
 
 def _in_floats(

@@ -20,6 +20,7 @@ from tests.app.session import (
     tours,
     visit,
 )
+from ui.format import literal
 from ui.inputs import INPUTS, PRESET_VALUES, machine_of, values_of
 from ui.sharing import address
 
@@ -310,3 +311,9 @@ def test_what_a_browser_kept_is_untrusted(kept: object) -> None:
     assert visitor.baseline in (None, PRESET_VALUES["sheet-1e8"])
     assert (visitor.typed, visitor.image_format, visitor.asked) == (False, "png", {})
     assert visitor.choice("orbits_kick", 0.3, 0.0, 1.2) == 0.3
+
+
+def test_the_reason_a_file_is_refused_stands_whole_and_without_markup() -> None:
+    said = literal("version = None: this program reads versions 1 and 2 `**bold**`\n# end")
+    assert said == "`version = None: this program reads versions 1 and 2 '**bold**' # end`"
+    assert len(literal("x" * 10**6)) < 500

@@ -72,3 +72,24 @@ def test_a_word_for_flexible_is_refused(flexible):
 @pytest.mark.parametrize("flexible", [np.True_, np.False_])
 def test_numpys_truth_is_accepted(flexible):
     assert onset_speed(SHEET, flexible) == onset_speed(SHEET, bool(flexible))
+
+
+def test_an_onset_always_has_its_whirl_frequency():
+    """Routh's row gives ω² as a ratio of differences; on this machine rounding made it negative."""
+    machine = Machine(
+        oil=Oil(
+            reference_viscosity=0.0004946736371951582, reference_temperature=40,
+            temperature_coefficient=0.03,
+        ),
+        bearing=JournalBearing(
+            diameter=0.11060086487103017, length=0.03735970198211385,
+            radial_clearance=5.400238211517415e-06,
+        ),
+        rotor=Rotor(
+            mass=40905.252749569416, shaft_stiffness=8450.721825840576,
+            disk_damping=0.001204308673140075, journal_mass=0.23312464118718015,
+        ),
+        temperature=40,
+    )  # fmt: skip
+    onset = onset_speed(machine)
+    assert onset.whirl_frequency == pytest.approx(onset.speed / 2, rel=1e-3)

@@ -8,7 +8,7 @@ import streamlit as st
 from rotorcalc import Machine, __version__
 from rotorcalc.units import Units
 from ui.computed import Computed, computed_from
-from ui.format import quoted
+from ui.format import literal
 from ui.inputs import speeds_of, values_of
 from ui.session import session
 from ui.sharing import address
@@ -75,7 +75,7 @@ def _load() -> None:
     try:
         machine = Machine.from_json(upload.getvalue().decode("utf-8"))
     except ValueError as error:
-        visitor.problems[:] = [f"{quoted(upload.name)} was not loaded: {quoted(str(error))}"]
+        visitor.problems[:] = [f"{literal(upload.name, 80)} was not loaded: {literal(str(error))}"]
         return
     values = values_of(machine, *speeds_of(visitor.values))
     visitor.values = address.checked_values(values, visitor.preset, problems)

@@ -85,7 +85,7 @@ class ShortFilm:
         return (
             Limit(
                 "Length over diameter, L/D", self.bearing.length / self.bearing.diameter, 0.5, 1.0,
-                "the short bearing neglects the circumferential pressure flow; it overestimates  "
+                "the short bearing neglects the circumferential pressure flow; it overestimates "
                 "the force of longer bearings",
             ),
         )  # fmt: skip
