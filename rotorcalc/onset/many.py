@@ -16,7 +16,7 @@ from scipy.optimize import elementwise
 from rotorcalc import modes
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, IntArray
-from rotorcalc.films import film_coefficients, film_of
+from rotorcalc.films import FilmUnits, film_coefficients, film_of
 from rotorcalc.machine import JournalBearing, Machine
 from rotorcalc.numerics import routh
 from rotorcalc.onset import onset_speed
@@ -129,20 +129,14 @@ class _Fleet:
 
 
 def _fleet(machines: Sequence[Machine], rotor_terms: Array) -> _Fleet:
-    mu, F, R, L, C = np.array([_numbers(machine) for machine in machines]).T
+    units = [FilmUnits(one.bearing, one.viscosity, 1.0) for one in machines]
+    loads = np.array([machine.static_load for machine in machines])
     return _Fleet(
         bearing=machines[0].bearing,
-        sommerfeld=mu * L * R / (4.0 * F) * (L / C) ** 2,
-        damping=mu * R * L**3 / C**3,
+        sommerfeld=np.array([unit.force for unit in units]) / (4.0 * loads),
+        damping=np.array([unit.damping for unit in units]),
         rotor_terms=rotor_terms,
     )
-
-
-def _numbers(machine: Machine) -> tuple[float, ...]:
-    """Return μ, F_o, R, L and C of a machine."""
-    bearing = machine.bearing
-    R, L, C = bearing.radius, bearing.length, bearing.radial_clearance
-    return machine.viscosity, machine.static_load, R, L, C
 
 
 def _sure_onsets(machines: Sequence[Machine], rotor_terms: Array) -> Array:

@@ -13,9 +13,8 @@ from ui.results.record import Result
 
 def leading(computed: Computed) -> complex:
     """Return the eigenvalue of the oscillating mode nearest to growth at running speed [1/s]."""
-    values = computed.point.flexible_eigenvalues
-    waves = values[values.imag > 0.0]
-    return complex(waves[np.argmax(waves.real)]) if len(waves) else complex(math.nan)
+    value = complex(modes.leading(computed.point.flexible_eigenvalues))
+    return value if value.imag > 0.0 else complex(math.nan)  # where none oscillates
 
 
 def _stiffness(computed: Computed) -> str:
