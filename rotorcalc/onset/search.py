@@ -159,7 +159,7 @@ def _in_floats(
         return None
     # A single sign change of the determinant between the two, proved at both ends.
     decays, grows = polynomials(np.array([stable, unstable]))
-    if routh.determinant(decays) <= 0.0 or not routh.surely_crossed(grows):
+    if routh.margin_bounds(decays)[1] > 0.0 or not routh.surely_crossed(grows):
         return None
     low, high = sorted((stable, unstable))
     root = narrow_root(lambda speed: routh.determinant(polynomials(speed)), low, high, noise=_NOISE)
