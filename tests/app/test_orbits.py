@@ -130,3 +130,15 @@ def test_a_computation_that_was_interrupted_says_so() -> None:
     at.run()
     assert "interrupted" not in said(at)  # asked for anew, it begins for the first time
     assert session_of(at).begun == set()
+
+
+def test_a_computation_that_started_again_says_so_beside_its_result() -> None:
+    at = visit(ORBITS)
+    open_part(at, "orbits_tab", "Limit cycles")
+    at.button(key="orbits_cycles").click().run()
+    del at.session_state["orbits_cycles_done"]
+    session_of(at).begun.add("orbits_cycles")
+    at.run()
+    assert "interrupted" in said(at)
+    at.run()
+    assert "interrupted" not in said(at)

@@ -222,15 +222,18 @@ def test_a_running_computation_restarts_and_the_page_says_so(
 ) -> None:
     tab = tabs["a kick"]
     tab.open_tab("Run-up")
-    tab.page.get_by_role("button", name="Run up to the top speed").click()
-    expect(tab.page.get_by_role("button", name="Cancel")).to_be_visible()
-    place.server.kill()
+    with place.server.busy():
+        tab.page.get_by_role("button", name="Run up to the top speed").click()
+        expect(tab.page.get_by_role("button", name="Cancel")).to_be_visible()
+        place.server.kill()
     lost(tab)
     place.mend()
-    said = tab.page.get_by_text("This computation was interrupted")
-    expect(said).to_be_visible(timeout=TIMEOUT)
     back(tab)
-    assert tab.page.locator(".live-chart").count()
+    said = tab.page.get_by_text("This computation was interrupted and has started again.")
+    expect(said).to_be_visible(timeout=TIMEOUT)
+    expect(tab.page.locator(".live-chart")).to_be_visible(timeout=TIMEOUT)
+    kick(tab)
+    expect(said).to_be_hidden(timeout=TIMEOUT)
 
 
 def test_a_link_to_another_page_contains_the_machine(tabs: dict[str, AppPage]) -> None:

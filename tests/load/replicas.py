@@ -1,11 +1,14 @@
 """Servers of the app on this machine, each a process of its own."""
 
 import os
+import signal
 import socket
 import subprocess
 import sys
 import tempfile
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from urllib.error import URLError
 from urllib.request import urlopen
@@ -61,6 +64,25 @@ class Replica:
         """Return the processor time it has used [s]."""
         words = Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
         return (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
+
+    def workers(self) -> list[int]:
+        """Return the ids of the processes that compute for it."""
+        found: list[int] = []
+        for children in Path(f"/proc/{self.process.pid}/task").glob("*/children"):
+            with suppress(OSError):  # the thread that began them has ended: another has them
+                found += map(int, children.read_text().split())
+        return found
+
+    @contextmanager
+    def busy(self) -> Iterator[None]:
+        """Let no long computation end meanwhile, and end its processes afterwards."""
+        held = self.workers()
+        assert held, "it has no process that computes"
+        for worker in held:
+            os.kill(worker, signal.SIGSTOP)
+        yield
+        for worker in held:
+            os.kill(worker, signal.SIGKILL)
 
     def kill(self) -> None:
         """End it at once, as a crash does."""

@@ -26,6 +26,8 @@ from ui.session import session
 
 T = TypeVar("T")
 
+_STARTED_AGAIN = "This computation was interrupted and has started again."
+
 _run_up = cache.Cached(work.run_up, entries=8, megabytes=16)
 _cycles = cache.Cached(bifurcation, entries=16, megabytes=16)
 _three = cache.Cached(work.three_onsets, entries=16, megabytes=4)
@@ -38,7 +40,8 @@ def on_demand(
 
     `token` names what the work is about: when it changes, the visitor is asked again. While it
     runs, a bar shows how far it is, and a button ends it: its click makes the page run anew, and
-    the next word of progress ends the old run.
+    the next word of progress ends the old run. That it had to start again stands beside the result
+    until the visitor's next action: it may take too short to be read meanwhile.
     """
     visitor, done, place = session(), f"{key}_done", st.empty()
     name = hashlib.sha256(repr(token).encode()).hexdigest()
@@ -48,14 +51,18 @@ def on_demand(
     if st.session_state.get(done) == name:
         return work(None)
     page.run_whole()
+    again = _STARTED_AGAIN if key in visitor.begun else ""
     with place.container():
-        if key in visitor.begun:
-            st.info("This computation was interrupted and has started again.")
+        if again:
+            st.info(again)
         bar = st.progress(0.0, "Computing …")
         st.button("Cancel", key=f"{key}_cancel", on_click=visitor.ask_no_more, args=(key,))
     visitor.begun.add(key)
     result = work(bar.progress)
-    place.empty()
+    if again:
+        place.info(again)
+    else:
+        place.empty()
     visitor.begun.remove(key)
     st.session_state[done] = name
     return result
