@@ -2,27 +2,23 @@
 
 import os
 import shutil
-import socket
 import subprocess
 import sys
-import time
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack
 from functools import cache
 from pathlib import Path
 from typing import Any
-from urllib.error import URLError
-from urllib.request import urlopen
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, BrowserType, Playwright
+from playwright.sync_api import Browser, BrowserContext, BrowserType, Playwright, expect
 
-from tests.browser.app_page import AppPage
-
-ROOT = Path(__file__).resolve().parents[2]
-START_TIMEOUT = 60  # seconds; a cold start on a busy machine takes about ten
+from tests.browser.app_page import TIMEOUT, AppPage
+from tests.load.replicas import Replica
 
 DESK = {"width": 1440, "height": 900}
+
+expect.set_options(timeout=TIMEOUT)
 
 # Quiet, and at home in a container: as root, without a graphics card, without a network.
 CHROMIUM_ARGS = [
@@ -71,44 +67,23 @@ def browser_type_launch_args(
 
 
 @pytest.fixture(scope="session")
-def serve(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Callable[[str], str]]:
-    """Base URL of the app in a mode of ROTORCALC_LIVE, each started once, when first asked for."""
+def serve() -> Iterator[Callable[[str], Replica]]:
+    """Server of the app in a mode of ROTORCALC_LIVE, each started once, when first asked for."""
     with ExitStack() as servers:
 
         @cache
-        def url(live: str) -> str:
-            return servers.enter_context(_served(live, tmp_path_factory.mktemp("server")))
+        def server(live: str) -> Replica:
+            replica = Replica(ROTORCALC_LIVE=live, STREAMLIT_SERVER_ADDRESS="127.0.0.1")
+            servers.callback(replica.stop)
+            return replica.wait()
 
-        yield url
+        yield server
 
 
 @pytest.fixture
-def app_url(request: pytest.FixtureRequest, serve: Callable[[str], str]) -> str:
-    """Base URL of the app. Its parameter: "drag", or "off" for Streamlit's own charts, sliders."""
+def server(request: pytest.FixtureRequest, serve: Callable[[str], Replica]) -> Replica:
+    """Server of the app. Its parameter: "drag", or "off" for Streamlit's own charts and sliders."""
     return serve(getattr(request, "param", "drag"))
-
-
-@contextmanager
-def _served(live: str, folder: Path) -> Iterator[str]:
-    """Serve the app by a process of its own."""
-    environment = {**os.environ, "ROTORCALC_LIVE": live}
-    port = _free_port()
-    url = f"http://127.0.0.1:{port}"
-    log = folder / "streamlit.log"
-    options = ["--server.headless=true", "--server.address=127.0.0.1", f"--server.port={port}"]
-    with log.open("wb") as out:
-        server = subprocess.Popen(
-            [sys.executable, "-m", "streamlit", "run", "app.py", *options],
-            cwd=ROOT,
-            env=environment,
-            stdout=out,
-            stderr=subprocess.STDOUT,
-        )
-    try:
-        _wait_until_healthy(server, url, log)
-        yield url
-    finally:
-        _stop(server)
 
 
 @pytest.fixture(scope="session")
@@ -130,45 +105,18 @@ def desk(
 
 
 @pytest.fixture
-def app(desk: BrowserContext, app_url: str) -> Iterator[AppPage]:
+def app(desk: BrowserContext, server: Replica) -> Iterator[AppPage]:
     """A tab for the app; the test fails where the console or the network shows a fault."""
-    tab = AppPage(desk.new_page(), app_url)
+    tab = AppPage(desk.new_page(), server.address)
     yield tab
     tab.page.close()
     assert tab.faults == []
 
 
 @pytest.fixture
-def stranger(browser: Browser, app_url: str) -> Iterator[AppPage]:
+def stranger(browser: Browser, server: Replica) -> Iterator[AppPage]:
     """A tab in a browser that was never here."""
     with browser.new_context(viewport=DESK) as context:
-        tab = AppPage(context.new_page(), app_url)
+        tab = AppPage(context.new_page(), server.address)
         yield tab
     assert tab.faults == []
-
-
-def _free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
-def _wait_until_healthy(server: subprocess.Popen[bytes], url: str, log: Path) -> None:
-    end = time.monotonic() + START_TIMEOUT
-    while server.poll() is None and time.monotonic() < end:
-        try:
-            with urlopen(f"{url}/_stcore/health", timeout=5) as answer:
-                if answer.status == 200:
-                    return
-        except (URLError, OSError):
-            time.sleep(0.1)
-    pytest.fail(f"streamlit did not start:\n{log.read_text()}", pytrace=False)
-
-
-def _stop(server: subprocess.Popen[bytes]) -> None:
-    server.terminate()
-    try:
-        server.wait(timeout=10)
-    except subprocess.TimeoutExpired:
-        server.kill()
-        server.wait()

@@ -17,10 +17,10 @@ LIVE = [name for name in PATHS if name != "Notes"]
 
 
 @pytest.mark.parametrize(
-    ("app_url", "name"),
+    ("server", "name"),
     # Streamlit's own charts and sliders too: on all pages in tests/app, without a browser.
     [*(("drag", name) for name in LIVE), ("off", "Machine")],
-    indirect=["app_url"],
+    indirect=["server"],
 )
 def test_slider_moves_a_number_a_chart_and_the_address_bar(app: AppPage, name: str) -> None:
     app.open(name)
@@ -94,7 +94,7 @@ def test_preset_brings_its_machine(app: AppPage) -> None:
     expect(app.page.get_by_test_id("stMain").get_by_text("4627 rpm").first).to_be_visible()
 
 
-@pytest.mark.parametrize("app_url", ["drag", "off"], indirect=True)
+@pytest.mark.parametrize("server", ["drag", "off"], indirect=True)
 def test_keyboard_alone_reaches_sliders_and_opens_a_popover(app: AppPage) -> None:
     app.open("Equilibrium")
     keyboard = app.page.keyboard

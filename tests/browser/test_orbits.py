@@ -5,6 +5,7 @@ import re
 from playwright.sync_api import expect
 
 from tests.browser.app_page import AppPage
+from tests.load.replicas import Replica
 
 _NOW = """() => {
   const chart = document.querySelector('.js-plotly-plot');
@@ -67,12 +68,13 @@ def test_the_orbit_plays_stops_and_is_scrubbed(app: AppPage) -> None:
     app.faults = [fault for fault in app.faults if fault != "page error: undefined"]
 
 
-def test_long_work_shows_progress_and_can_be_cancelled(app: AppPage) -> None:
+def test_long_work_shows_progress_and_can_be_cancelled(server: Replica, app: AppPage) -> None:
     app.open("Orbits", k="inf")
     app.open_tab("Run-up")
-    app.page.get_by_role("button", name="Run up to the top speed").click()
-    expect(app.page.get_by_role("progressbar")).to_be_visible()
-    app.page.get_by_role("button", name="Cancel", exact=True).click()
+    with server.held():
+        app.page.get_by_role("button", name="Run up to the top speed").click()
+        expect(app.page.get_by_role("progressbar")).to_be_visible()
+        app.page.get_by_role("button", name="Cancel", exact=True).click()
     expect(app.page.get_by_role("button", name="Run up to the top speed")).to_be_enabled()
     app.rest()
     expect(app.charts()).to_have_count(0)

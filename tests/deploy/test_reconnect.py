@@ -12,7 +12,7 @@ from urllib.parse import parse_qsl, urlsplit
 import pytest
 from playwright.sync_api import BrowserContext, expect
 
-from tests.browser.app_page import TIMEOUT, AppPage
+from tests.browser.app_page import AppPage
 from tests.browser.conftest import browser_type_launch_args, chromium, desk
 from tests.deploy.line import Line
 from tests.load.replicas import Replica
@@ -222,7 +222,7 @@ def test_a_running_computation_restarts_and_the_page_says_so(
 ) -> None:
     tab = tabs["a kick"]
     tab.open_tab("Run-up")
-    with place.server.busy():
+    with place.server.held():
         tab.page.get_by_role("button", name="Run up to the top speed").click()
         expect(tab.page.get_by_role("button", name="Cancel")).to_be_visible()
         place.server.kill()
@@ -230,10 +230,10 @@ def test_a_running_computation_restarts_and_the_page_says_so(
     place.mend()
     back(tab)
     said = tab.page.get_by_text("This computation was interrupted and has started again.")
-    expect(said).to_be_visible(timeout=TIMEOUT)
-    expect(tab.page.locator(".live-chart")).to_be_visible(timeout=TIMEOUT)
+    expect(said).to_be_visible()
+    expect(tab.page.locator(".live-chart")).to_be_visible()
     kick(tab)
-    expect(said).to_be_hidden(timeout=TIMEOUT)
+    expect(said).to_be_hidden()
 
 
 def test_a_link_to_another_page_contains_the_machine(tabs: dict[str, AppPage]) -> None:

@@ -74,15 +74,15 @@ class Replica:
         return found
 
     @contextmanager
-    def busy(self) -> Iterator[None]:
-        """Let no long computation end meanwhile, and end its processes afterwards."""
-        held = self.workers()
-        assert held, "it has no process that computes"
-        for worker in held:
+    def held(self) -> Iterator[None]:
+        """Let no long computation go on meanwhile."""
+        workers = self.workers()
+        assert workers, "it has no process that computes"
+        for worker in workers:
             os.kill(worker, signal.SIGSTOP)
         yield
-        for worker in held:
-            os.kill(worker, signal.SIGKILL)
+        for worker in workers:
+            os.kill(worker, signal.SIGCONT)
 
     def kill(self) -> None:
         """End it at once, as a crash does."""
