@@ -15,13 +15,13 @@ import signal
 import subprocess
 import sys
 import threading
-import traceback
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from queue import SimpleQueue
 from typing import IO, Any, Literal
 
+from ui.jobs.places import places
 from ui.jobs.work import Progress  # imported with all that will be asked for, while nobody waits
 
 _ROOT = Path(__file__).parents[2]
@@ -96,13 +96,6 @@ class Worker:
             return pickle.load(self._process.stdout)  # noqa: S301 - of our own process
         except (EOFError, OSError, pickle.UnpicklingError) as error:  # also in mid-answer
             raise WorkerError("the process for heavy computations has ended") from error
-
-
-def places(error: BaseException) -> list[str]:
-    """Return an exception's stack in both processes, outermost frame first."""
-    frames = traceback.extract_tb(error.__traceback__)
-    here = [f"{frame.filename}:{frame.lineno} {frame.name}" for frame in frames]
-    return here + error.__dict__.get("places", [])
 
 
 class StoppedError(Exception):

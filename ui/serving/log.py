@@ -14,7 +14,7 @@ import streamlit as st
 import streamlit.logger
 from streamlit import config
 
-from ui.jobs.process import places
+from ui.jobs.places import places
 from ui.serving import settings
 
 _LOGGER = logging.getLogger("rotorcalc")
