@@ -17,13 +17,16 @@ from ui.jobs.queue import Turns
 class Here:
     """Computes like a worker, in this process."""
 
-    idle = True
+    idle, ended, silent = True, False, False
 
     def __init__(self) -> None:
         self.closed = False
 
     def run(self, work, args, _tell):
         return work(*args)
+
+    def answers(self) -> bool:
+        return not self.ended
 
     def close(self) -> None:
         self.closed = True
@@ -88,6 +91,29 @@ def test_a_process_left_in_the_middle_of_something_is_ended_and_another_hired() 
         assert second is not first
     turns.end()
     assert second.closed
+
+
+def test_a_free_process_that_does_not_answer_is_replaced_and_named() -> None:
+    turns = Turns(1, hire=Here, name="releases")
+    with turns.turn() as first:
+        pass
+    assert turns.inspect() == ""
+    first.ended = True
+    assert turns.inspect() == "a process for releases does not answer"
+    assert first.closed
+    assert turns.inspect() == ""
+    with turns.turn() as second:
+        assert second is not first
+        assert turns.inspect() == ""  # at work: not asked
+
+
+def test_a_free_process_that_has_ended_is_given_to_nobody() -> None:
+    turns = Turns(1, hire=Here)
+    with turns.turn() as first:
+        pass
+    first.ended = True
+    with turns.turn() as second:
+        assert second is not first
 
 
 def test_a_visitor_beyond_a_full_queue_gets_a_message_at_once(monkeypatch) -> None:

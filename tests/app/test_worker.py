@@ -2,16 +2,19 @@
 
 import os
 import signal
+import time
 from collections.abc import Iterator
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from rotorcalc import TransientError
 from tests.machines import SHEET
-from ui.jobs import work
+from ui.jobs import process, work
 from ui.jobs.process import Worker, WorkerError
+from ui.jobs.queue import Turns
 from ui.serving.log import described
 
 LONG = (SHEET, 600.0, 0.3, 600)
@@ -77,12 +80,74 @@ def test_a_process_that_dies_is_said_to_be_dead(worker: Worker) -> None:
         worker.run(np.zeros, (3,), None)
 
 
+def test_a_process_that_hangs_is_said_to_give_no_sign(
+    worker: Worker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert worker.answers()
+    monkeypatch.setattr(process, "_LOOK", 0.1)
+    with pytest.raises(WorkerError, match="no sign of life"):
+        worker.run(os.kill, (worker._process.pid, signal.SIGSTOP), None)
+    assert worker.silent
+    assert not worker.idle
+    assert not worker.answers()
+
+
+def test_a_process_that_computes_long_gives_signs(worker: Worker) -> None:
+    worker.run(time.sleep, (process._PATIENCE * process._LOOK + 1.0,), None)
+    assert worker.idle
+
+
+@pytest.mark.parametrize("what", [signal.SIGKILL, signal.SIGSTOP])
+def test_a_computation_whose_process_is_lost_begins_again_once(
+    what: signal.Signals, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(process, "_LOOK", 0.2)
+    turns = Turns(1)
+    assert turns.run(lose_once, (str(tmp_path), what), None) == 1
+    assert turns.run(np.ndim, (3,), None) == 0
+    with pytest.raises(WorkerError):
+        turns.run(lose, (what,), None)
+    turns.end()
+
+
+@pytest.mark.parametrize("what", [signal.SIGKILL, signal.SIGSTOP])
+def test_a_free_process_that_is_lost_is_replaced(
+    what: signal.Signals, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    turns = Turns(1)
+    turns.begin()
+    assert turns.inspect() == ""  # it has begun
+    monkeypatch.setattr(process, "_LOOK", 0.2)
+    with turns.turn() as lost:
+        os.kill(lost._process.pid, what)
+    assert "does not answer" in turns.inspect()
+    with turns.turn() as new:
+        assert new is not lost
+        assert new.answers()
+    turns.end()
+
+
 def test_it_ends_with_the_process_that_began_it() -> None:
     worker = Worker()
     worker.run(np.zeros, (3,), None)
     worker._process.stdin.close()
     assert worker._process.wait(timeout=10.0) == 0
     worker._process.stdout.close()
+
+
+def lose(what: int) -> None:
+    """End or stop the process that computes this."""
+    os.kill(os.getpid(), what)
+    time.sleep(600)
+
+
+def lose_once(folder: str, what: int) -> int:
+    """Lose the process the first time, and return how often it was lost."""
+    note = Path(folder) / "lost"
+    if not note.exists():
+        note.touch()
+        lose(what)
+    return 1
 
 
 def break_off() -> None:

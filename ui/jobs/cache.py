@@ -53,8 +53,8 @@ class Cached(Generic[T]):
 
     def _compute(self, args: tuple[Hashable, ...], tell: Progress | None) -> T:
         try:
-            with one_at_a_time.PAGES.aside(), self._turns.turn() as worker:
-                result = worker.run(self._work, args, tell)
+            with one_at_a_time.PAGES.aside():
+                result = self._turns.run(self._work, args, tell)
             self._keep(args, result)
             return result
         finally:

@@ -3,6 +3,8 @@
 Python computes one thing at a time in a process, so a long computation among the pages would make
 every visitor's slider stick. `Worker` is the pages' side of such a process; this file run as a
 program is the other. They speak in pickles: an order, any number of words of progress, an answer.
+Where a word is long in coming the pages' side asks for a sign of life, which the other gives by a
+thread of its own while it computes. A process that gives none is taken for hung.
 
 It is not `multiprocessing`: a child that is spawned, or comes from a fork server, first imports
 the parent's `__main__`, which is the page while Streamlit runs one; a child that is forked inherits
@@ -18,7 +20,7 @@ import threading
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
-from queue import SimpleQueue
+from queue import Empty, SimpleQueue
 from typing import IO, Any, Literal
 
 from ui.jobs.places import places
@@ -28,12 +30,18 @@ _ROOT = Path(__file__).parents[2]
 # Pages have priority over a worker for the processor.
 NICER = 10
 
-Order = tuple[int, Callable[..., Any], tuple[Any, ...], bool]
-Answer = tuple[Literal["at", "done", "failed"], Any]
+_LOOK = 1.0  # seconds that a word is waited for before a sign of life is asked for
+# Looks without a sign, after which a process is taken for hung; the first come while it imports.
+_PATIENCE, _PATIENCE_AT_FIRST = 5, 60
+
+# A number, and in a pickle of its own what to compute: to read that may import much.
+Order = tuple[int, bytes]
+Answer = tuple[Literal["at", "done", "failed", "alive", "ended"], Any]
+_ASK_FOR_A_SIGN = 0  # among the numbers of computations to stop, which begin at one
 
 
 class WorkerError(RuntimeError):
-    """The process ended during a computation."""
+    """The process ended or hung during a computation."""
 
 
 class Worker:
@@ -48,34 +56,58 @@ class Worker:
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
             env=os.environ | {"PYTHONPATH": str(_ROOT)},
         )  # fmt: skip
+        self._answers: SimpleQueue[Answer] = SimpleQueue()
         self._number = 0
+        self._patience = _PATIENCE_AT_FIRST
         self.idle = True
+        self.ended = False
+        self._looks = 0  # since its last sign of life
+        threading.Thread(target=self._listen, daemon=True).start()
 
     def run(self, work: Callable[..., Any], args: tuple[Any, ...], tell: Progress | None) -> Any:
         """Return `work(*args)`, a module's function, or raise what it raises.
 
         Where there is someone to tell, work gets the keyword `progress`. What `tell` raises ends
-        the computation.
+        the computation. Raises WorkerError where the process ends, or gives no sign of life.
         """
         self.idle = False
         self._number += 1
-        self._send((self._number, work, args, tell is not None))
+        self._send((self._number, pickle.dumps((work, args, tell is not None))))
         while (answer := self._receive())[0] == "at":
             assert tell is not None  # noqa: S101 - else it would not be told
             try:
                 tell(answer[1])
             except BaseException:
-                self._stop()
+                with suppress(WorkerError):  # it is then not idle, and replaced
+                    self._stop()
                 raise
         self.idle = True
         if answer[0] == "failed":
             raise answer[1]
         return answer[1]
 
+    @property
+    def silent(self) -> bool:
+        """Whether the process, at work, has missed more than one look for a sign of life."""
+        return self._patience == _PATIENCE and self._looks > 1
+
+    def answers(self) -> bool:
+        """Return whether the idle process gives a sign of life."""
+        try:
+            while not self._answers.empty():  # signs that were asked for earlier
+                self._heard()
+            self._send(_ASK_FOR_A_SIGN)
+            self._heard()
+        except WorkerError:
+            return False
+        return True
+
     def close(self) -> None:
         """End the process."""
         self._process.kill()
-        self._process.communicate()
+        self._process.wait()
+        with suppress(OSError):  # what was not yet sent
+            self._stdin().close()
 
     def _stop(self) -> None:
         self._send(self._number)
@@ -84,43 +116,90 @@ class Worker:
         self.idle = True
 
     def _send(self, message: Order | int) -> None:
-        assert self._process.stdin is not None  # noqa: S101 - it is a pipe
         try:
-            _write(self._process.stdin, message)
+            _write(self._stdin(), message)
         except OSError as error:
-            raise WorkerError("the process for heavy computations has ended") from error
+            raise WorkerError("the process for long computations has ended") from error
 
     def _receive(self) -> Answer:
+        """Return the next word that is more than a sign of life."""
+        while (answer := self._heard())[0] == "alive":
+            pass
+        return answer
+
+    def _heard(self) -> Answer:
+        """Return the next word, and ask for a sign of life where it is long in coming."""
+        self._looks = 0
+        while self._looks < self._patience:  # looks, not seconds: this process may be held up too
+            try:
+                answer = self._answers.get(timeout=_LOOK)
+            except Empty:
+                self._looks += 1
+                self._send(_ASK_FOR_A_SIGN)
+                continue
+            self._looks, self._patience = 0, _PATIENCE
+            if answer[0] == "ended":
+                raise WorkerError("the process for long computations has ended")
+            return answer
+        raise WorkerError("the process for long computations gives no sign of life")
+
+    def _listen(self) -> None:
+        """Take what the process says until it ends, in a thread of its own: a word may hang."""
         assert self._process.stdout is not None  # noqa: S101 - it is a pipe
-        try:
-            return pickle.load(self._process.stdout)  # noqa: S301 - of our own process
-        except (EOFError, OSError, pickle.UnpicklingError) as error:  # also in mid-answer
-            raise WorkerError("the process for heavy computations has ended") from error
+        with self._process.stdout as stream:
+            # Also in mid-word, which leaves a pickle that is cut off.
+            with suppress(EOFError, OSError, pickle.UnpicklingError):
+                while True:
+                    self._answers.put(pickle.load(stream))  # noqa: S301 - of our own process
+            self.ended = True
+            self._answers.put(("ended", None))
+
+    def _stdin(self) -> IO[bytes]:
+        assert self._process.stdin is not None  # noqa: S101 - it is a pipe
+        return self._process.stdin
 
 
 class StoppedError(Exception):
     """The computation was cancelled."""
 
 
+class _Words:
+    """What the process says, by two threads: one that computes, one that gives signs of life."""
+
+    def __init__(self, stream: IO[bytes]) -> None:
+        self._stream = stream
+        self._whole = threading.Lock()
+
+    def say(self, answer: Answer) -> None:
+        """Write a word whole."""
+        with self._whole:
+            _write(self._stream, answer)
+
+
 class _Orders:
     """Incoming orders: computations in sequence, and the number of one to stop."""
 
-    def __init__(self, stream: IO[bytes]) -> None:
+    def __init__(self, stream: IO[bytes], words: _Words) -> None:
         self.queue: SimpleQueue[Order] = SimpleQueue()
         self.stopped = 0
         self._stream = stream
+        self._words = words
 
     def listen(self) -> None:
         """Read orders until the other side ends, then exit."""
         try:
             while True:
-                message = pickle.load(self._stream)  # noqa: S301 - of the process that began this
-                if isinstance(message, int):
-                    self.stopped = message
-                else:
-                    self.queue.put(message)
+                self._take(pickle.load(self._stream))  # noqa: S301 - of the process that began this
         finally:
             os._exit(0)
+
+    def _take(self, message: Order | int) -> None:
+        if message == _ASK_FOR_A_SIGN:
+            self._words.say(("alive", None))
+        elif isinstance(message, int):
+            self.stopped = message
+        else:
+            self.queue.put(message)
 
 
 def main(nicer: int) -> None:
@@ -128,23 +207,25 @@ def main(nicer: int) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the server's, which ends this by itself
     with suppress(AttributeError, PermissionError):  # not everywhere there, nor allowed
         os.nice(nicer)
-    out = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
+    words = _Words(os.fdopen(os.dup(sys.stdout.fileno()), "wb"))
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # whatever prints
-    orders = _Orders(sys.stdin.buffer)
+    orders = _Orders(sys.stdin.buffer, words)
+    words.say(("alive", None))
     threading.Thread(target=orders.listen, daemon=True).start()
     while True:
-        _write(out, _answer(orders, out, orders.queue.get()))
+        words.say(_answer(orders, words, orders.queue.get()))
 
 
-def _answer(orders: _Orders, out: IO[bytes], order: Order) -> Answer:
-    number, work, args, told = order
+def _answer(orders: _Orders, words: _Words, order: Order) -> Answer:
+    number, what = order
 
     def progress(share: float) -> None:
         if orders.stopped == number:
             raise StoppedError
-        _write(out, ("at", share))
+        words.say(("at", share))
 
     try:
+        work, args, told = pickle.loads(what)  # noqa: S301 - of the process that began this
         return "done", work(*args, **({"progress": progress} if told else {}))
     except StoppedError:
         return "done", None

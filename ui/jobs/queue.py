@@ -2,19 +2,24 @@
 
 Ten visitors' maps at once would come ten times later. Here they come one after the other, each as
 soon as it can, and who waits is told how many are ahead. Short ones do not wait behind long ones.
+
+A process that has ended or hangs is replaced: a free one when the server next looks at itself, one
+at work as soon as its signs of life stay away, and its computation begins again, once.
 """
 
 import threading
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import partial
 from queue import Empty, LifoQueue
+from typing import Any
 
 import streamlit as st
 from streamlit.runtime.scriptrunner import get_script_run_ctx
 
-from ui.jobs.process import Worker
-from ui.serving import settings
+from ui.jobs.process import Worker, WorkerError
+from ui.jobs.work import Progress
+from ui.serving import log, settings
 
 # A request that would be further back than this in the queue is refused.
 LONGEST_LINE = 30
@@ -25,11 +30,20 @@ BUSY = "Many visitors ask for long computations just now. Try again in a minute.
 
 
 class Turns:
-    """A queue of computations, of which the first `limit` run, each in a separate process."""
+    """A queue of computations, of which the first `limit` run, each in a separate process.
+
+    `name` is what the log and the health check call them.
+    """
 
     def __init__(
-        self, limit: int, longest: int = LONGEST_LINE, hire: Callable[[], Worker] = Worker
+        self,
+        limit: int,
+        longest: int = LONGEST_LINE,
+        hire: Callable[[], Worker] = Worker,
+        *,
+        name: str = "long computations",
     ) -> None:
+        self.name = name
         self._limit = limit
         self._longest = longest
         self._hire = hire
@@ -37,6 +51,27 @@ class Turns:
         self._changed = threading.Condition()
         # The last one used first: its caches are warm. Several threads take and give at once.
         self._idle: LifoQueue[Worker] = LifoQueue()
+        self._at_work: list[Worker] = []
+
+    def run(self, work: Callable[..., Any], args: tuple[Any, ...], tell: Progress | None) -> Any:
+        """Return `work(*args)` of a process, in its turn.
+
+        Where its process ends or hangs it begins again, once, behind the others: it may be what
+        ended the process.
+        """
+        try:
+            return self._run(work, args, tell)
+        except WorkerError as error:
+            log.event("replaced", what=self.name, why=str(error))
+        return self._run(work, args, tell)
+
+    def _run(self, work: Callable[..., Any], args: tuple[Any, ...], tell: Progress | None) -> Any:
+        with self.turn() as worker:
+            self._at_work.append(worker)
+            try:
+                return worker.run(work, args, tell)
+            finally:
+                self._at_work.remove(worker)
 
     @contextmanager
     def turn(self) -> Iterator[Worker]:
@@ -62,15 +97,41 @@ class Turns:
         while worker := self._free():
             worker.close()
 
+    def inspect(self) -> str:
+        """Return what is wrong with the processes, or ""; replace free ones that do not answer."""
+        silent = any(worker.silent for worker in tuple(self._at_work))
+        replaced = self._replace_free()
+        return f"a process for {self.name} does not answer" if silent or replaced else ""
+
+    def _replace_free(self) -> int:
+        """Replace the free processes that do not answer, and return how many there were."""
+        with self._changed:  # as many turns as are free: nobody starts a process meanwhile
+            tickets = [object() for _ in range(self._limit - len(self._line))]
+            self._line.extend(tickets)
+        try:
+            free = [self._idle.get_nowait() for _ in range(min(self._idle.qsize(), len(tickets)))]
+            lost = [worker for worker in free if not worker.answers()]
+            for worker in lost:
+                worker.close()
+                log.event("replaced", what=self.name, why="a free process did not answer")
+            for worker in reversed(free):
+                self._idle.put(self._hire() if worker in lost else worker)
+            return len(lost)
+        finally:
+            for ticket in tickets:
+                self._leave(ticket)
+
     def ahead(self, ticket: object) -> int:
         """Return how many computations must end before one begins."""
         return max(self._line.index(ticket) + 1 - self._limit, 0)
 
     def _free(self) -> Worker | None:
-        try:
-            return self._idle.get_nowait()
-        except Empty:
-            return None
+        """Return a free process that has not ended, if there is one."""
+        with suppress(Empty):
+            while (worker := self._idle.get_nowait()).ended:
+                worker.close()
+            return worker
+        return None
 
     def _join(self, ticket: object) -> None:
         with self._changed:
@@ -121,7 +182,7 @@ def wait_while(why: Callable[[], str], changed: threading.Condition) -> None:
 
 
 # Computations about as short as a page have their own process; longer ones have lower priority.
-SHORT = Turns(1, hire=partial(Worker, nicer=0))
+SHORT = Turns(1, hire=partial(Worker, nicer=0), name="releases")
 LONG = Turns(settings.heavy_jobs())
 LINES = SHORT, LONG
 
