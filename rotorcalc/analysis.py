@@ -108,6 +108,7 @@ class Sweep(Result):
         """
         if film_of(self.machine.bearing).inner:
             return dynamics(self.machine, self.speed)
+        # Without inner coordinates K and C do not depend on frequency: the synchronous ones hold.
         return FilmDynamics(self.stiffness, self.damping, NO_INERTIA)
 
     @cached_property
@@ -156,6 +157,7 @@ class Sweep(Result):
         if self.speed.ndim > 1:
             raise ValueError(f"speed: must have the shape (n,) for a table, has {self.speed.shape}")
         rows = self.speed.size
+        # Each speed's eigenvalues come in an order of their own; a column of the table is one mode.
         branches = modes.follow_branches(self.flexible_eigenvalues.reshape(rows, -1))
         return dataframe(columns(self, rows=rows) | eigenvalue_columns(branches))
 
@@ -209,6 +211,7 @@ def analyse(machine: Machine, speed: ArrayLike) -> Sweep:
         whirl_ratio=onset.whirl_ratio,
         critical_mass=onset.critical_mass / state.speed**2,
         rigid_threshold=rigid_threshold,
+        # k_eq Γ/C = K_eq/K_rot (Eq. 5.50): 1/K_rot stands for the sag, 0 for a rigid shaft.
         flexible_threshold=flexible_threshold(rigid_threshold, K_eq, 1.0 / rotor.shaft_stiffness),
         disk_response=disk,
         journal_response=journal,
@@ -328,6 +331,7 @@ def _attitude_angle(source: Sweep | FilmCurves) -> Array:
 
 
 def _in_radial_axes(found: ForceCoefficients, phi: Array) -> ForceCoefficients:
+    # K_eq = (tr K tr C − tr KC)/tr C (Eq. 5.45) does not change under rotation.
     return replace(
         found,
         axes="rt",

@@ -90,6 +90,7 @@ def checked(function: Callable[P, R]) -> Callable[P, R]:
                 value = kwargs[name]
             else:
                 continue
+            # Nearly every argument is exactly of an admitted type: that test is the quicker one.
             if type(value) not in surely:
                 check(name, value)
         return function(*args, **kwargs)
@@ -172,6 +173,7 @@ def _of(*cls: type) -> Callable[[Any], bool]:
 
 def _among(words: tuple[str, ...]) -> Callable[[Any], bool]:
     def admits(value: object) -> bool:
+        # The type first: an array compared with a word is an array, which has no truth value.
         return isinstance(value, str) and value in words
 
     return admits
@@ -181,6 +183,7 @@ def _is_number(value: Any) -> bool:
     if isinstance(value, np.ndarray):  # a result at one speed is an array without dimensions
         given = cast("np.ndarray[Any, Any]", value)
         return given.ndim == 0 and given.dtype.kind in "iuf"
+    # A bool is a number to Python: a mass of True would pass as 1 kg.
     return not isinstance(value, bool) and isinstance(value, numbers.Real)
 
 
@@ -198,12 +201,14 @@ def _is_array(value: Any) -> bool:
 
 
 def _is_list(value: Any) -> bool:
+    # Python iterates over the letters of a text and the keys of a mapping: neither is a list here.
     return isinstance(value, Iterable) and not isinstance(value, str | bytes | Mapping)
 
 
 # Annotations with a fixed test; types in "surely" pass without it.
 _PLAIN: dict[Any, _Kind] = {
     types.NoneType: _Kind(_of(types.NoneType), "None", (types.NoneType,)),
+    # A comparison of NumPy numbers gives an np.bool_.
     bool: _Kind(_of(bool, np.bool_), "True or False", (bool,)),
     float: _Kind(_is_number, "a number", (float, int)),
     int: _Kind(_is_whole, "a whole number", (int,)),

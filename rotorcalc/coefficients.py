@@ -201,6 +201,7 @@ def equilibrium(machine: Machine, speed: ArrayLike) -> Equilibrium:
         minimum_film_thickness=film.minimum_thickness * bearing.radial_clearance,
         side_flow=film.side_flow * units.flow,
         drag_torque=drag_torque,
+        # The whole dissipation of the film, as the second term of the drag is the axial flow's.
         power_loss=drag_torque * speed,
         friction_coefficient=friction,
         peak_pressure=film.peak_pressure * units.pressure,
@@ -289,6 +290,7 @@ def stiffness_and_damping(machine: Machine, speed: ArrayLike) -> tuple[Array, Ar
     ValueError
         Where a speed is not positive and finite.
     """
+    # Imbalance shakes the film at running speed, so inner coordinates are eliminated at ω = Ω.
     return reduced(dynamics(machine, speed), checked_speed(speed))
 
 
@@ -335,6 +337,7 @@ def film_field(
         thickness=middle.thickness * bearing.radial_clearance,
         pressure=field.pressure * FilmUnits(bearing, machine.viscosity, points.speed).pressure,
         cavitated=middle.cavitated,
+        # The load points along X, Θ = 0.
         load_theta=np.mod(-opposite, 2.0 * np.pi),
         peak_theta=np.mod(film.peak_angle - opposite, 2.0 * np.pi),
     )
@@ -365,6 +368,7 @@ def film_forces(machine: Machine, speed: ArrayLike, *, sommerfeld: ArrayLike) ->
     """
     film = film_state(machine.bearing, sommerfeld)
     unit = FilmUnits(machine.bearing, machine.viscosity, checked_speed(speed)).force
+    # Eq. 5.5; the unit has one value for each speed, the force two components.
     F = film.force * np.asarray(unit)[..., None]
     return FilmForces(
         eccentricity_ratio=film.eccentricity_ratio,
@@ -476,6 +480,7 @@ def modified_sommerfeld(machine: Machine, speed: ArrayLike) -> Array:
 def rising_speed(speed: ArrayLike, *, name: str = "speed") -> Array:
     """Return speeds [rad/s], (n,), or raise ValueError where they do not rise."""
     speeds = checked_speed(speed)
+    # Two at least: callers take spacings and ranges between neighbours.
     if speeds.ndim != 1 or len(speeds) < 2:
         raise ValueError(f"{name}: must be two or more rising speeds, (n,), has {speeds.shape}")
     falls = np.flatnonzero(np.diff(speeds) <= 0.0)
@@ -491,6 +496,7 @@ def rising_speed(speed: ArrayLike, *, name: str = "speed") -> Array:
 def checked_speed(speed: ArrayLike) -> Array:
     """Return speeds [rad/s] as an array, or raise ValueError unless all are positive and finite."""
     speeds = real_array("speed", speed)
+    # A journal that does not turn draws in no film: at Ω = 0 no load is carried.
     good = np.isfinite(speeds) & (speeds > 0.0)
     if not np.all(good):
         raise ValueError(f"speed = {speeds[~good].flat[0]} rad/s: must be positive and finite")

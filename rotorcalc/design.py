@@ -43,6 +43,7 @@ TEMPERATURE_STEP = 5.0
 # blocks are faster, as the machines of a block are solved together.
 _BLOCKS = 3
 # Values at which `solve_onset` scans the onset before it refines: in closed form, and without.
+# 200 machines in closed form take less time than 24 with midspan damping: 8 and 20 ms.
 _SCAN, _SLOW_SCAN = 200, 24
 # A root whose onset is farther from the target than this, relative, is a jump past the target.
 _HIT = 1e-6
@@ -293,6 +294,7 @@ def solve_onset(
     onsets = onset_speeds([varied(machine, {vary: float(value)}) for value in values])
     values, onsets = _with_extremes(values, onsets, onset)
     above = onsets >= target
+    # The absolute tolerance serves ranges that include zero, the relative one those over decades.
     roots = [
         float(
             brentq(beside_target, values[i], values[i + 1], xtol=1e-13 * (high - low), rtol=1e-13)
@@ -340,6 +342,7 @@ def _movement(one: Sensitivity, onset: float) -> float:
 def _scan_values(machine: Machine, field: str, low: float, high: float) -> Array:
     ends = [varied(machine, {field: value}) for value in (low, high)]
     points = _SCAN if all(covers(end) for end in ends) else _SLOW_SCAN
+    # The onset varies with powers of most inputs, so equal ratios scan it evenly.
     return np.geomspace(low, high, points) if low > 0.0 else np.linspace(low, high, points)
 
 
@@ -349,6 +352,7 @@ def _with_extremes(
     """Return a scan with its local extremes added, each refined between its neighbours."""
     before, here, after = onsets[:-2], onsets[1:-1], onsets[2:]
     # An infinite onset is no maximum that a search could refine.
+    # ">" on one side and "≥" on the other, so that two equal values count as one extreme.
     tops = np.flatnonzero((here > before) & (here >= after) & np.isfinite(here))
     bottoms = np.flatnonzero((here < before) & (here <= after))
     extremes = [
@@ -366,6 +370,7 @@ def _extreme(onset: Callable[[float], float], sign: float, low: float, high: flo
     def signed(value: float) -> float:
         return sign * onset(value)
 
+    # The onset is flat at its extreme: an error of 1e-5 in the input leaves one of 1e-10 in it.
     found = minimize_scalar(
         signed, bounds=(low, high), method="bounded", options={"xatol": 1e-5 * (high - low)}
     )

@@ -50,6 +50,7 @@ class Oil(Record):
     """
 
     reference_viscosity: Annotated[float, Bound("Pa·s", above=0.0)]
+    # Absolute zero, −273.15 °C.
     reference_temperature: Annotated[float, Bound("°C", at_least=-zero_Celsius)]
     temperature_coefficient: Annotated[float, Bound("1/°C", at_least=0.0)]
     density: Annotated[float, Bound("kg/m³", above=0.0)] = 860.0
@@ -247,6 +248,7 @@ class Machine(Record):
     @property
     def static_load(self) -> float:
         """Static load per bearing, F_o [N]."""
+        # With the standard g the sheet's 600 lbf rotor has its printed half mass, 136.071 kg.
         return self.rotor.half_mass * g if self.load is None else self.load
 
     @property
@@ -257,6 +259,7 @@ class Machine(Record):
     def to_json(self) -> str:
         """Return the machine as JSON text, exact to the last bit."""
         document = {"version": FORMAT_VERSION, **to_tree(self)}
+        # NaN and Infinity are not JSON; a rigid shaft's stiffness is the text "inf" (`to_tree`).
         return json.dumps(document, indent=2, allow_nan=False, ensure_ascii=False)
 
     @classmethod

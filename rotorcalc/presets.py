@@ -72,6 +72,7 @@ PRESETS: dict[str, Preset] = {
         note="San Andrés, Notes 5, Fig. 5.2: L = 50 mm, L/D = 0.25, C = 0.1 mm, 0.019 Pa·s, "
         "3000 rpm. The rotor is this program's choice: the calculation sheet's, rigid.",
         machine=Machine(
+            # The figure gives one viscosity and no law: with α = 0 it holds at any temperature.
             oil=Oil(
                 reference_viscosity=0.019, reference_temperature=50.0, temperature_coefficient=0.0
             ),
@@ -88,6 +89,7 @@ PRESETS: dict[str, Preset] = {
         "525 N, 100 × 30 mm, C = 0.1 mm, 0.1 Pa·s, 1500 rpm. The rotor is this program's choice: "
         "rigid, and of the mass that gives this load.",
         machine=Machine(
+            # Likewise one viscosity.
             oil=Oil(
                 reference_viscosity=0.1, reference_temperature=50.0, temperature_coefficient=0.0
             ),

@@ -34,6 +34,7 @@ class Bound:
 
     def check(self, name: str, value: object) -> float:
         """Return `value` as a float, or raise ValueError naming field, value and bound."""
+        # True is a number to Python, but never meant as one.
         if isinstance(value, bool) or not isinstance(value, numbers.Real):
             raise ValueError(f"{name} = {shown(value)}: must be a number in {self.unit}")
         try:
@@ -48,6 +49,7 @@ class Bound:
 
     def _problem(self, number: float) -> str:
         """Return in words which bound a number breaks, or nothing."""
+        # NaN first: every comparison with it is false, so it would pass the bounds below.
         if math.isnan(number) or (math.isinf(number) and not self.infinite):
             return "finite"
         if number <= self.above:
@@ -210,6 +212,7 @@ def parsed(text: str) -> dict[str, Any]:
             parse_constant=_refuse_constant,
             object_pairs_hook=_unique_keys,
         )
+    # RecursionError: brackets nested too deep. TypeError: not a text.
     except (json.JSONDecodeError, UnicodeDecodeError, RecursionError, TypeError) as error:
         raise ValueError(f"no JSON text of a machine: {error}") from error
     if not isinstance(document, dict):
@@ -224,6 +227,7 @@ def _refuse_constant(word: str) -> NoReturn:
 def _unique_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     unique: dict[str, Any] = {}
     for key, value in pairs:
+        # `json` would keep the last of the two without a word.
         if key in unique:
             raise ValueError(f"{_key(key)}: given twice")
         unique[key] = value

@@ -74,9 +74,12 @@ def root_locus(
     nearest = branches[np.argmin(np.abs(speed - running_speed))]
     _, here = linear_sum_assignment(np.abs(nearest[:, None] - shapes.eigenvalues[None, :]))
     first = branches[0]
+    # Real eigenvalues rank as if of infinite frequency: last, the slowest decay first.
     order = np.lexsort((-first.real, np.where(first.imag > 0.0, first.imag, np.inf)))
     followed = np.take_along_axis(branches[:, order], _images_last(branches[:, order]), axis=1)
     here = here[order][_images_last(shapes.eigenvalues[here[order]][None, :])[0]]
+    # A column of conjugates at every speed is dropped; one that begins real stays, blank where it
+    # becomes the conjugate of another.
     kept = np.any(followed.imag >= 0.0, axis=0)
     return Locus(
         speed=speed,

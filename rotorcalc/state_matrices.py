@@ -104,6 +104,7 @@ def _coupled(rotor: Rotor, K: Array, C: Array, inertia: Array) -> tuple[Array, A
     n = K.shape[-1] + 2
     stiffness, damping = np.zeros((2, *K.shape[:-2], n, n))
     stiffness[..., 2:, 2:], damping[..., 2:, 2:] = K, C
+    # The shaft is a spring between disk and journal, the same in X and Y.
     k, pair = rotor.shaft_stiffness, np.kron([[1.0, -1.0], [-1.0, 1.0]], _I)
     stiffness[..., :4, :4] += k * pair
     damping[..., :2, :2] += rotor.disk_damping * _I

@@ -74,6 +74,7 @@ def _elements(
     name: str, unit: str, values: Array | ComplexArray
 ) -> Iterator[tuple[str, str, Array]]:
     """Yield name, unit and values of each element of a scalar, vector or matrix, (rows, k)."""
+    # Scalar, vector and 2 × 2 matrix are told apart by their number of elements.
     ends = {1: [""], 2: ["_X", "_Y"], 4: ["_XX", "_XY", "_YX", "_YY"]}[values.shape[1]]
     if not np.iscomplexobj(values):
         yield from ((name + end, unit, column) for end, column in zip(ends, values.T, strict=True))

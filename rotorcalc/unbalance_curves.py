@@ -289,6 +289,7 @@ def clearance_orbit(point: Sweep) -> ClearanceOrbit:
     """
     film, C = film_of(point.machine.bearing), point.machine.bearing.radial_clearance
     journal = point.journal_response
+    # Denser than a chart needs, as the thinnest film is read off at these points.
     path = point.journal_position + orbit_points(journal[0], journal[1], points=4 * _ORBIT_POINTS)
     return ClearanceOrbit(
         clearance=C,
@@ -370,6 +371,7 @@ def damping_reference(machine: Machine) -> float:
 def damping_variants(machine: Machine) -> tuple[Rotor, ...]:
     """Return the rotor, then variants with midspan damping of 0 to ½ `damping_reference`."""
     rotor, unit = machine.rotor, damping_reference(machine)
+    # Two digits, as these values stand in the chart's legend.
     dampings = [float(f"{share * unit:.2g}") for share in _DAMPING]
     others = (replace(rotor, disk_damping=value) for value in dampings)
     return (rotor, *(other for other in others if other != rotor))

@@ -198,6 +198,8 @@ def phase_lag(response: ArrayLike) -> Array:
     array, (n, 2)
         Lag of X behind cos Ωt and of Y behind sin Ωt [rad]; at the first speed within ±π.
     """
+    # Y is compared with sin Ωt, so X and Y of a forward circle lag alike. Past 180° the lag goes on
+    # instead of jumping to −180°: neighbouring speeds differ by less than half a turn.
     return np.unwrap(-np.angle(complex_array("response", response, ends=(2,)) / _FORWARD), axis=0)
 
 

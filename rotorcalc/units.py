@@ -101,6 +101,7 @@ US = Units(
     temperature=Unit("°F", 1.8, 32.0),
     per_temperature=Unit("1/°F", 1 / 1.8),
     density=Unit("lb/ft³", constants.foot**3 / lb),
+    # scipy's lbf and inch are in N and m: one N/m is inch/lbf of a lbf/in.
     shaft_stiffness=Unit("lbf/in", inch / lbf),
     shaft_damping=Unit("lbf·s/in", inch / lbf),
     stiffness=Unit("10³ lbf/in", 1e-3 * inch / lbf),

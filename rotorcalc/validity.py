@@ -81,6 +81,7 @@ def validity(sweep: Sweep) -> tuple[Check, ...]:
     film = sweep.minimum_film_thickness
     reynolds = machine.oil.density * sweep.speed * R * C / machine.viscosity
     # Taylor vortices appear at ρΩRC/μ = 41.1√(R/C), or turbulence at 2000 where that comes first.
+    # The second limit governs where R/C > 2368.
     vortices = min(41.1 * math.sqrt(R / C), 2000.0)
     swing = orbit_ellipse(sweep.journal_response).semi_major / C
     # Limits of the bearing and the sag do not depend on speed.

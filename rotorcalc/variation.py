@@ -96,6 +96,7 @@ def address(machine: Machine, field: str) -> tuple[str, ...]:
     wanted = tuple(field.split("."))
     # A full name wins over the end of another: "load" is the machine's, whatever a geometry has.
     found = [path for path in known if path == wanted]
+    # "radial_clearance" alone is as good as "bearing.radial_clearance" where only one ends so.
     found = found or [path for path in known if path[-len(wanted) :] == wanted]
     if len(found) == 1:
         return found[0]

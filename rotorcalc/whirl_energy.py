@@ -121,6 +121,7 @@ def thresholds(sweep: Sweep) -> Thresholds:
     series = K_eq / (1.0 + K_eq / rotor.shaft_stiffness)  # film and shaft, below Eq. 5.50
     rigid_frequency = modes.undamped_frequency(K_eq, rotor.half_mass)
     frequency = modes.undamped_frequency(series, rotor.half_mass)
+    # A negative K_eq leaves no critical mass: unstable at any speed, so the ratio is 0.
     ratio = np.sqrt(np.maximum(M_c / rotor.half_mass, 0.0))  # Ω_s/Ω
     return Thresholds(
         speed=sweep.speed,
@@ -128,6 +129,7 @@ def thresholds(sweep: Sweep) -> Thresholds:
         rigid=sweep.rigid_threshold,
         flexible_frequency=np.where(can_whirl, frequency, np.nan),
         rigid_frequency=np.where(can_whirl, rigid_frequency, np.nan),
+        # Eq. 5.50 scales Ω_s/Ω as it scales Ω_s.
         flexible_mass_ratio=flexible_threshold(ratio, K_eq, 1.0 / rotor.shaft_stiffness) ** 2,
         rigid_mass_ratio=ratio**2,
     )
@@ -182,7 +184,9 @@ def film_limit(bearing: JournalBearing) -> FilmCurves:
     if not film.can_whirl:
         raise ValueError(f"bearing = {bearing.geometry.kind}: its film feeds a whirl at no load")
     # Each pass narrows the bracket a thousandfold in ln σ.
+    # A heavily loaded film cannot whirl, a lightly loaded one can: the limit lies between.
     low, high = film.sommerfeld_range
+    # Until the bracket is a few hundred roundings wide.
     while high > low * (1.0 + 1e-13):
         sigma = np.geomspace(low, high, 1000)
         whirls = film_curves(bearing, sigma).onset.whirl_ratio > 0.0
@@ -222,6 +226,7 @@ def lowest_threshold(bearing: JournalBearing) -> float:
     scan = np.log(np.geomspace(*film_of(bearing).sommerfeld_range, 60))
     found = film_curves(bearing, np.exp(scan)).onset.threshold_speed
     least = int(np.argmin(found))
+    # At an end of the range p_s still falls: the curve has no minimum inside.
     if not 0 < least < len(scan) - 1:
         return float("nan")
     best = minimize_scalar(
@@ -249,6 +254,7 @@ def orbit_area(orbit: ArrayLike) -> Array:
     2.0
     """
     x, y = np.moveaxis(complex_array("orbit", orbit, ends=(2,)), -1, 0)
+    # With x = Re{X e^{jτ}} and y = Re{Y e^{jτ}}; (1, −j), a forward circle, has the area π.
     return np.pi * np.imag(x * np.conj(y))
 
 
@@ -271,6 +277,7 @@ def stiffness_work(K: ArrayLike, orbit: ArrayLike) -> Array:
         Work [J]; positive where it drives the orbit.
     """
     stiffness = real_array("K", K, ends=(2, 2))
+    # ∮x dy = A and ∮y dx = −A, while ∮x dx = ∮y dy = 0: only the cross terms are left.
     return (stiffness[..., 0, 1] - stiffness[..., 1, 0]) * orbit_area(orbit)
 
 
@@ -328,6 +335,7 @@ def whirl_orbit(machine: Machine, onset: Onset) -> WhirlOrbit:
     state = equilibrium(machine, onset.speed)
     lam = np.array(1j * onset.whirl_frequency)
     disk, journal = _mode_shape(machine.rotor, state.stiffness, state.damping, lam)
+    # A linear whirl has no size of its own: the journal's orbit gets the area 1.
     size = math.sqrt(abs(float(orbit_area(journal))))
     return WhirlOrbit(
         speed=onset.speed,
@@ -378,6 +386,7 @@ def whirl_energy(machine: Machine, speed: ArrayLike, orbit: WhirlOrbit) -> Whirl
         speed=state.speed,
         fed_in=stiffness_work(state.stiffness, orbit.journal),
         film_loss=damping_work(state.damping, orbit.journal, orbit.frequency),
+        # The damper sees the same orbit at every speed, whatever the film.
         disk_loss=np.broadcast_to(
             damping_work(disk_damping, orbit.disk, orbit.frequency), state.speed.shape
         ),

@@ -42,6 +42,7 @@ MODELS: dict[tuple[str, str], Callable[[JournalBearing], Film]] = {("plain", "sh
 
 
 @checked
+# Bounded: every step of a dragged clearance is another bearing.
 @functools.lru_cache(maxsize=1024)
 def film_of(bearing: JournalBearing) -> Film:
     """Return the film of a bearing, made once.

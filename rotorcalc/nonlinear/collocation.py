@@ -81,6 +81,7 @@ class Balance:
         rotor, by_log = self.rotor(omega, m)
         scale = self.C / unit
         load = np.array([self.machine.static_load / unit, 0.0])
+        # The module's balance over the film's unit of force; the load pulls along X.
         residual = film - scale * (rotor @ cycle.path) + load
         jacobian = np.zeros((2 * m, 2 * m + 2))
         for i in (0, 1):
@@ -108,6 +109,7 @@ class Balance:
         force = self._forces(states)
         slopes = np.empty((len(place), 2, 4))
         for j in range(4):
+            # Central differences: a film model gives its force on a moving journal, not the slopes.
             step = h * np.eye(4)[j]
             slopes[:, :, j] = (self._forces(states + step) - self._forces(states - step)) / (2 * h)
         return force, slopes[:, :, :2], slopes[:, :, 2:]
@@ -141,6 +143,7 @@ def _circulant(spectrum: ComplexArray) -> Array:
 
 def differentiation(m: int) -> Array:
     """Return the matrix of d/dτ on m points of a period, m odd."""
+    # m odd: on an even number of points the highest harmonic has no derivative of its own.
     return _circulant((1j * harmonics(m)).astype(complex))
 
 

@@ -174,6 +174,7 @@ def _corrected(
     """
     found, steps = _newton(balance, cycle, tangent, step, _weights(len(cycle.path)) * tangent)
     while found is not None and found.tail() > _TAIL and len(found.path) < _MOST_POINTS:
+        # Less one, so that the number stays odd.
         points = 2 * len(found.path) - 1
         cycle, m = cycle.resampled(points), len(cycle.path)
         fine = Cycle(tangent[:-2].reshape(2, m).T, 1.0, 1.0).resampled(points)
@@ -211,6 +212,7 @@ def _newton(
         residual, jacobian = balance.residual(now)
         moved: Array = unknown - start
         rest = [float(shift @ (moved - step * tangent)[:-2]), float(along @ moved) - step]
+        # 2m equations of balance, one for the phase and one for the step, in 2m + 2 unknowns.
         rows = np.vstack([jacobian, np.append(shift, [0.0, 0.0]), along])
         change: Array = np.linalg.solve(rows, -np.append(residual, rest))
         unknown = unknown + change

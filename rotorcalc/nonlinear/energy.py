@@ -93,8 +93,10 @@ def energy_balance(machine: Machine, motion: Transient) -> EnergyBalance:
     """
     rotor = machine.rotor
     sag = motion.disk - motion.journal
+    # A rigid shaft stores no energy; ∞ times its sag of 0 would be NaN.
     stiffness = 0.0 if rotor.is_rigid else rotor.shaft_stiffness
     kinetic = 0.5 * rotor.disk_mass * _square(motion.disk_velocity)
+    # Without mass a journal has no kinetic energy, and its velocity is costly: see `Transient`.
     if rotor.journal_mass > 0.0:
         kinetic = kinetic + 0.5 * rotor.journal_mass * _square(motion.journal_velocity)
     strain = 0.5 * stiffness * _square(sag)
@@ -102,6 +104,7 @@ def energy_balance(machine: Machine, motion: Transient) -> EnergyBalance:
     return EnergyBalance(
         time=motion.time,
         imbalance_work=imbalance_work,
+        # The load acts on the disk, along X.
         load_work=machine.static_load * (motion.disk[:, 0] - motion.disk[0, 0]),
         kinetic=kinetic - kinetic[0],
         strain=strain - strain[0],
@@ -122,11 +125,13 @@ def _works(machine: Machine, motion: Transient) -> Array:
     rates, turn = model.motion_and_works(), int(np.sum(angle < 2.0 * np.pi))
     for i in range(0, len(angle) - 1, turn):
         span = slice(i, i + turn + 1)
+        # Each revolution starts from the motion's own sample; only the works carry on.
         start = np.concatenate([states[i], works[i]])
         found, message = integrated(rates, start, angle[span], tolerance=TOLERANCE)
         if message:
             raise TransientError(f"the works could not be integrated ({message})", motion)
         works[span] = found[:, -WORKS:]
+    # From the unit of energy of `Equations`, M C² Ω_0².
     return works * model.mass * (model.C * model.first) ** 2
 
 

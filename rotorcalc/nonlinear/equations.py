@@ -94,6 +94,7 @@ class Equations:
         rotor, bearing = machine.rotor, machine.bearing
         C = bearing.radial_clearance
         self.machine, self.C, self.turned = machine, C, turned
+        # Ω² = Ω_0² + 2 Ω̇ θ: speed rises evenly in time, the motion is integrated over the angle.
         self.first, self.acceleration = first, (last**2 - first**2) / (2.0 * turned)
         self.flexible = not rotor.is_rigid
         self.massless = self.flexible and rotor.journal_mass == 0.0
@@ -149,6 +150,7 @@ class Equations:
 
     def _inner_units(self, inner: _Inner) -> Array:
         """Return the units of the film's inner states, C and CΩ_0."""
+        # Positions come first, then velocities.
         is_place = np.arange(inner.film.states) < inner.places
         return self.C * np.where(is_place, 1.0, self.first)
 
@@ -210,10 +212,12 @@ class Equations:
         )  # fmt: skip
 
         def motion(state: Array, angle: float) -> list[float]:
+            # Plain floats: arithmetic on NumPy's scalars takes five times as long.
             x, y, vx, vy = state.tolist()
             u_x, u_y, nu = drive(angle)
             f_x, f_y = force(x, y, vx / nu, vy / nu)
             scale = film * nu  # the film's unit of force grows with Ω
+            # Eq. 5.1 over M C Ω_0², then over ν, as d/dθ is d/dt over Ω.
             a_x = scale * f_x - damper * vx + load + u_x
             a_y = scale * f_y - damper * vy + u_y
             return [vx / nu, vy / nu, a_x / nu, a_y / nu]
@@ -253,6 +257,7 @@ class Equations:
             scale = film * nu
             a_x = -s_x - damper * vX + load + u_x
             a_y = -s_y - damper * vY + u_y
+            # The journal's balance, M_j ẍ = K_rot(X − x) + F_film.
             b_x, b_y = ratio * (s_x + scale * f_x), ratio * (s_y + scale * f_y)
             return [vX / nu, vY / nu, a_x / nu, a_y / nu, vx / nu, vy / nu, b_x / nu, b_y / nu]
 

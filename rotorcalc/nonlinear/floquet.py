@@ -37,6 +37,7 @@ def multiplier(balance: Balance, cycle: Cycle) -> float:
     )
     # Error of second order in the step: half the step has a quarter of it.
     values = np.linalg.eigvals(fine + (fine - coarse) / 3.0)
+    # A shift along the cycle neither grows nor decays: its multiplier, 1 up to errors, is left out.
     rest = np.delete(values, np.argmin(np.abs(values - 1.0)))
     return float(np.abs(rest).max())
 
@@ -48,6 +49,7 @@ def _monodromy(balance: Balance, cycle: Cycle) -> Array:
     _, by_place, by_velocity = balance.film(cycle.path, velocity)
     stiffness = balance.film_per_speed * cycle.speed / balance.C
     balanced = replace(balance.machine.rotor, imbalance=0.0)
+    # K_ij = −∂F_i/∂X_j and C_ij = −∂F_i/∂Ẋ_j (Eq. 5.14), here at each point of the cycle.
     A = modes.state_matrix(balanced, -stiffness * by_place, -stiffness / cycle.speed * by_velocity)
     # Each step has A in its middle; the first is cut in two, so that the period begins at τ = 0.
     step = 2.0 * np.pi / (cycle.ratio * cycle.speed * m)

@@ -139,6 +139,7 @@ def hopf(machine: Machine) -> Hopf:
         eccentricity_ratio=onset.eccentricity_ratio,
         lyapunov=float(np.sum(terms)),
         lyapunov_error=_WIDER * difference + _ROUNDING * float(np.sum(np.abs(terms))),
+        # With ℓ it gives the amplitude at a speed beside the onset.
         growth_slope=_growth_slope(machine, onset.speed, onset.whirl_frequency),
         clearance=machine.bearing.radial_clearance,
     )
@@ -210,6 +211,7 @@ def _lyapunov_terms(machine: Machine, speed: float, frequency: float, points: in
     # From the film's unit of force and clearances to N and m.
     unit = float(FilmUnits(bearing, machine.viscosity, speed).stiffness)
     steady, double = (_balance(machine, speed, harmonic * frequency) for harmonic in (0.0, 2.0))
+    # Mean shift and second harmonic, the two equations of the module's docstring.
     h_0 = unit * cast("ComplexArray", np.linalg.solve(steady, along.QQ_))
     h_2 = 0.5 * unit * cast("ComplexArray", np.linalg.solve(double, along.QQ))
     cubic = [

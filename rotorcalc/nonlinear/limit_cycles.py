@@ -152,6 +152,7 @@ def bifurcation(
         if progress is not None:
             # A branch ends at the wall or at the highest speed, whichever is nearer.
             ratio = cycle.speed / onset.speed
+            # The amplitude grows as √(Ω − Ω_s) at first: its square keeps pace with the speed.
             nearest_wall = (1.0 - found[-1].gap) ** 2
             share = min(max(share, nearest_wall, (ratio - 1.0) / (highest - 1.0)), 1.0)
             progress(share)
@@ -202,6 +203,7 @@ def sweep(branch: Bifurcation, speed: ArrayLike, *, down: bool = False) -> Array
         sizes, stable = branch.at(float(speed[i]))
         held = np.append(sizes[stable], [0.0] if speed[i] < branch.hopf.speed else [])
         if len(held):
+            # The state nearest to the last one stands for the one that the motion falls into.
             last = reached[i] = float(held[np.argmin(np.abs(held - last))])
     return reached
 
@@ -253,9 +255,11 @@ class _Found(NamedTuple):
 def _measured(balance: Balance, cycle: Cycle) -> _Found:
     """Return a cycle with its amplitude and its stability."""
     rest = equilibrium(balance.machine, cycle.speed).film.position
+    # Denser, as largest distance and thinnest film may lie between two points.
     dense = cycle.resampled(4 * len(cycle.path) + 1).path
     return _Found(
         cycle=cycle,
+        # From the equilibrium, not from the orbit's mean, as in the normal form of `hopf`.
         amplitude=float(np.hypot(*(dense - rest).T).max()) * balance.C,
         eccentricity_ratio=float(np.hypot(*dense.T).max()),
         gap=balance.gap(dense),

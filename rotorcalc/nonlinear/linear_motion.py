@@ -87,11 +87,13 @@ def linear_theory(machine: Machine, speed: float) -> LinearMotion:
     if len(light):  # their velocity follows from the balance of forces
         force = -K[light] @ np.eye(n, m) - D[np.ix_(light, heavy)] @ velocity[heavy]
         velocity[light] = np.linalg.solve(D[np.ix_(light, light)], force)
+    # M v̇ = −K q − D q̇ for the coordinates with mass.
     pull = (-K[heavy] @ np.eye(n, m) - D[heavy] @ velocity) / M[heavy, None]
     values, vectors = np.linalg.eig(np.vstack([velocity, pull]))
     Z = K + 1j * speed * D - speed**2 * np.diag(M)
     imbalance = np.zeros(n, dtype=complex)
     rotor = machine.rotor
+    # (cos Ωt, sin Ωt) as phasors; on the disk, whose coordinates come first.
     imbalance[:2] = rotor.disk_mass * rotor.imbalance * speed**2 * np.array([1.0, -1.0j])
     return LinearMotion(
         eigenvalues=values.astype(complex),
@@ -120,6 +122,7 @@ def motion_of(
     twice = np.where(values[one].imag > 0.0, 2.0, 1.0)
     free = theory.vectors[theory.journal][:, one].T
     phasors = np.vstack([(twice * shares[one])[:, None] * free, forced[theory.journal]])
+    # A mode that grows overflows in time; charts cut the motion off long before.
     with np.errstate(over="ignore", invalid="ignore"):
         turning = np.exp(time[:, None] * np.append(values[one], 1j * speed))
         return np.real(turning @ phasors)

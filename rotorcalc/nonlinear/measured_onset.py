@@ -181,8 +181,10 @@ def measured_growth(machine: Machine, speed: float) -> float:
         )
     except TransientError:
         return math.nan
+    # The allowance keeps rounding from dropping the last sample.
     watched = motion.journal[motion.time <= time * (1.0 + 1e-9)]
     values = fitted_modes(watched - point.journal_position, float(motion.time[1]), noise=_NOISE)
+    # The mode with the largest share comes first: the one that the motion was started on.
     waves = values[values.imag > 0.0]
     return float(waves[0].real) if len(waves) else math.nan
 
@@ -191,6 +193,7 @@ def _watched(expected: complex, speed: float) -> float:
     """Return the time for which to observe a mode [s], NaN where that would take too long."""
     whirl, revolution = 2.0 * math.pi / expected.imag, 2.0 * math.pi / speed
     time = _WHIRLS * whirl
+    # A fast decay leaves nothing to measure after some lifetimes, a fast growth is linear no more.
     if expected.real != 0.0:
         time = min(time, _LIFETIMES / abs(expected.real))
     if time > _MOST * revolution:
@@ -225,6 +228,7 @@ def measured_onset(
         nonlocal releases
         releases += 1
         if progress is not None:
+            # How many releases are needed is not known ahead: the share rises, but never to 1.
             progress(1.0 - 1.0 / (1.0 + 0.2 * releases))
         return measured_growth(machine, speed)
 

@@ -93,6 +93,7 @@ class Release(Result):
     @property
     def peaks(self) -> tuple[Array, Array]:
         """Revolutions, and the largest distance from rest over each two of them [m], (n/2,)."""
+        # Two revolutions hold a whole turn of a whirl at half speed.
         two = int(np.searchsorted(self.motion.angle, 4.0 * math.pi))
         rows = len(self.size) // two
         largest = self.size[: rows * two].reshape(rows, two).max(axis=1)
@@ -150,6 +151,7 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
         raise ValueError(f"revolutions = {revolutions}: must be {FEWEST_REVOLUTIONS} or more")
     C = machine.bearing.radial_clearance
     rest = equilibrium(machine, speed).film.position * C
+    # Against the load is −X.
     start = resting(machine, rest - np.array([kick, 0.0]))
     stopped = ""
     try:
@@ -158,6 +160,7 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
             samples_per_revolution=samples_per_revolution, progress=progress,
         )  # fmt: skip
     except TransientError as error:
+        # Its last quarter must hold the four revolutions that a spectrum needs.
         if len(error.partial.time) <= 16 * samples_per_revolution:
             raise
         motion, stopped = error.partial, str(error)
@@ -171,6 +174,7 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
         ellipse=rest + orbit_points(*theory.forced[theory.journal]),
         whirl=theory.whirl,
         film=C * film_of(machine.bearing).gap(motion.journal / C),
+        # Fewer revolutions make no spectrum, see `signals.spectrum`.
         spectrum=spectrum(motion, last=max(int(_SETTLED * revolutions), 4)),
         points=poincare_points(motion),
         stopped=stopped,

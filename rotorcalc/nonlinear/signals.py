@@ -236,6 +236,7 @@ def fitted_modes(path: Array, step: float, *, noise: float = _NOISE) -> ComplexA
     values: ComplexArray = np.asarray(np.log(factors) / (stride * step), dtype=complex)
     shares = _shares(factors, path)
     values = values[np.argsort(-shares)]
+    # The path is real: each oscillating mode comes with its conjugate.
     return values[values.imag >= 0.0]
 
 
@@ -289,6 +290,8 @@ def _signal(motion: Transient, of: str, last: int | None) -> tuple[ComplexArray,
     revolutions = (len(path) - 1) // samples
     if last is not None:
         revolutions = min(revolutions, last)
+    # A Hann window widens a line by 2/revolutions orders to either side: four just separate whirl
+    # at one half from the synchronous line.
     if revolutions < 4:
         raise ValueError(f"motion: {revolutions} revolutions, must be 4 or more")
     path = path[-revolutions * samples - 1 : -1]
@@ -298,6 +301,8 @@ def _signal(motion: Transient, of: str, last: int | None) -> tuple[ComplexArray,
 def _circles(signal: ComplexArray, revolutions: int) -> tuple[Array, ComplexArray]:
     """Return orders and the phasors of the circles at them, without the mean."""
     n = len(signal)
+    # Hann's window in its periodic form. The mean goes first, or its side lobes hide slow whirl;
+    # over the sum of the window the height of a line is the radius of its circle.
     window = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(n) / n)
     mean = np.sum(window * signal) / np.sum(window)
     circles = np.fft.fft(window * (signal - mean)) / np.sum(window)

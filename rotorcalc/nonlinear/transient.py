@@ -51,6 +51,7 @@ MOST_REVOLUTIONS = 5000
 MOST_SAMPLES = 2_000_000
 # Relative tolerance of each step of LSODA; the absolute one is a hundredth of it, in clearances.
 TOLERANCE = 1e-10
+# LSODA refuses a tolerance of 1e-14, which is near its own rounding.
 _TOLERANCES = (1e-13, 1e-3)
 # Revolutions after which progress is reported and contact with the wall is checked.
 _STRETCH = 20
@@ -104,6 +105,7 @@ class TransientError(RuntimeError):
 
     def __reduce__(self) -> tuple[type, tuple[str, Transient]]:
         """Return the arguments with which another process restores it."""
+        # Pickle restores an exception from its message alone, which fails without `partial`.
         return type(self), (str(self), self.partial)
 
 

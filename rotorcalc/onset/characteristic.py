@@ -63,6 +63,7 @@ class ExactPolynomial:
     @many_digits
     def __init__(self, machine: Machine, flexible: bool) -> None:
         bearing = machine.bearing
+        # `Decimal` takes over every bit of a float, not its rounded digits.
         mu, D, L, C = map(
             Decimal,
             (machine.viscosity, bearing.diameter, bearing.length, bearing.radial_clearance),

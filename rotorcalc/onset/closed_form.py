@@ -113,6 +113,7 @@ def closed_onsets(machines: Sequence[Machine]) -> Array:
 def _numbers(machine: Machine, flexible: bool) -> tuple[float, float, float, float]:
     """Return M C F_o/s², m_d F_o²/(K_rot s²), β and Ω/σ of a machine."""
     bearing, rotor, F = machine.bearing, machine.rotor, machine.static_load
+    # Ω/σ = F_o/s, with s from Eq. 5.8 at 1 rad/s.
     speed_of = 4.0 * F / float(FilmUnits(bearing, machine.viscosity, 1.0).force)
     a = rotor.half_mass * bearing.radial_clearance / F * speed_of**2
     if rotor.is_rigid or not flexible:

@@ -25,6 +25,7 @@ def fastest(machine: Machine, speed: ArrayLike, flexible: bool) -> ComplexArray:
     refined = modes.refined_eigenvalues(*matrices, inertia=film.inertia, flexible=flexible)
     refined = refined[..., : known.shape[-1]]  # the first guesses begin with the matrix eigenvalues
     is_same = np.abs(refined - known) <= _SAME * np.abs(known)
+    # Newton's method may run to another eigenvalue; the matrix's own then stands.
     values: ComplexArray = np.where(is_same, refined, known)
     return np.take_along_axis(values, np.argmax(values.real, axis=-1)[..., None], axis=-1)[..., 0]
 

@@ -246,6 +246,7 @@ def search_speeds(machine: Machine, flexible: bool = True) -> Array:
     at every speed, and the search begins far below every rate of the rotor.
     """
     unit = float(modified_sommerfeld(machine, 1.0))
+    # σ is proportional to speed: `unit` is σ at 1 rad/s.
     lightest, centred = film_of(machine.bearing).sommerfeld_range
     is_loaded = math.isfinite(unit)
     lowest = lightest / unit if is_loaded else 1e-3 * _slowest_rate(machine, flexible)
@@ -266,6 +267,8 @@ def _beyond_all_onsets(machine: Machine, centred: float, flexible: bool) -> floa
     highest = centred
     for _ in range(_RISES):
         before, highest = highest, max(highest, _highest_onset(machine, highest, flexible))
+        # The film's stiffness rises at most as Ω, and the bound as its root: after a factor of
+        # 1.5 all later ones multiply to less than 1.5, and `search_speeds` doubles the bound.
         if highest <= 1.5 * before:
             break
     return highest

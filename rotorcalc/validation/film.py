@@ -202,6 +202,7 @@ def _unstable_above(edge: float) -> float:
     k, c = short.stiffness(eps), short.damping(eps)
     A = np.zeros((*np.broadcast_shapes(eps.shape, p2.shape), 4, 4))
     A[..., :2, 2:] = np.eye(2)
+    # The rigid rotor in units of load and clearance: p² is its mass, M C Ω²/F_o.
     A[..., 2:, :2] = -k / p2[:, None, None]
     A[..., 2:, 2:] = -c / p2[:, None, None]
     return float(np.sum(np.linalg.eigvals(A).real.max(axis=-1) >= 0.0))

@@ -131,6 +131,7 @@ def _ellipse() -> list[Case]:
     X, Y = np.real(x * turn), np.real(y * turn)
     dX, dY = np.real(1j * x * turn), np.real(1j * y * turn)
     a, b = float(orbit.semi_major), float(orbit.semi_minor)
+    # ½∮(x dy − y dx); the mean over even steps is exact for integrands of so few harmonics.
     area = math.pi * float(np.mean(X * dY - Y * dX))
     spread = 2.0 * float(np.mean(X**2 + Y**2))
     return [

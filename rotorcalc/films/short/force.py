@@ -53,6 +53,7 @@ def film_force(position: ArrayLike, velocity: ArrayLike) -> Array:
     a, b = x * cos + y * sin, -x * sin + y * cos
     kappa = np.sqrt(kappa2)
     G = 2.0 / kappa * np.arctan2(kappa, b)  # ∫ dz'/H over the half; arctan2 is π/2 − atan(b/κ)
+    # 1 − a² = κ² + b² is positive inside the clearance circle, as a² + b² = x² + y² < 1.
     F_a = V / 2.0 * a * (3.0 * b * G - 4.0 - 2.0 * b**2 / (1.0 - a**2)) / kappa2**2
     F_b = V / 2.0 * (G / kappa2 + 3.0 * b * (b * G - 2.0) / kappa2**2)
     return vector(F_a * cos - F_b * sin, F_a * sin + F_b * cos)
