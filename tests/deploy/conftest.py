@@ -53,9 +53,9 @@ class Site:
     def visitor(self, **cookies: str) -> Visitor:
         return Visitor(self.address, port=self.port, cookies=cookies)
 
-    def get(self, path: str, **headers: str) -> HTTPResponse:
+    def get(self, path: str, *, timeout: float = 30.0, **headers: str) -> HTTPResponse:
         """Ask for a path below the app's; underscores in a header's name stand for hyphens."""
-        connection = HTTPConnection("127.0.0.1", self.port, timeout=30)
+        connection = HTTPConnection("127.0.0.1", self.port, timeout=timeout)
         named = {key.replace("_", "-"): value for key, value in headers.items()}
         connection.request("GET", path, headers={"Host": HOST} | named)
         answer = connection.getresponse()

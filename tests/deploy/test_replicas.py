@@ -1,6 +1,8 @@
 """Two replicas: visitors stay with theirs, and keep their machine when it goes."""
 
 import asyncio
+import re
+import signal
 from collections.abc import Callable, Coroutine
 from concurrent.futures import ThreadPoolExecutor
 from functools import wraps
@@ -8,12 +10,14 @@ from typing import Any, ParamSpec, TypeVar
 
 import pytest
 
-from tests.deploy.conftest import NAMES, Site
+from tests.deploy.conftest import BASE, NAMES, Site
 from tests.load.client import ServerError, Visitor
+from tests.load.replicas import ROOT
 
 P = ParamSpec("P")
 T = TypeVar("T")
 COOKIE = "rotorcalc_replica"
+PATIENCE = 5.0  # seconds in which a visitor is sent on
 
 
 def finished(work: Coroutine[Any, Any, T]) -> T:
@@ -118,9 +122,56 @@ async def test_a_rolling_restart_loses_nobodys_inputs(site: Site) -> None:
         lost = [visitor for visitor in visitors if visitor.cookies[COOKIE] == name]
         await asyncio.gather(*(_come_back(visitor) for visitor in lost))
         site.start(name)
-        await asyncio.sleep(5)  # nginx looks again for a replica that was gone: fail_timeout
     for i, visitor in enumerate(visitors):
         await visitor.slide("Length", 50)
         assert _value(visitor, "Radial clearance") == 70 + i
         assert _value(visitor, "Rotor mass") == 300 + i
         await visitor.close()
+
+
+@awaited
+async def test_nobody_is_without_a_page_while_one_replica_is_well(site: Site) -> None:
+    """The new replica's first request is a websocket, which does not end; then the other goes."""
+    site.replicas["1"].stop()
+    assert _named(site, "1") == "2"
+    site.start("1")
+    async with site.visitor(**{COOKIE: "1"}) as visitor:
+        await visitor.open()
+        site.replicas["2"].stop()
+        try:
+            assert [_named(site, name) for name in ("1", "2", "")] == ["1"] * 3
+        finally:
+            site.start("2")
+
+
+@awaited
+async def test_visitors_of_a_replica_that_hangs_are_sent_on(site: Site) -> None:
+    hung = site.replicas["1"].process
+    hung.send_signal(signal.SIGSTOP)
+    try:
+        for path in ("", "Stability", "_stcore/host-config"):
+            assert _named(site, "1", path) == "2"
+        assert _named(site, "1", "_stcore/health") == "2"
+        for _ in range(3):  # whichever has fewer connections
+            assert site.get(f"/{BASE}/", timeout=PATIENCE).status == 200
+        async with site.visitor(**{COOKIE: _named(site, "1", "_stcore/health")}) as visitor:
+            await visitor.open()
+    finally:
+        hung.send_signal(signal.SIGCONT)
+
+
+def test_a_browser_waits_longer_for_a_sign_than_nginx_for_a_replica() -> None:
+    text = (ROOT / "deploy/nginx.conf").read_text()
+    (health,) = re.findall(r"location = /rotorcalc/_stcore/health \{(.*?)\}", text, re.DOTALL)
+    waits = [int(number) for number in re.findall(r"_timeout (\d+)ms;", health)]
+    script = (ROOT / "ui/live/connection.js").read_text()
+    assert len(waits) == 2
+    assert sum(waits) < int(re.findall(r"const LOOK = (\d+);", script)[0])
+
+
+def _named(site: Site, name: str, path: str = "") -> str:
+    """Return the replica that answers a visitor of another, soon enough."""
+    answer = site.get(f"/{BASE}/{path}", timeout=PATIENCE, Cookie=f"{COOKIE}={name}")
+    assert answer.status == 200
+    cookies = str(answer.headers.get_all("Set-Cookie"))
+    return re.findall(rf"{COOKIE}=(\w+);", cookies)[0]
