@@ -55,10 +55,12 @@ class Field:
         """Return a record's value as it is kept."""
         if value is None or isinstance(value, str):
             return value
+        # Without the rounding that the change of unit adds in the last two digits.
         return float(f"{float(self.unit(SI).of(value)):.14g}")  # type: ignore[arg-type]
 
     def taken(self, word: object) -> Value:
         """Return what a link or a file says as it is kept, or raise ValueError in words."""
+        # A link has no None; "none" is its word for it.
         if self.rule.optional and word in (None, "none"):
             return None
         if not isinstance(self.rule.check, Bound):
@@ -139,5 +141,6 @@ def written(value: Value) -> str:
     """Return a kept value as a link has it: as short as it can be exactly."""
     if value is None or isinstance(value, str):
         return value or "none"
+    # NaN equals nothing, itself included, and has no longer form.
     short = f"{value:g}"
     return short if float(short) == value or math.isnan(value) else repr(value)

@@ -93,6 +93,7 @@ class Computed:
     @cached_property
     def at_round_speeds(self) -> Equilibrium:
         """Equilibrium positions at round speeds, up to the top speed."""
+        # The allowance is for rounding: a top speed of 10000 rpm has its own mark.
         number = np.searchsorted(_ROUND_SPEEDS, self.top_speed * (1 + 1e-9), side="right")
         return _from_first_answer(
             lambda speed: equilibrium(self.machine, speed), _ROUND_SPEEDS[:number]
@@ -227,11 +228,13 @@ class Computed:
     @property
     def orbits(self) -> Orbits:
         """Orbits at the running speed."""
+        # A point every 2.5°, as this orbit fills its chart.
         return orbits(self.point, points=145)
 
     @property
     def orbit_steps(self) -> Orbits:
         """Orbits at some speeds of the sweep, coarser than at the running speed."""
+        # 40 orbits of a point every 7.5°: as frames of an animation they all travel to the browser.
         return orbits(self.sweep, points=49, every=POINTS // 40)
 
     @property
@@ -261,6 +264,7 @@ def computed_from(values: Values) -> Computed:
 
 def speeds(top_speed: float) -> Array:
     """Return the speeds of a sweep [rad/s]."""
+    # From the first step on: at Ω = 0 there is no film.
     return np.linspace(top_speed / POINTS, top_speed, POINTS)
 
 
@@ -320,6 +324,7 @@ def _from_first_answer(ask: Callable[[Array], T], values: Array) -> T:
 
     A film can refuse what presses the journal too far: too heavy a load, too low a speed.
     """
+    # All at once first: only a film that refuses some of them is asked one by one.
     with suppress(ValueError):
         return ask(values)
     refused, answered = 0, len(values) - 1
@@ -335,6 +340,7 @@ def _from_first_answer(ask: Callable[[Array], T], values: Array) -> T:
 
 def _decades(sommerfeld: float) -> tuple[int, int]:
     """Return the decades of the notes' figures, and as many more as a machine needs."""
+    # Without load σ is infinite, and its point is drawn at the end of the notes' range.
     if not math.isfinite(sommerfeld):
         return -2, 2
     exponent = math.log10(sommerfeld)

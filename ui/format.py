@@ -39,6 +39,7 @@ def tex(value: float, unit: str = "") -> str:
 
 def quoted(word: object) -> str:
     """Return a visitor's input, shortened and without markup."""
+    # In backticks Markdown is text; a backtick of the visitor's own would end them.
     text = reprlib.repr(word).replace("`", "'")
     return f"`{text}`"
 
@@ -58,6 +59,7 @@ def typed_number(word: object) -> float:
         value = float(str(word))
     except ValueError:
         raise ValueError("is not a number") from None
+    # float("1e999") is infinite too, which for a shaft would mean rigid.
     if math.isinf(value) and any(digit.isdigit() for digit in str(word)):
         raise ValueError("is too large a number for this program")
     return value

@@ -48,12 +48,14 @@ class Input:
 
     def shown(self, value: float, units: Units) -> float:
         """Return a kept value in a visitor's unit."""
+        # Kept as it is: a change of unit and back would change its last digit.
         if units is SI:
             return value
         return float(self.unit(units).of(self.unit(SI).to_si(value)))
 
     def stored(self, reading: float, units: Units) -> float:
         """Return a visitor's reading as it is kept."""
+        # As above.
         if units is SI:
             return reading
         return _tidy(float(self.unit(SI).of(self.unit(units).to_si(reading))))
@@ -83,6 +85,7 @@ class Input:
             return "" if self.key == "load" else "is missing"
         if self.infinite and value == math.inf:
             return ""
+        # Zero itself is a value of its own, no damping for instance.
         if 0.0 < value < _LEAST:
             return f"lies between 0 and {_LEAST:g}, where floating-point numbers lose precision"
         if self.low <= value <= self.high:
@@ -230,6 +233,7 @@ def machine_of(values: Values) -> Machine:
     for key, item in INPUTS.items():
         record, _, name = item.field.rpartition(".")
         if item.field not in _SPEEDS:
+            # None is a load that follows the rotor's weight; no other input may be missing.
             load = name == "load" and values[key] is None
             records[record][name] = None if load else item.unit(SI).to_si(number(values, key))
     geometry, film = shape_of(values)

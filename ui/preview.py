@@ -31,6 +31,7 @@ class Preview:
 
         Raises ValueError where there is no such input, or the value makes no machine.
         """
+        # The other inputs are those of the page as last drawn, which its charts show beside it.
         computed = computed_from(self.values | {name: input_named(name).taken(value, self.units)})
         return {
             "charts": {key: self._still(draw, computed) for key, draw in self.charts.items()},

@@ -119,6 +119,7 @@ class Session:
         if key in st.session_state:
             return None
         value = self.chosen.setdefault(key, default)
+        # The browser's value is untrusted, and may lie outside a widget's range, which is an error.
         return type(default)(value) if low <= value <= high else default
 
 
@@ -143,6 +144,7 @@ def write_address_bar() -> dict[str, str]:
     """Put the whole machine into the address bar, where it is not there yet; return it."""
     visitor = session()
     params = address.write(visitor.preset, visitor.values, visitor.units_name)
+    # Streamlit sends the address bar to the browser at each assignment, changed or not.
     if not visitor.dragging and st.query_params.to_dict() != params:
         st.query_params.from_dict(params)
     return params

@@ -57,6 +57,7 @@ def _bearings(pinned: Values, live: Values, units: Units) -> list[dict[str, str]
     """Return what differs in the kind of the bearing, its film model and its fields."""
     rows = [(word.capitalize(), f"{pinned[word]}", f"{live[word]}")
             for word in (KIND, FILM) if pinned[word] != live[word]]  # fmt: skip
+    # Bearings of two kinds have different fields: one that is missing is shown as a dash.
     fields = fields_of(pinned[KIND]) | fields_of(live[KIND])
     for key, field in fields.items():
         then, now = (field.shown(values.get(key), units) for values in (pinned, live))

@@ -50,11 +50,13 @@ def _toggle_load() -> None:
     if st.session_state["load_follows"]:
         visitor.set_value("load", None)
     else:
+        # The weight does not depend on the journals' mass, which may leave no disk: no machine.
         weight = machine_of(visitor.values | {"load": None, "mj": 0.0}).static_load
         visitor.set_value("load", min(round(weight, 1), INPUTS["load"].high))
 
 
 def _oil_library() -> None:
+    # Its content is drawn only while it is open, as every run of the page would pay for it.
     library = st.popover("Oil library", width="stretch", key="oil_library", on_change="rerun")
     if library.open:
         with library:
@@ -104,6 +106,7 @@ def _take_over(oil: Oil) -> None:
         record, _, name = item.field.rpartition(".")
         if record != "oil" or name == "density":  # the library has no density
             continue
+        # Six digits are more than a grade is known to, and short in a link.
         reading = float(f"{float(item.unit(SI).of(getattr(oil, name))):.6g}")
         if problem := item.problem(reading):
             visitor.problems.append(f"{item.label} = {reading:g} {problem}; it was left as it is.")

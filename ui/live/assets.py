@@ -42,6 +42,7 @@ def module(name: str) -> str:
 def _published(name: str, source: Path) -> str:
     """Put a file where Streamlit serves it, and return its address."""
     target = _SERVED / name
+    # The name has the content's digest or version; another size is a copy that was cut short.
     if not target.exists() or target.stat().st_size != source.stat().st_size:
         with tempfile.NamedTemporaryFile(dir=_SERVED, delete=False) as copy:
             copy.write(source.read_bytes())

@@ -50,6 +50,7 @@ def _single(value: np.ndarray) -> np.ndarray:
         return value
     with np.errstate(over="ignore"):
         single = value.astype(np.float32)
+    # Single precision ends at 3e38; an infinity that was there before may stay one.
     if np.isinf(single).any() and np.any(np.isinf(single) & np.isfinite(value)):
         return value.astype(np.float64)
     return single

@@ -73,8 +73,10 @@ async def answer(request: Request) -> Response:
     token = request.headers.get(_TOKEN, "")
     preview = _previews.get(token)
     if preview is None:
+        # The session is on another replica, or gone: the slider then sends through Streamlit.
         return Response(status_code=204)
     if token in _asking:
+        # The page's own slider never sends a second one before the first is answered.
         return Response(status_code=429)
     name, value = (request.query_params.get(key, "") for key in ("name", "value"))
     _asking.add(token)

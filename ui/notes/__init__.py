@@ -34,6 +34,7 @@ def equations() -> str:
 
 
 def _equation(item: Equation) -> str:
+    # What the notes do not number is named by its source instead.
     number = f"**Eq. {item.number}**" if item.number[0].isdigit() else f"*{item.number}*"
     functions = ", ".join(f"`{name}`" for name in item.functions)
     return f"{number} · {item.title}\n\n$$\n{item.latex}\n$$\n\n{functions} · {item.pages}"
@@ -81,6 +82,7 @@ def _row(case: Case) -> str:
 def _number(value: float) -> str:
     if value == 0.0:
         return "0"
+    # Nine digits show the printed ones and those in which the program differs.
     shown = f"{value:.2e}" if abs(value) < 1e-4 else f"{value:.9g}"
     return minus(shown)
 
