@@ -19,6 +19,7 @@ from rotorcalc.films import FilmDynamics, FilmState, film_of, film_state
 from rotorcalc.films.dynamics import NO_INERTIA
 from rotorcalc.frames import rotate
 from rotorcalc.machine import JournalBearing, Machine
+from rotorcalc.onset.eigenvalues import certain_eigenvalues, certain_mode_shapes
 from rotorcalc.onset.whirl import WhirlOnset, flexible_threshold, whirl_onset
 from rotorcalc.tables import columns, dataframe, eigenvalue_columns
 from rotorcalc.unbalance_response import synchronous_response
@@ -113,28 +114,28 @@ class Sweep(Result):
 
     @cached_property
     def rigid_eigenvalues(self) -> ComplexArray:
-        """λ of the rigid rotor [1/s], (n, 4), and of inner coordinates; computed on first use."""
+        """λ of the rigid rotor [1/s], (n, 4), and of inner coordinates; computed on first use.
+
+        The signs of their real parts are certain: they agree with `unstable_ranges`.
+        """
         return self._eigenvalues(flexible=False)
 
     @cached_property
     def flexible_eigenvalues(self) -> ComplexArray:
-        """λ of the flexible rotor [1/s], (n, 6); 8 with journal mass; a rigid shaft's as above."""
+        """λ of the flexible rotor [1/s], (n, 6); 8 with journal mass; a rigid shaft's as above.
+
+        The signs of their real parts are certain: they agree with `unstable_ranges`.
+        """
         if self.machine.rotor.is_rigid:
             return self.rigid_eigenvalues
         return self._eigenvalues(flexible=True)
 
     def mode_shapes(self, *, flexible: bool = True) -> modes.ModeShapes:
         """Return the free motions at each speed, of a flexible or a rigid shaft."""
-        film, rotor = self.dynamics, self.machine.rotor
-        return modes.mode_shapes(
-            rotor, film.stiffness, film.damping, inertia=film.inertia, flexible=flexible
-        )
+        return certain_mode_shapes(self.machine, self.speed, self.dynamics, flexible=flexible)
 
     def _eigenvalues(self, *, flexible: bool) -> ComplexArray:
-        film, rotor = self.dynamics, self.machine.rotor
-        return modes.eigenvalues(
-            rotor, film.stiffness, film.damping, inertia=film.inertia, flexible=flexible
-        )
+        return certain_eigenvalues(self.machine, self.speed, self.dynamics, flexible=flexible)
 
     def to_dataframe(self) -> "pd.DataFrame":
         """Return the sweep as a pandas table: one row per speed, one column per number.

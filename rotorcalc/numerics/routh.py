@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from rotorcalc.arrays import Array, BoolArray
 
 # Relative error of float coefficients and of Routh's scheme together, generously: 3e-14.
-_ROUNDING = 128 * float(np.finfo(float).eps)
+ROUNDING = 128 * float(np.finfo(float).eps)
 # Signs of the deviations in Kharitonov's four polynomials, from the constant term on.
 _KHARITONOV = np.tile([[-1, -1, 1, 1], [1, 1, -1, -1], [1, -1, -1, 1], [-1, 1, 1, -1]], 3)
 
@@ -76,7 +76,7 @@ def _bounds(polynomial: Array) -> Array:
     """Return Kharitonov's polynomials, (..., 4, n+1)."""
     # For positive coefficients; a polynomial with any other is unstable whatever its bounds.
     signs = _KHARITONOV[:, : polynomial.shape[-1]]
-    return polynomial[..., None, :] * (1.0 + _ROUNDING * signs)
+    return polynomial[..., None, :] * (1.0 + ROUNDING * signs)
 
 
 def _left(polynomial: NDArray[Any]) -> Array:

@@ -13,12 +13,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rotorcalc import modes
-from rotorcalc.arrays import Array
+from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import stiffness_and_damping
 from rotorcalc.films import film_of
 from rotorcalc.films.short import exact
 from rotorcalc.machine import Machine, Rotor
 from rotorcalc.numerics import routh
+from rotorcalc.numerics.polynomial_roots import exact_roots
 
 # A division by zero gives infinity as in NumPy, not an error.
 _DIGITS = Context(prec=60, Emax=MAX_EMAX, Emin=MIN_EMIN, traps=[])
@@ -44,9 +45,12 @@ def many_digits(function: Callable[P, T]) -> Callable[P, T]:
 
 def polynomial(machine: Machine, speed: ArrayLike, flexible: bool) -> Array:
     """Return the characteristic polynomials of a machine at speeds (...), floats (..., n+1)."""
-    return modes.film_terms(*stiffness_and_damping(machine, speed)) @ _rotor_terms(
-        machine.rotor, flexible
-    )
+    return polynomial_on(stiffness_and_damping(machine, speed), machine.rotor, flexible)
+
+
+def polynomial_on(film: tuple[Array, Array], rotor: Rotor, flexible: bool) -> Array:
+    """Return the characteristic polynomials of a rotor on a film's K and C (..., 2, 2)."""
+    return modes.film_terms(*film) @ _rotor_terms(rotor, flexible)
 
 
 @functools.lru_cache(maxsize=64)
@@ -81,6 +85,11 @@ class ExactPolynomial:
     def determinant(self, speed: float) -> float:
         """Return `routh.determinant` at a speed."""
         return self._ask(routh.determinant, speed)
+
+    @many_digits
+    def roots(self, speed: float, start: ComplexArray) -> ComplexArray:
+        """Return the eigenvalues at a speed, (n,) [1/s], from values near them."""
+        return exact_roots(self._at(Decimal(speed)), start)
 
     @many_digits
     def sharpened(self, speed: float) -> tuple[float, float]:

@@ -10,23 +10,28 @@ from numpy.typing import ArrayLike
 from rotorcalc import modes
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import dynamics
-from rotorcalc.machine import Machine
+from rotorcalc.films import FilmDynamics
+from rotorcalc.machine import Machine, Rotor
 from rotorcalc.numerics.roots import narrow_root
 
 # A refined eigenvalue that has moved further than this, relative, has converged to another one.
 _SAME = 1e-6
 
 
-def fastest(machine: Machine, speed: ArrayLike, flexible: bool) -> ComplexArray:
-    """Return λ of the mode that grows fastest at speeds (...) [1/s]."""
-    film, rotor = dynamics(machine, speed), machine.rotor
+def refined(rotor: Rotor, film: FilmDynamics, flexible: bool) -> ComplexArray:
+    """Return all λ of a rotor on a film [1/s], (..., n), refined where that finds the same one."""
     matrices = (rotor, film.stiffness, film.damping)
     known = modes.eigenvalues(*matrices, inertia=film.inertia, flexible=flexible)
-    refined = modes.refined_eigenvalues(*matrices, inertia=film.inertia, flexible=flexible)
-    refined = refined[..., : known.shape[-1]]  # the first guesses begin with the matrix eigenvalues
-    is_same = np.abs(refined - known) <= _SAME * np.abs(known)
+    found = modes.refined_eigenvalues(*matrices, inertia=film.inertia, flexible=flexible)
+    found = found[..., : known.shape[-1]]  # the first guesses begin with the matrix eigenvalues
+    is_same = np.abs(found - known) <= _SAME * np.abs(known)
     # Newton's method may run to another eigenvalue; the matrix's own then stands.
-    values: ComplexArray = np.where(is_same, refined, known)
+    return np.where(is_same, found, known)
+
+
+def fastest(machine: Machine, speed: ArrayLike, flexible: bool) -> ComplexArray:
+    """Return λ of the mode that grows fastest at speeds (...) [1/s]."""
+    values = refined(machine.rotor, dynamics(machine, speed), flexible)
     return np.take_along_axis(values, np.argmax(values.real, axis=-1)[..., None], axis=-1)[..., 0]
 
 

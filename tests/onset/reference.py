@@ -140,3 +140,15 @@ def _routh(polynomial):
         )
         column.append(row[0])
     return sum((a > 0) != (b > 0) for a, b in itertools.pairwise(column))
+
+
+def exact_roots(machine, speed, *, flexible=True):
+    """Return the eigenvalues λ of a machine, `mpc` [1/s]."""
+    polynomial = _polynomial(machine, mpf(speed), flexible)
+    # In units of the roots' geometric mean none of the coefficients is out of all proportion.
+    n = len(polynomial) - 1
+    unit = (abs(polynomial[-1] / polynomial[0])) ** (mpf(1) / n)
+    scaled = [a * unit ** (n - i) for i, a in enumerate(polynomial)]
+    monic = [a / scaled[0] for a in reversed(scaled)]
+    roots = mpmath.polyroots(monic, maxsteps=5000, extraprec=1000, asc=True)
+    return [root * unit * speed for root in roots]

@@ -54,7 +54,7 @@ def test_what_rounding_leaves_in_doubt_is_left(monkeypatch):
     many = [balanced(rotor) for rotor in ROTORS.values()]
     expected = [onset_speed(machine).speed for machine in many]
     for share in (1e-6, 1.0):
-        monkeypatch.setattr(routh, "_ROUNDING", share)
+        monkeypatch.setattr(routh, "ROUNDING", share)
         assert np.isnan(sure_onsets(many)).all()
         assert onset_speeds(many) == pytest.approx(expected, rel=1e-12)
 

@@ -459,7 +459,7 @@ def test_all_ways_find_the_same_onset(monkeypatch, rotor, load):
     machine = replace(balanced(rotor), load=load)
     onset = onset_speed(machine)
     in_floats = search.searched_onset(machine)
-    monkeypatch.setattr(routh, "_ROUNDING", 1.0)
+    monkeypatch.setattr(routh, "ROUNDING", 1.0)
     in_digits = search.searched_onset(machine)
     assert in_digits.method == "extended precision"
     assert in_floats.method == ("extended precision" if load == 0.0 else "polynomial")
