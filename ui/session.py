@@ -66,6 +66,17 @@ class Session:
         self.preset, self.values = preset, dict(PRESET_VALUES[preset])
         self.problems.clear()
 
+    def mirror(self, key: str, value: object) -> bool:
+        """Give a widget its value before it is drawn, where it has another; return whether it had.
+
+        A page's widgets are its own: on arriving, `session_state` still answers for the last
+        page's.
+        """
+        needed = self.arriving or st.session_state.get(key) != value
+        if needed:
+            st.session_state[key] = value
+        return needed
+
     def pin(self) -> None:
         """Keep the live machine as the baseline A."""
         self.baseline = dict(self.values)
@@ -148,14 +159,3 @@ def write_address_bar() -> dict[str, str]:
     if not visitor.dragging and st.query_params.to_dict() != params:
         st.query_params.from_dict(params)
     return params
-
-
-def mirror(key: str, value: object) -> bool:
-    """Give a widget its value before it is drawn, where it has another; return whether it had.
-
-    A page's widgets are its own: on arriving, `session_state` still answers for the last page's.
-    """
-    needed = session().arriving or st.session_state.get(key) != value
-    if needed:
-        st.session_state[key] = value
-    return needed

@@ -6,6 +6,7 @@ How an input sends and how a chart is drawn are decided here and nowhere else.
 import importlib
 import math
 from collections.abc import Callable, Sequence
+from functools import cache, lru_cache, partial
 from types import ModuleType
 from typing import Any
 
@@ -19,7 +20,7 @@ from ui.bearing import Values
 from ui.inputs import INPUTS, Input, input_named, number
 from ui.preview import Preview
 from ui.serving import settings
-from ui.session import mirror, session
+from ui.session import Session, session
 
 
 class _Checked(BaseFigure):
@@ -53,9 +54,9 @@ def show_chart(chart: Chart, *, key: str, alt: str) -> None:
 
 def show_preview(preview: Preview | None) -> None:
     """Let sliders change what is drawn here, and show its preview while one is dragged."""
-    if settings.live() == "off" or session().typed:
-        return
     visitor = session()
+    if settings.live() == "off" or visitor.typed:
+        return
     units = visitor.units
     _live().show_preview(
         preview if settings.live() == "drag" else None, visitor.token, visitor.frame,
@@ -80,16 +81,16 @@ def is_dark() -> bool:
 
 def show_inputs(group: str, items: Sequence[Input]) -> None:
     """Show sliders, or fields to type in, that read and write the session's state."""
-    if settings.live() == "off" or session().typed:
-        for item in items:
-            _own(item)
-    else:
-        _live_sliders(group, items)
-
-
-def _own(item: Input) -> None:
-    """Show one of Streamlit's own sliders or fields."""
     visitor = session()
+    if settings.live() == "off" or visitor.typed:
+        for item in items:
+            _own(item, visitor)
+    else:
+        _live_sliders(group, items, visitor)
+
+
+def _own(item: Input, visitor: Session) -> None:
+    """Show one of Streamlit's own sliders or fields."""
     units = visitor.units
     shown = _shown(item, visitor.values, units)
     key = f"input_{item.key}_{units.name}_{'typed' if visitor.typed else 'slider'}"
@@ -98,7 +99,7 @@ def _own(item: Input) -> None:
         "args": (item, key, units),
     }  # fmt: skip
     draw = _typed if visitor.typed else _log_slider if item.log else _slider
-    found = draw(item, shown, units, common)
+    found = draw(item, shown, visitor, common)
     # What a browser brings to a server without its session is no change to Streamlit.
     if visitor.frame == 1 and not math.isclose(found, shown):
         visitor.set_value(item.key, item.stored(found, units))
@@ -119,16 +120,14 @@ def _live() -> ModuleType:
     return importlib.import_module("ui.live")
 
 
-def _live_sliders(group: str, items: Sequence[Input]) -> None:
-    live, visitor = _live(), session()
-    values, units = visitor.values, visitor.units
+def _live_sliders(group: str, items: Sequence[Input], visitor: Session) -> None:
+    live, values, units = _live(), visitor.values, visitor.units
 
     def slider(item: Input) -> object:
-        low, high = item.shown(item.low, units), item.shown(item.high, units)
-        step = item.step if item.log else _round_step(item.shown(item.low + item.step, units) - low)
+        low, high, step = _range(item, units)
         return live.Slider(
             item.key, item.name(units), item.help, _sent(item, values, units),
-            low, high, step, item.log, item.infinite,
+            low, high, item.step if item.log else step, item.log, item.infinite,
         )  # fmt: skip
 
     live.show_sliders(
@@ -162,56 +161,66 @@ def _moved(name: str, units: Units, value: object, *, dragging: bool) -> None:
         visitor.problems[:] = [f"{error}; it was left as it is."]
 
 
-def _begin(key: str, value: float, default: float | None) -> float | None:
+def _begin(visitor: Session, key: str, value: float, default: float | None) -> float | None:
     """Return with what a widget begins.
 
     In a session's first run it begins with what the browser shows, or with a value. Later the value
     is written, and Streamlit would warn of two; where it stands already, any will do.
     """
-    if session().frame == 1:
+    if visitor.frame == 1:
         return value
-    return None if mirror(key, value) else default
+    return None if visitor.mirror(key, value) else default
 
 
-def _slider(item: Input, shown: float, units: Units, common: dict[str, Any]) -> float:
-    low, high = item.shown(item.low, units), item.shown(item.high, units)
-    step = _round_step(item.shown(item.low + item.step, units) - low)
+def _slider(item: Input, shown: float, visitor: Session, common: dict[str, Any]) -> float:
+    low, high, step = _range(item, visitor.units)
     decimals = max(0, -math.floor(math.log10(step)))
+    value = float(min(max(shown, low), high))
     return st.slider(
-        min_value=float(low), max_value=float(high), step=step, format=f"%.{decimals}f",
+        min_value=low, max_value=high, step=step, format=f"%.{decimals}f",
         # Without a value Streamlit looks through the whole session for one.
-        value=_begin(common["key"], float(min(max(shown, low), high)), float(low)), **common,
+        value=_begin(visitor, common["key"], value, low), **common,
     )  # fmt: skip
 
 
-def _log_slider(item: Input, shown: float, units: Units, common: dict[str, Any]) -> float:
-    low, high = item.shown(item.low, units), item.shown(item.high, units)
-    number = round(math.log10(high / low) * item.step) + 1
-    options = {float(f"{value:.3g}") for value in np.geomspace(low, high, number)} | {shown}
-    if item.infinite:
-        options.add(math.inf)
+def _log_slider(item: Input, shown: float, visitor: Session, common: dict[str, Any]) -> float:
+    low, high, _ = _range(item, visitor.units)
+    beyond = {math.inf} if item.infinite else set[float]()
+    options = sorted(_stops(low, high, item.step) | beyond | {shown})
     return st.select_slider(
-        options=sorted(options), value=_begin(common["key"], shown, None),
-        format_func=lambda value: _word(item, value), **common,
+        options=options, value=_begin(visitor, common["key"], shown, None),
+        format_func=partial(_word, item.infinite), **common,
     )  # fmt: skip
 
 
-def _typed(item: Input, shown: float, units: Units, common: dict[str, Any]) -> float:
-    low, high = item.shown(item.low, units), item.shown(item.high, units)
-    step = float(low) if item.log else _round_step(item.shown(item.low + item.step, units) - low)
-    value = _begin(common["key"], float(min(shown, high)), None)
+def _typed(item: Input, shown: float, visitor: Session, common: dict[str, Any]) -> float:
+    low, high, step = _range(item, visitor.units)
+    value = _begin(visitor, common["key"], float(min(shown, high)), None)
     return st.number_input(
-        min_value=float(low), max_value=float(high), step=step, format="%.6g",
+        min_value=low, max_value=high, step=low if item.log else step, format="%.6g",
         value="min" if value is None else value, **common,
     )  # fmt: skip
 
 
-def _word(item: Input, value: float) -> str:
-    return (
-        item.infinite
-        if math.isinf(value)
-        else f"{value:.4g}".replace("e+0", "e").replace("e+", "e")
-    )
+def _range(item: Input, units: Units) -> tuple[float, float, float]:
+    """Return the ends of an input's range, and a round step."""
+    low, high = float(item.shown(item.low, units)), float(item.shown(item.high, units))
+    return low, high, _round_step(item.shown(item.low + item.step, units) - low)
+
+
+@cache
+def _stops(low: float, high: float, per_decade: float) -> frozenset[float]:
+    """Return the values at which a logarithmic slider stops."""
+    number = round(math.log10(high / low) * per_decade) + 1
+    return frozenset(float(f"{value:.3g}") for value in np.geomspace(low, high, number))
+
+
+@lru_cache(maxsize=4096)
+def _word(infinite: str, value: float) -> str:
+    """Return a stop's text, or the input's word for an infinite one."""
+    if math.isinf(value):
+        return infinite
+    return f"{value:.4g}".replace("e+0", "e").replace("e+", "e")
 
 
 def _round_step(step: float) -> float:

@@ -6,7 +6,7 @@ from rotorcalc import PRESETS, Oil
 from rotorcalc.oils import ISO_VG, fitted_oil, iso_oil
 from rotorcalc.units import SI, SYSTEMS
 from ui.inputs import GROUPS, INPUTS, OPEN_GROUPS, machine_of, number
-from ui.session import mirror, session
+from ui.session import session
 from ui.widgets import show_inputs
 
 
@@ -26,7 +26,7 @@ def draw_inputs() -> None:
 def draw_presets() -> None:
     """Draw the choice of a preset."""
     visitor = session()
-    mirror("preset", visitor.preset)
+    visitor.mirror("preset", visitor.preset)
     st.selectbox(
         "Preset",
         options=list(PRESETS),
@@ -38,8 +38,9 @@ def draw_presets() -> None:
 
 
 def _load() -> None:
-    follows = session().values["load"] is None
-    mirror("load_follows", follows)
+    visitor = session()
+    follows = visitor.values["load"] is None
+    visitor.mirror("load_follows", follows)
     st.toggle("Load is half the rotor's weight", key="load_follows", on_change=_toggle_load)
     if not follows:
         show_inputs("Static load", [INPUTS["load"]])
@@ -120,9 +121,9 @@ def _settings() -> None:
     if not settings.open:
         return
     with settings:
-        mirror("units", visitor.units_name)
-        mirror("typed", visitor.typed)
-        mirror("image_format", visitor.image_format)
+        visitor.mirror("units", visitor.units_name)
+        visitor.mirror("typed", visitor.typed)
+        visitor.mirror("image_format", visitor.image_format)
         st.segmented_control(
             "Units", list(SYSTEMS), key="units", on_change=_set_units, required=True
         )
