@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from datetime import timedelta
+from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
@@ -53,8 +54,9 @@ _STYLE = """<style>
 </style>"""
 
 NO_MACHINE = "These inputs make no machine"
+HOME = "app.py"
 PAGES = {
-    "app.py": "Machine",
+    HOME: "Machine",
     "pages/1_Equilibrium.py": "Equilibrium",
     "pages/2_Coefficients.py": "Coefficients",
     "pages/3_Stability.py": "Stability",
@@ -211,4 +213,10 @@ def _navigation(params: dict[str, str]) -> None:
     """Draw the links between pages, each with the whole machine."""
     with st.container(horizontal=True, gap="small"):
         for path, label in PAGES.items():
-            st.page_link(path, label=label, query_params=params)
+            st.page_link(_place(path), label=label, query_params=params)
+
+
+@cache
+def _place(path: str) -> st.Page:
+    """Return a page to link to: for its path alone Streamlit asks the disk at each link."""
+    return st.Page(path, default=path == HOME)
