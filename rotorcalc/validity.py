@@ -5,10 +5,11 @@ The program computes outside these limits too, and says so beside the result.
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from rotorcalc.analysis import Sweep
 from rotorcalc.arguments import checked
@@ -19,6 +20,7 @@ from rotorcalc.unbalance_response import orbit_ellipse
 
 Level: TypeAlias = Literal["good", "caution", "outside"]
 
+_LEVELS = np.array(["good", "caution", "outside"])
 # Composite roughness of ground or honed surfaces [m]; assumed, as no input gives it.
 ROUGHNESS = 1e-6
 
@@ -49,7 +51,7 @@ class Check(Result):
     level: NDArray[np.str_]
     reason: str
 
-    @property
+    @cached_property
     def worst(self) -> Level:
         """The worst verdict over the speeds; "good" where there are none."""
         found = self.level
@@ -103,12 +105,16 @@ def validity(sweep: Sweep) -> tuple[Check, ...]:
 
 
 def _above(name: str, value: Array, caution: float, limit: Array | float, reason: str) -> Check:
-    level = np.select([value > limit, value > caution], ["outside", "caution"], "good")
+    level = _level(value > caution, value > limit)
     low, high = np.full_like(value, caution), np.full_like(value, limit)
     return Check(name, value, low, high, level, reason)
 
 
 def _below(name: str, value: Array, caution: float, limit: float, reason: str) -> Check:
-    level = np.select([value < limit, value < caution], ["outside", "caution"], "good")
+    level = _level(value < caution, value < limit)
     low, high = np.full_like(value, caution), np.full_like(value, limit)
     return Check(name, value, low, high, level, reason)
+
+
+def _level(doubtful: ArrayLike, failed: ArrayLike) -> NDArray[np.str_]:
+    return np.asarray(_LEVELS[np.add(doubtful, failed, dtype=int)])
