@@ -189,7 +189,7 @@ def equilibrium(machine: Machine, speed: ArrayLike) -> Equilibrium:
     speed = checked_speed(speed)
     bearing = machine.bearing
     units = FilmUnits(bearing, machine.viscosity, speed)
-    film = film_of(bearing).state(operating_points(machine, speed))
+    film = film_of(bearing).state(_points(machine, speed))
     drag_torque = film.drag * units.torque
     with np.errstate(divide="ignore"):  # f = ∞ without load
         friction = drag_torque / (bearing.radius * np.float64(machine.static_load))
@@ -229,12 +229,7 @@ def operating_points(machine: Machine, speed: ArrayLike) -> OperatingPoints:
     ValueError
         Where a speed is not positive and finite.
     """
-    return OperatingPoints.of(
-        machine.bearing,
-        viscosity=machine.viscosity,
-        speed=checked_speed(speed),
-        load=machine.static_load,
-    )
+    return _points(machine, checked_speed(speed))
 
 
 @checked
@@ -258,14 +253,7 @@ def dynamics(machine: Machine, speed: ArrayLike) -> FilmDynamics:
     ValueError
         Where a speed is not positive and finite.
     """
-    speed = checked_speed(speed)
-    units = FilmUnits(machine.bearing, machine.viscosity, speed)
-    found = film_of(machine.bearing).dynamics(operating_points(machine, speed))
-    return FilmDynamics(
-        stiffness=_matrices(found.stiffness, units.stiffness),
-        damping=_matrices(found.damping, units.damping),
-        inertia=found.inertia,
-    )
+    return _dynamics(machine, checked_speed(speed))
 
 
 @checked
@@ -290,8 +278,9 @@ def stiffness_and_damping(machine: Machine, speed: ArrayLike) -> tuple[Array, Ar
     ValueError
         Where a speed is not positive and finite.
     """
+    speed = checked_speed(speed)
     # Imbalance shakes the film at running speed, so inner coordinates are eliminated at ω = Ω.
-    return reduced(dynamics(machine, speed), checked_speed(speed))
+    return reduced(_dynamics(machine, speed), speed)
 
 
 @checked
@@ -498,9 +487,27 @@ def checked_speed(speed: ArrayLike) -> Array:
     speeds = real_array("speed", speed)
     # A journal that does not turn draws in no film: at Ω = 0 no load is carried.
     good = np.isfinite(speeds) & (speeds > 0.0)
-    if not np.all(good):
+    if not good.all():
         raise ValueError(f"speed = {speeds[~good].flat[0]} rad/s: must be positive and finite")
     return speeds
+
+
+def _points(machine: Machine, speed: Array) -> OperatingPoints:
+    """Return the operating points of a machine's film at checked speeds."""
+    return OperatingPoints.of(
+        machine.bearing, viscosity=machine.viscosity, speed=speed, load=machine.static_load
+    )
+
+
+def _dynamics(machine: Machine, speed: Array) -> FilmDynamics:
+    """Return the film's linear forces at checked speeds."""
+    units = FilmUnits(machine.bearing, machine.viscosity, speed)
+    found = film_of(machine.bearing).dynamics(_points(machine, speed))
+    return FilmDynamics(
+        stiffness=_matrices(found.stiffness, units.stiffness),
+        damping=_matrices(found.damping, units.damping),
+        inertia=found.inertia,
+    )
 
 
 def _matrices(coefficients: Array, unit: Array | float) -> Array:
