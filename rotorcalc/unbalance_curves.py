@@ -22,7 +22,7 @@ from rotorcalc.coefficients import equilibrium, rising_speed, stiffness_and_damp
 from rotorcalc.display import Result
 from rotorcalc.films import film_of
 from rotorcalc.machine import Machine, Rotor
-from rotorcalc.onset import judge
+from rotorcalc.onset import Onset, judge
 from rotorcalc.unbalance_peaks import ResponsePeaks, disk_peak_speeds
 from rotorcalc.unbalance_response import (
     OrbitEllipse,
@@ -173,7 +173,12 @@ class ResponseFamily(Result):
 
 @checked
 def response_curves(
-    sweep: Sweep, point: Sweep, *, disk_peaks: ResponsePeaks, journal_peaks: ResponsePeaks
+    sweep: Sweep,
+    point: Sweep,
+    *,
+    disk_peaks: ResponsePeaks,
+    journal_peaks: ResponsePeaks,
+    onset: Onset | None = None,
 ) -> ResponseCurves:
     """Return a machine's steady response over speed and at the running speed.
 
@@ -185,6 +190,8 @@ def response_curves(
         The same machine at the running speed, scalar.
     disk_peaks, journal_peaks : ResponsePeaks
         Peaks within the sweep.
+    onset : Onset, optional
+        The machine's onset, where it is known.
 
     Returns
     -------
@@ -204,7 +211,7 @@ def response_curves(
         journal=journal,
         disk_peaks=disk_peaks,
         journal_peaks=journal_peaks,
-        unstable=unstable_ranges(sweep),
+        unstable=judge.unstable_ranges(machine, sweep.speed, onset=onset),
         running_speed=point.speed,
         disk_here=_body_on(disk, speed, point.disk_response, point.speed),
         journal_here=_body_on(journal, speed, point.journal_response, point.speed),

@@ -223,6 +223,7 @@ class Computed:
             self.point,
             disk_peaks=self.disk_peaks,
             journal_peaks=self.journal_peaks,
+            onset=self.onset,
         )
 
     @property

@@ -21,7 +21,7 @@ from rotorcalc.onset.characteristic import ExactPolynomial
 from rotorcalc.onset.closed_form import closed_form_onset, covers, excess_mass
 from rotorcalc.onset.growth import growth
 from rotorcalc.onset.search import crossing, humps, search_speeds
-from rotorcalc.onset.whirl import whirl_onset
+from rotorcalc.onset.whirl import Onset, whirl_onset
 
 
 @checked
@@ -68,7 +68,7 @@ def is_unstable(
 
 
 @checked
-def unstable_ranges(machine: Machine, speed: ArrayLike) -> Array:
+def unstable_ranges(machine: Machine, speed: ArrayLike, *, onset: Onset | None = None) -> Array:
     """Return the ranges of speed in which some mode of a machine grows.
 
     Parameters
@@ -77,6 +77,8 @@ def unstable_ranges(machine: Machine, speed: ArrayLike) -> Array:
         The machine.
     speed : array_like, (n,)
         Rising speeds, Ω [rad/s]: the first and last bound the ranges, the others refine the search.
+    onset : Onset, optional
+        The machine's onset, where it is known: that of an undamped rotor need not be solved again.
 
     Returns
     -------
@@ -95,7 +97,7 @@ def unstable_ranges(machine: Machine, speed: ArrayLike) -> Array:
         return np.empty((0, 2))
     if covers(machine):
         # A and B rise with speed, so an undamped rotor stays unstable above its onset.
-        first = max(closed_form_onset(machine).speed, speeds[0])
+        first = max((onset or closed_form_onset(machine)).speed, speeds[0])
         return np.array([[first, speeds[-1]]] if first < speeds[-1] else np.empty((0, 2)))
     searched = search_speeds(machine)
     within = (searched > speeds[0]) & (searched < speeds[-1])

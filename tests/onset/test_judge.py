@@ -37,9 +37,12 @@ def test_the_judge_counts_as_sixty_digits_do(seed, power, flexible):
 @example(424)  # the sign at one end is that of a rounding error
 def test_the_first_range_begins_at_the_onset(seed):
     machine = drawn(seed)
-    onset = onset_speed(machine).speed
+    known = onset_speed(machine)
+    onset = known.speed
     top = 2.5 * onset if 0.0 < onset < math.inf else 1e3
-    ranges = unstable_ranges(machine, np.linspace(top / 240, top, 240))
+    speeds = np.linspace(top / 240, top, 240)
+    ranges = unstable_ranges(machine, speeds)
+    assert np.array_equal(unstable_ranges(machine, speeds, onset=known), ranges)
     if math.isinf(onset):
         assert ranges.shape == (0, 2)
     else:
