@@ -62,7 +62,7 @@ def test_every_field_has_the_shape_of_the_speeds(machine, states, shape):
         assert values.dtype == (complex if is_complex else float), name
 
 
-def test_speeds_one_by_one_give_what_they_give_together():
+def test_single_speeds_give_the_same_as_an_array():
     speeds = np.linspace(600 * RPM, 12000 * RPM, 12)
     together = arrays(analyse(SHEET, speeds))
     for i, speed in enumerate(speeds):
@@ -219,7 +219,7 @@ def test_without_load_the_threshold_is_its_limit(sommerfeld):
     assert onset.threshold_speed[unloaded] == pytest.approx(math.sqrt(24 / math.pi), rel=1e-9)
 
 
-def test_in_units_of_the_load_the_centred_film_has_the_same_threshold():
+def test_the_centred_film_has_the_same_threshold_in_units_of_the_load():
     onset = whirl_onset(short.stiffness([0.0, 0.5]), short.damping([0.0, 0.5]))
     assert onset.equivalent_stiffness[0] == pytest.approx(6 / math.pi)
     assert onset.critical_mass[0] == pytest.approx(24 / math.pi)

@@ -87,7 +87,7 @@ def test_the_closed_form_is_the_onset_on_the_eigenvalues(machine: Machine, flexi
         assert getattr(onset, name) == pytest.approx(getattr(found, name), rel=1e-9), name
 
 
-def test_no_closed_form_is_said_in_words() -> None:
+def test_a_machine_without_a_closed_form_is_refused_in_words() -> None:
     with pytest.raises(ValueError, match="has midspan damping or another film, so no closed form"):
         closed_form.closed_form_onset(DAMPED)
 
@@ -118,7 +118,9 @@ def test_machines_of_all_kinds_are_solved_in_their_order() -> None:
         ({"shaft_stiffness": math.inf, "disk_damping": 1.0}, False),
     ],
 )
-def test_which_machines_have_a_closed_form(rotor: dict[str, float], closed: bool) -> None:
+def test_a_closed_form_needs_no_damper_and_massless_journals_or_a_rigid_shaft(
+    rotor: dict[str, float], closed: bool
+) -> None:
     machine = replace(SHEET, rotor=replace(SHEET.rotor, **rotor))
     assert closed_form.has_closed_form(machine) is closed
     [speed] = onset_speeds([machine])

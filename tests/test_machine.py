@@ -120,13 +120,13 @@ def test_a_positive_field_refuses_zero_and_less(record, name, value):
 
 @pytest.mark.parametrize(("record", "name"), NOT_NEGATIVE)
 @pytest.mark.parametrize("value", [-1e-300, -5.0, -1])
-def test_a_field_from_zero_refuses_less(record, name, value):
+def test_a_nonnegative_field_refuses_negative_numbers(record, name, value):
     assert error(record, **{name: value}).startswith(f"{name} = {value!r} ")
     assert "must be at least 0 " in error(record, **{name: value})
 
 
 @pytest.mark.parametrize(("record", "name"), NOT_NEGATIVE)
-def test_a_field_from_zero_accepts_zero(record, name):
+def test_a_nonnegative_field_accepts_zero(record, name):
     assert getattr(made(record, **{name: 0}), name) == 0.0
 
 
@@ -178,7 +178,7 @@ def test_none_is_refused_except_as_a_load(record, name):
     [HUGE, -HUGE, 10**5000, -(10**5000), Fraction(HUGE)],
     ids=["huge", "-huge", "unprintable", "-unprintable", "fraction"],
 )
-def test_an_integer_that_no_float_holds_is_refused_and_never_taken_for_infinity(
+def test_an_integer_beyond_the_largest_float_is_refused_and_not_read_as_infinity(
     record, name, value
 ):
     assert error(record, **{name: value}).startswith(f"{name} = ")
@@ -477,7 +477,7 @@ def test_an_unknown_key_is_named_and_shortened():
     assert len(long) < 300
 
 
-def test_an_error_can_be_shown_whatever_the_key():
+def test_an_error_about_any_key_can_be_encoded_as_text():
     """A lone surrogate, which JSON can spell, is in no text that a page can send."""
     message = refusal('{"version": 1, "\\ud800": 1}')
     assert message.encode("utf-8")
@@ -545,14 +545,14 @@ def test_words_that_are_no_json_are_refused(word, field):
     ids=["1e999", "-1e999", "digits", "-digits"],
 )
 @pytest.mark.parametrize("field", ["mass", "shaft_stiffness", "journal_mass"])
-def test_a_number_too_large_is_named_and_never_taken_for_a_rigid_shaft(number, field):
+def test_an_overflowing_number_is_named_and_not_read_as_a_rigid_shaft(number, field):
     tree = document()
     tree["rotor"][field] = "here"
     text = json.dumps(tree).replace('"here"', number)
     assert refusal(text).startswith(f"rotor.{field}: too large for a number")
 
 
-def test_a_number_of_a_million_digits_behind_the_point_is_a_number():
+def test_a_number_with_a_million_decimals_is_read():
     text = SHEET.to_json().replace("60.0", f"60.{'0' * 10**6}")
     assert Machine.from_json(text) == SHEET
 

@@ -220,7 +220,7 @@ def test_logarithmic_decrement_is_that_of_a_decaying_oscillation(zeta, w):
     assert math.log(decay) == pytest.approx(decrement, rel=1e-12, abs=1e-14)
 
 
-def test_a_mode_that_does_not_oscillate():
+def test_a_mode_that_does_not_oscillate_has_no_frequency():
     assert modes.logarithmic_decrement(-3.0) == math.inf
     assert modes.logarithmic_decrement(3.0) == -math.inf
     assert modes.damping_ratio(-3.0) == 1.0

@@ -16,7 +16,7 @@ SWEEP = rc.analyse(SHEET, SPEEDS)
 TABLE = SWEEP.to_dataframe()
 
 
-def test_it_has_a_row_a_speed_and_a_unit_in_every_name():
+def test_a_table_has_one_row_per_speed_and_a_unit_in_every_column_name():
     assert len(TABLE) == 40
     assert all(name.endswith("]") and " [" in name and "[]" not in name for name in TABLE)
     assert not TABLE.columns.duplicated().any()
@@ -29,7 +29,7 @@ def test_every_field_is_in_the_table():
             assert any(name.startswith(field.name) for name in TABLE), field.name
 
 
-def test_the_names_are_these():
+def test_columns_are_named_by_quantity_element_and_unit():
     for name in (
         "side_flow [m³/s]", "stiffness_XY [N/m]", "damping_YY [N·s/m]", "critical_mass [kg]",
         "journal_position_Y [m]", "disk_response_X_amplitude [m]", "journal_response_Y_lag [rad]",
@@ -65,7 +65,7 @@ def test_one_speed_has_one_row_with_the_same_columns():
     assert list(table) == list(TABLE)
 
 
-def test_what_does_not_move_has_no_lag():
+def test_a_body_at_rest_has_no_phase_lag():
     table = rc.analyse(with_rotor(imbalance=0.0), SPEEDS).to_dataframe()
     assert table["disk_response_X_amplitude [m]"].eq(0.0).all()
     assert table["disk_response_X_lag [rad]"].isna().all()

@@ -73,7 +73,7 @@ def test_a_sweep_without_a_peak_has_none():
     assert peaks.speed.shape == peaks.amplitude.shape == (0,)
 
 
-def test_a_peak_of_something_else_is_refused():
+def test_a_peak_of_neither_disk_nor_journal_is_refused():
     with pytest.raises(ValueError, match="at = 'shaft'"):
         response_peaks(SHEET, np.linspace(10.0, 100.0, 50), at="shaft")
 

@@ -66,7 +66,7 @@ def test_a_broken_formula_fails_its_check(monkeypatch, module, name, factor, che
     assert check in failed()
 
 
-def test_the_misprints_of_the_source_would_be_found(monkeypatch):
+def test_the_checks_detect_a_misprint_of_the_source(monkeypatch):
     def printed(eps, s2, radial, tangential):
         k = right(eps, s2, radial, tangential)
         fr2 = 16 * eps**2 / (16 * eps**2 + np.pi**2 * s2)
@@ -78,7 +78,7 @@ def test_the_misprints_of_the_source_would_be_found(monkeypatch):
     assert "K_XX + K_YY and K_rr + K_tt" in failed()
 
 
-def test_a_wrong_onset_would_be_found(monkeypatch):
+def test_the_checks_detect_a_wrong_onset(monkeypatch):
     right = search.searched_onset
 
     def wrong(machine, flexible=True):

@@ -98,7 +98,7 @@ def test_gain_and_loss_meet_at_the_onset(machine: Machine) -> None:
 
 @each_machine
 @pytest.mark.parametrize("factor", [0.3, 0.9, 1.0, 1.3])
-def test_every_mode_grows_by_what_it_gains(machine: Machine, factor: float) -> None:
+def test_energy_gain_minus_loss_gives_every_modes_growth(machine: Machine, factor: float) -> None:
     """Hold the identity in `whirl_energy`'s notes, on shapes from the eigenvectors."""
     rotor, state = machine.rotor, equilibrium(machine, factor * onset_speed(machine).speed)
     shapes = modes.mode_shapes(rotor, state.stiffness, state.damping)

@@ -74,7 +74,7 @@ def test_a_link_writes_a_bore_in_the_units_of_engineers() -> None:
         ({"film": "<b>"}, "film"),
     ],
 )
-def test_what_of_a_bearing_cannot_be_used_is_named(given: dict[str, str], word: str) -> None:
+def test_bearing_fields_that_cannot_be_used_are_named(given: dict[str, str], word: str) -> None:
     link = address.read(given)
     (problem,) = link.problems
     assert word in problem
@@ -121,7 +121,7 @@ def test_every_page_shows_every_bearing(path: str, name: str) -> None:
 
 
 @pytest.mark.parametrize("path", PAGES)
-def test_a_film_that_cannot_whirl_is_said_to(path: str) -> None:
+def test_no_page_gives_a_threshold_to_a_film_that_cannot_whirl(path: str) -> None:
     assert not film_of(BEARINGS["sprung"]).can_whirl
     at = visit(path, **query("sprung"))
     said = "\n".join(text for _ in tours(at) for text in texts(at))

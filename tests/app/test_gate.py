@@ -13,7 +13,7 @@ from ui.serving import one_at_a_time
 from ui.serving.one_at_a_time import Gate
 
 
-def test_one_thread_is_in_at_a_time() -> None:
+def test_the_gate_admits_one_thread_at_a_time() -> None:
     gate, inside, most = Gate(), set[int](), list[int]()
 
     def go(number: int) -> None:
@@ -28,7 +28,7 @@ def test_one_thread_is_in_at_a_time() -> None:
     assert most == [1] * 5
 
 
-def test_a_thread_that_steps_aside_lets_others_in_and_comes_back_alone() -> None:
+def test_a_thread_that_steps_aside_admits_others_and_re_enters_alone() -> None:
     gate, seen, met = Gate(), list[str](), threading.Event()
 
     def other() -> None:
@@ -75,7 +75,7 @@ def test_order_of_arrival_holds_after_stepping_aside_too() -> None:
     assert seen == ["second", "first", "third"]
 
 
-def test_an_error_inside_or_aside_leaves_the_gate_open() -> None:
+def test_the_gate_reopens_after_an_error_inside_or_aside() -> None:
     gate = Gate()
     with pytest.raises(RuntimeError), gate.through():
         raise RuntimeError
@@ -85,7 +85,7 @@ def test_an_error_inside_or_aside_leaves_the_gate_open() -> None:
     assert _is_open(gate)
 
 
-def test_a_thread_that_is_not_in_opens_nothing_by_stepping_aside() -> None:
+def test_a_thread_outside_the_gate_opens_nothing_by_stepping_aside() -> None:
     gate, entered = Gate(), threading.Event()
 
     def stranger() -> None:
@@ -116,7 +116,7 @@ def _is_open(gate: Gate) -> bool:
 
 
 @pytest.mark.parametrize("rpm", ["6000", "nonsense"])
-def test_a_page_waits_for_the_one_before_and_lets_the_next_in(rpm: str) -> None:
+def test_a_page_waits_for_the_previous_one_and_then_admits_the_next(rpm: str) -> None:
     ended = threading.Event()
 
     def go() -> None:
@@ -133,7 +133,7 @@ def test_a_page_waits_for_the_one_before_and_lets_the_next_in(rpm: str) -> None:
     assert _is_open(one_at_a_time.PAGES)
 
 
-def test_who_has_used_less_goes_before_who_came_first() -> None:
+def test_visitors_with_less_use_go_before_earlier_arrivals() -> None:
     gate, seen = Gate(), list[str]()
     with gate.through("busy"):
         time.sleep(0.01)
@@ -153,7 +153,7 @@ def test_who_has_used_less_goes_before_who_came_first() -> None:
     assert seen == ["quiet", "busy"]
 
 
-def test_who_comes_late_has_no_credit_for_what_was_not_used(
+def test_late_arrivals_get_no_credit_for_time_before_they_came(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     now, gate, begun = [0.0], Gate(), list[float]()

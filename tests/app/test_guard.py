@@ -52,7 +52,7 @@ def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     return now
 
 
-def test_a_bucket_gives_its_burst_and_then_its_rate(clock: list[float]) -> None:
+def test_a_bucket_admits_its_burst_and_then_its_rate(clock: list[float]) -> None:
     bucket = Bucket(rate=2, burst=3)
     assert [bucket.reserve() for _ in range(5)] == [0, 0, 0, 0.5, 1.0]
     clock[0] = 1.0
@@ -61,7 +61,7 @@ def test_a_bucket_gives_its_burst_and_then_its_rate(clock: list[float]) -> None:
     assert [bucket.take() for _ in range(4)] == [True, True, True, False]
 
 
-def test_messages_are_handed_on_in_their_order_no_faster_than_tokens_come() -> None:
+def test_messages_pass_in_order_at_the_rate_of_the_tokens() -> None:
     async def go() -> None:
         socket = Socket(_WANTED, *(_said(bytes([i])) for i in range(5)))
         paced = socket.paced(Bucket(rate=50, burst=2), waiting=10)
@@ -74,7 +74,7 @@ def test_messages_are_handed_on_in_their_order_no_faster_than_tokens_come() -> N
     _run(go)
 
 
-def test_a_flood_closes_its_websocket_and_nothing_more_is_handed_on_or_sent() -> None:
+def test_a_flood_closes_its_websocket_and_stops_all_further_messages() -> None:
     async def go() -> None:
         socket = Socket(_WANTED, *(_said() for _ in range(20)))
         paced = socket.paced(Bucket(rate=0.01, burst=2))
@@ -89,7 +89,7 @@ def test_a_flood_closes_its_websocket_and_nothing_more_is_handed_on_or_sent() ->
     _run(go)
 
 
-def test_messages_that_wait_have_room_for_so_many_bytes() -> None:
+def test_waiting_messages_are_bounded_in_bytes() -> None:
     async def go() -> None:
         socket = Socket(_WANTED, *(_said(bytes(1 << 20)) for _ in range(4)))
         paced = socket.paced(Bucket(rate=0.01, burst=1), waiting=60)
@@ -100,7 +100,7 @@ def test_messages_that_wait_have_room_for_so_many_bytes() -> None:
     _run(go)
 
 
-def test_that_a_page_is_closed_is_seen_before_what_waits() -> None:
+def test_a_closed_page_is_noticed_before_its_waiting_messages() -> None:
     async def go() -> None:
         socket = Socket(_WANTED, *(_said() for _ in range(4)))
         paced = socket.paced(Bucket(rate=0.01, burst=1))
@@ -114,7 +114,7 @@ def test_that_a_page_is_closed_is_seen_before_what_waits() -> None:
     _run(go)
 
 
-def test_who_goes_while_waiting_leaves_no_debt_to_an_address() -> None:
+def test_a_page_closed_while_waiting_costs_its_address_nothing() -> None:
     async def go() -> None:
         address = Bucket(rate=0.01, burst=1)
         for _ in range(5):
@@ -132,7 +132,7 @@ def test_who_goes_while_waiting_leaves_no_debt_to_an_address() -> None:
     _run(go)
 
 
-def test_a_websocket_that_ends_at_once_has_begun_nevertheless() -> None:
+def test_a_websocket_closed_at_once_still_passes_on_its_connection() -> None:
     async def go() -> None:
         paced = Socket(_WANTED, _GONE).paced(Bucket(1, 1))
         await asyncio.sleep(0.01)
@@ -151,7 +151,7 @@ def test_text_is_no_message_of_a_page() -> None:
     _run(go)
 
 
-def test_an_address_of_version_6_is_its_houses() -> None:
+def test_ipv6_addresses_of_one_network_count_as_one() -> None:
     assert (
         network("2001:db8:1:2:3:4:5:6") == network("2001:db8:1:2::9") != network("2001:db8:1:3::")
     )
@@ -198,7 +198,7 @@ def test_an_origin_is_own_where_it_is_the_host(origin: str, host: str | None, ow
         ([], "0.0.0.0", "laptop.local", True),  # noqa: S104
     ],
 )
-def test_a_server_goes_by_its_names(
+def test_a_server_answers_to_its_own_names_only(
     allowed: list[str], address: str, host: str | None, own: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     options = {

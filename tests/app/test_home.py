@@ -34,7 +34,7 @@ def test_an_unstable_machine_is_called_so() -> None:
     assert not at.success
 
 
-def test_the_onset_parts_stable_from_unstable() -> None:
+def test_the_onset_separates_stable_from_unstable_speeds() -> None:
     at = visit(HOME)
     move(at, "rpm", 8910.0)
     assert len(at.success) == 1

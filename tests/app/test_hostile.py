@@ -95,7 +95,7 @@ def _unharmed(at: AppTest) -> None:
 @example(link=dict.fromkeys(MARKUP, "1"))
 @example(link={key: MARKUP[i % len(MARKUP)] for i, key in enumerate(INPUTS)})
 @example(link={"preset": MARKUP[0], "units": MARKUP[1]})
-def test_no_link_breaks_a_page_or_writes_on_it(path: str, link: dict[str, str]) -> None:
+def test_no_link_breaks_a_page_or_injects_markup(path: str, link: dict[str, str]) -> None:
     with WATCH:
         at = visit(path, **link)
     _unharmed(at)
@@ -174,7 +174,7 @@ def test_no_file_blocks_the_server(kind: str) -> None:
     assert time.process_time() - start < 2.0
 
 
-def test_a_fraction_of_a_million_digits_is_a_number_like_any_other() -> None:
+def test_a_number_with_a_million_decimals_is_read_to_rounding() -> None:
     text = json.dumps(GOOD).replace("60.0", f"60.{'1' * MEGABYTE}")
     assert Machine.from_json(text).temperature == pytest.approx(60 + 1 / 9, rel=1e-15)
 
@@ -188,7 +188,9 @@ def sharing() -> AppTest:
 
 @UNHURRIED
 @given(text=_machines() | st.sampled_from(sorted(MONSTERS.values())), name=st.sampled_from(MARKUP))
-def test_no_upload_breaks_the_page_or_writes_on_it(text: str, name: str, sharing: AppTest) -> None:
+def test_no_upload_breaks_the_page_or_injects_markup(
+    text: str, name: str, sharing: AppTest
+) -> None:
     content = text.encode("utf-8", "surrogatepass")
     with WATCH:
         sharing.file_uploader(key="upload").upload(

@@ -89,7 +89,7 @@ def test_every_input_has_a_group_a_name_and_an_explanation() -> None:
 
 
 @pytest.mark.parametrize("word", ["1e999", "9" * 400, "-1e999"])
-def test_a_number_too_large_for_any_is_not_taken_for_a_rigid_shaft(word: str) -> None:
+def test_an_overflowing_stiffness_is_not_read_as_a_rigid_shaft(word: str) -> None:
     with pytest.raises(ValueError, match="too large a number"):
         INPUTS["k"].taken(word, SI)
     assert INPUTS["k"].taken("rigid", SI) == INPUTS["k"].taken("inf", SI) == math.inf

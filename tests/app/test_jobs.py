@@ -73,7 +73,7 @@ def test_threads_at_once_never_share_a_process() -> None:
             assert len(set(pool.map(run, range(4)))) == 4
 
 
-def test_a_computation_that_fails_or_is_left_lets_the_next_one_in() -> None:
+def test_a_process_is_used_again_after_a_failed_computation() -> None:
     turns = Turns(1, hire=Here)
     with pytest.raises(RuntimeError), turns.turn() as first:
         raise RuntimeError
@@ -82,7 +82,7 @@ def test_a_computation_that_fails_or_is_left_lets_the_next_one_in() -> None:
     assert second is first
 
 
-def test_a_process_left_in_the_middle_of_something_is_ended_and_another_hired() -> None:
+def test_a_process_abandoned_while_busy_is_ended_and_replaced() -> None:
     turns = Turns(1, hire=Here)
     with turns.turn() as first:
         first.idle = False
@@ -186,7 +186,7 @@ def test_requests_that_wait_for_the_same_do_not_hold_up_others() -> None:
         assert [one.result(PATIENCE) for one in same] == [42] * 4
 
 
-def test_a_computation_that_fails_is_taken_over_by_the_next_request_for_it() -> None:
+def test_the_next_request_takes_over_a_failed_computation() -> None:
     begun, go_on = threading.Event(), threading.Event()
     asked: list[int] = []
 

@@ -52,7 +52,7 @@ def test_a_link_reads_back_as_it_was_written(preset: str, data: st.DataObject, u
 
 
 @pytest.mark.parametrize("preset", PRESETS)
-def test_a_presets_link_names_only_the_preset(preset: str) -> None:
+def test_the_link_of_a_preset_names_only_the_preset(preset: str) -> None:
     expected = {} if preset == DEFAULT_PRESET else {"preset": preset}
     assert address.write(preset, PRESET_VALUES[preset], "SI") == expected
 
@@ -118,7 +118,7 @@ def test_a_journal_mass_that_leaves_no_disk_is_named() -> None:
     assert read.values == PRESET_VALUES[DEFAULT_PRESET] | {"C": 80.0}
 
 
-def test_a_mass_that_leaves_no_disk_makes_a_machine_all_the_same() -> None:
+def test_a_link_whose_mass_leaves_no_disk_still_gives_a_machine() -> None:
     read = address.read({"mass": "10", "mj": "4"})
     assert read.problems == []
     read = address.read({"mass": "10", "mj": "5"})

@@ -107,7 +107,7 @@ def test_three_onsets_agree_on_the_page(query: dict[str, str]) -> None:
     assert metrics["Eigenvalues"].split(".")[0] == metrics["Measured growth in time"].split(".")[0]
 
 
-def test_a_machine_that_swings_often_in_a_revolution_is_followed_for_fewer() -> None:
+def test_a_machine_with_fast_modes_is_followed_for_fewer_revolutions() -> None:
     at = visit(ORBITS, rpm="100", load="20000")
     assert faults(at) == []
     assert "only 16 revolutions are computed" in said(at)

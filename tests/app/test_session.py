@@ -281,7 +281,7 @@ def test_a_machine_read_from_values_is_the_machine() -> None:
     assert values_of(machine, 1.0, 2.0)["C"] == values["C"]
 
 
-def test_what_a_browser_kept_makes_a_session_that_its_server_has_lost() -> None:
+def test_a_lost_session_is_restored_from_what_its_browser_kept() -> None:
     at = visit(HOME, C="71", preset="sheet-1e7")
     visitor = session_of(at)
     visitor.pin()
@@ -305,7 +305,7 @@ def test_what_a_browser_kept_makes_a_session_that_its_server_has_lost() -> None:
         {"pinned": None, "chosen": {"orbits_kick": 1e300}, "image_format": "exe"},
     ],
 )  # fmt: skip
-def test_what_a_browser_kept_is_untrusted(kept: object) -> None:
+def test_state_kept_by_a_browser_is_checked_like_any_input(kept: object) -> None:
     visitor = session_of(visit(HOME, C="72"))
     visitor.recall(kept)
     assert visitor.baseline in (None, PRESET_VALUES["sheet-1e8"])

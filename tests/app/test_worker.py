@@ -27,7 +27,7 @@ def worker() -> Iterator[Worker]:
     made.close()
 
 
-def test_the_answer_is_the_one_of_this_process(worker: Worker) -> None:
+def test_a_worker_returns_the_same_result_as_this_process(worker: Worker) -> None:
     asked = SHEET, 600.0, 0.3, 20
     there, here = worker.run(work.release, asked, None), work.release(*asked)
     assert np.array_equal(there.motion.journal, here.motion.journal)
@@ -42,7 +42,7 @@ def test_progress_is_reported(worker: Worker) -> None:
     assert told[-1] == 1.0
 
 
-def test_an_error_in_the_listener_ends_the_computation_and_not_the_process(worker: Worker) -> None:
+def test_an_error_in_the_progress_callback_ends_the_computation_only(worker: Worker) -> None:
     class LeftError(BaseException):
         pass
 
@@ -66,13 +66,13 @@ def test_an_error_is_raised_here_with_its_places_in_the_code(worker: Worker) -> 
     assert worker.run(np.zeros, (3,), None).shape == (3,)
 
 
-def test_a_motion_that_ends_early_is_returned_so_far(worker: Worker) -> None:
+def test_a_motion_that_ends_early_is_returned_up_to_its_end(worker: Worker) -> None:
     with pytest.raises(TransientError, match="after") as caught:
         worker.run(break_off, (), None)
     assert len(caught.value.partial.time) == 5
 
 
-def test_a_process_that_dies_is_said_to_be_dead(worker: Worker) -> None:
+def test_the_death_of_a_process_is_reported(worker: Worker) -> None:
     with pytest.raises(WorkerError, match="ended"):
         worker.run(os.kill, (worker._process.pid, signal.SIGKILL), None)
     assert not worker.idle
@@ -80,7 +80,7 @@ def test_a_process_that_dies_is_said_to_be_dead(worker: Worker) -> None:
         worker.run(np.zeros, (3,), None)
 
 
-def test_a_process_that_hangs_is_said_to_give_no_sign(
+def test_a_hanging_process_is_reported_as_giving_no_sign(
     worker: Worker, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert worker.answers()
@@ -92,7 +92,7 @@ def test_a_process_that_hangs_is_said_to_give_no_sign(
     assert not worker.answers()
 
 
-def test_a_process_that_computes_long_gives_signs(worker: Worker) -> None:
+def test_a_process_in_a_long_computation_gives_signs_of_life(worker: Worker) -> None:
     worker.run(time.sleep, (process._PATIENCE * process._LOOK + 1.0,), None)
     assert worker.idle
 
@@ -127,7 +127,7 @@ def test_a_free_process_that_is_lost_is_replaced(
     turns.end()
 
 
-def test_it_ends_with_the_process_that_began_it() -> None:
+def test_a_worker_ends_with_its_parent_process() -> None:
     worker = Worker()
     worker.run(np.zeros, (3,), None)
     worker._process.stdin.close()

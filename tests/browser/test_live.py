@@ -170,7 +170,7 @@ def test_a_slider_without_a_preview_sends_by_itself(app: AppPage) -> None:
     assert app.metrics() != numbers
 
 
-def test_a_bundle_that_does_not_load_is_said_on_the_page(stranger: AppPage) -> None:
+def test_a_chart_script_that_fails_to_load_is_reported_on_the_page(stranger: AppPage) -> None:
     stranger.page.route("**/plotly-*.min.js", lambda route: route.abort())
     stranger.page.goto(f"{stranger.url}/Equilibrium")
     message = stranger.page.get_by_role("alert").filter(has_text="Plotly's script did not load")
@@ -180,7 +180,7 @@ def test_a_bundle_that_does_not_load_is_said_on_the_page(stranger: AppPage) -> N
 
 
 @pytest.mark.parametrize("page", ["Machine", "Equilibrium", "Stability", "Root locus", "Response"])
-def test_what_a_preview_moves_is_what_plotly_draws(app: AppPage, page: str) -> None:
+def test_a_moved_chart_equals_the_one_that_plotly_draws(app: AppPage, page: str) -> None:
     """Lines, points, notes, shapes and numbers stand where they stood, when the page has run."""
     app.open(page)
     _drag(app, "Radial clearance", 0.02)
@@ -213,7 +213,7 @@ def _picture(app: AppPage) -> list[list[float]]:
     })""")
 
 
-def test_a_page_that_is_gone_is_answered_by_streamlit(app: AppPage) -> None:
+def test_a_slider_whose_page_the_server_has_lost_sends_through_streamlit(app: AppPage) -> None:
     """A token that the server does not know: the slider sends through the page's own run."""
     app.open("Equilibrium")
     app.page.evaluate("() => { window.rotorcalcPreview.token = 'gone'; }")

@@ -91,7 +91,7 @@ async def _status(opening: connect) -> int:
 # --- Who is let in ----------------------------------------------------------------------------
 
 
-def test_it_listens_on_this_machine_alone(server: Server) -> None:
+def test_the_server_listens_on_this_machine_only(server: Server) -> None:
     port, listening = f"{server.port:04X}", []
     for table in ("tcp", "tcp6"):
         for line in Path(f"/proc/net/{table}").read_text().splitlines()[1:]:
@@ -127,7 +127,7 @@ async def test_a_foreign_origin_is_refused_on_every_path(server: Server) -> None
 
 
 @awaited
-async def test_nothing_is_asked_outside_at_start_or_for_any_origin(server: Server) -> None:
+async def test_no_other_machine_is_contacted_at_start_or_for_any_origin(server: Server) -> None:
     for origin in ("http://evil.example", "http://198.51.100.7", "https://friend.example"):
         await _status(server.socket(Origin=origin))
     async with Visitor(server.address) as visitor:
@@ -154,7 +154,7 @@ def test_every_answer_has_the_security_headers(server: Server, path: str) -> Non
             assert answer.headers.get_all(name) == [value], name
 
 
-def test_the_proxy_says_the_same() -> None:
+def test_the_proxy_sets_the_same_headers() -> None:
     text = (ROOT / "deploy/nginx.conf").read_text()
     assert f'default "{answers.policy()}";' in text, "Streamlit has changed: its script's hash"
     for name, value in answers.headers()[1:]:
@@ -236,7 +236,7 @@ def _upload(server: Server, visitor: Visitor, number: int, size: int = 1_000_000
 
 
 @awaited
-async def test_files_have_room_for_so_many_bytes_of_a_page_and_of_all(server: Server) -> None:
+async def test_uploaded_files_are_bounded_in_bytes_per_page_and_in_all(server: Server) -> None:
     async with Visitor(server.address) as one, Visitor(server.address) as other:
         await one.open()
         await other.open()
@@ -248,7 +248,7 @@ async def test_files_have_room_for_so_many_bytes_of_a_page_and_of_all(server: Se
 
 
 @awaited
-async def test_an_address_has_so_many_pages(server: Server) -> None:
+async def test_open_pages_are_bounded_per_address(server: Server) -> None:
     async with AsyncExitStack() as stack:
         opened: list[ClientConnection] = []
         refused = 0
@@ -292,7 +292,9 @@ async def _idles(server: Server) -> bool:
 
 
 @awaited
-async def test_a_flood_of_pages_leaves_another_visitor_his_and_no_trace(server: Server) -> None:
+async def test_a_flood_of_pages_neither_delays_another_visitor_nor_fills_the_server(
+    server: Server,
+) -> None:
     async with Visitor(server.address) as visitor:
         await visitor.open("Equilibrium", X_Forwarded_For="192.0.2.9")
         visitor.tally.latencies.clear()
@@ -321,7 +323,7 @@ def _has_come(server: Server) -> None:
         time.sleep(0.05)
 
 
-def test_a_flooded_server_ends_when_it_is_told(server: Server) -> None:
+def test_a_flooded_server_stops_on_request_without_errors(server: Server) -> None:
     with flooded(server.address, sessions=20):
         _has_come(server)
         time.sleep(3)

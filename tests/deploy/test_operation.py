@@ -72,7 +72,7 @@ def test_the_log_begins_with_version_and_commit(failing: Replica) -> None:
     assert {"time", "level", "python", "streamlit", "replica"} <= start.keys()
 
 
-def test_health_computes(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_health_check_computes_a_machine(monkeypatch: pytest.MonkeyPatch) -> None:
     health.check()
     monkeypatch.setitem(health._EXPECTED, "sommerfeld", 3.9)
     with pytest.raises(health.WrongAnswerError, match=r"sommerfeld = 3\.91447: must be 3\.9"):

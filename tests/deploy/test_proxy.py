@@ -186,7 +186,7 @@ def test_a_browser_finds_nothing_missing_under_the_policy(tab: AppPage) -> None:
     assert [fault for fault in tab.faults if not fault.startswith(ours)] == []
 
 
-def test_a_browser_whose_replica_goes_acts_on_the_other(tab: AppPage, site: Site) -> None:
+def test_a_browser_whose_replica_stops_continues_on_the_other(tab: AppPage, site: Site) -> None:
     """Nothing was touched before, so Streamlit's script by itself would ask for no run."""
 
     def replica() -> str:

@@ -180,7 +180,7 @@ def back(tab: AppPage) -> None:
 
 
 @pytest.mark.parametrize("goes", ["kill", "stop", "cut"])
-def test_whatever_was_done_last_is_there_and_the_next_action_works(
+def test_after_a_lost_connection_the_last_action_stands_and_the_next_works(
     goes: str, place: Place, tabs: dict[str, AppPage]
 ) -> None:
     """A crash, a restart, and a network that is gone for a moment."""
@@ -198,7 +198,7 @@ def test_whatever_was_done_last_is_there_and_the_next_action_works(
         VISITS[name].then(tab)
 
 
-def test_a_value_under_way_is_not_lost(place: Place, tabs: dict[str, AppPage]) -> None:
+def test_a_value_being_sent_is_not_lost(place: Place, tabs: dict[str, AppPage]) -> None:
     """It is sent, and the server is gone before it comes; or moved while there is no server."""
     sliding, typing = tabs["a slider"], tabs["a typed value"]
     wanted = [float(tab.query()["C"]) + step for tab, step in ((sliding, 2), (typing, 1))]

@@ -76,7 +76,7 @@ def test_a_file_comes_from_the_visitors_own_replica(site: Site) -> None:
 
 
 @awaited
-async def test_a_replica_killed_in_use_leaves_its_visitors_their_machine(site: Site) -> None:
+async def test_visitors_of_a_killed_replica_keep_their_machine(site: Site) -> None:
     async with site.visitor(**{COOKIE: "1"}) as visitor:
         await visitor.open("Stability", "D=120&units=US")
         await visitor.slide("Radial clearance", 3.0)
@@ -97,7 +97,7 @@ async def test_a_replica_killed_in_use_leaves_its_visitors_their_machine(site: S
 
 
 @awaited
-async def test_who_has_touched_nothing_gets_a_page_from_the_other_replica(site: Site) -> None:
+async def test_an_idle_visitor_of_a_lost_replica_gets_the_page_from_the_other(site: Site) -> None:
     async with site.visitor(**{COOKIE: "1"}) as visitor:
         await visitor.open("Equilibrium", "C=70.5")
         runs = visitor.tally.runs
@@ -112,7 +112,7 @@ async def test_who_has_touched_nothing_gets_a_page_from_the_other_replica(site: 
 
 
 @awaited
-async def test_a_rolling_restart_loses_nobodys_inputs(site: Site) -> None:
+async def test_a_rolling_restart_keeps_every_visitors_inputs(site: Site) -> None:
     visitors = [site.visitor(**{COOKIE: NAMES[i % 2]}) for i in range(4)]
     for i, visitor in enumerate(visitors):
         await visitor.open("", f"mass={300 + i}")

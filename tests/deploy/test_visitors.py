@@ -75,7 +75,9 @@ async def test_a_visitor_cannot_read_another_visitors_session(server: Replica) -
 
 
 @awaited
-async def test_a_visitor_of_the_load_puts_back_what_makes_no_machine(server: Replica) -> None:
+async def test_a_simulated_visitor_moves_back_a_slider_that_makes_no_machine(
+    server: Replica,
+) -> None:
     async with Visitor(server.address) as visitor:
         await visitor.open(query="mass=300")
         visitor.moved[:] = [("Journal mass", 0.0)]

@@ -152,7 +152,7 @@ def test_real_eigenvalues_are_dotted_and_have_no_frequency():
     assert not [t for t in figures.frequency(shown)["data"] if "does not oscillate" in t["name"]]
 
 
-def test_modes_out_of_view_are_said():
+def test_modes_outside_the_chart_are_mentioned():
     shown, *_ = shown_of(PRESETS["fig-5-2"])
     words = plane_figure.beyond(shown.locus, SI)
     assert words.count("does not oscillate") == 2

@@ -143,7 +143,7 @@ def test_the_unstable_range_begins_at_the_onset(machine: Machine) -> None:
 
 
 @given(machines(), st.floats(100.0, 5000.0))
-def test_without_eigenvalues_the_same_speeds_are_unstable(machine: Machine, top: float) -> None:
+def test_unstable_ranges_are_the_speeds_above_the_onset(machine: Machine, top: float) -> None:
     sweep = analyse(machine, np.linspace(top / 50, top, 50))
     onset = onset_speed(machine).speed
     inside = np.zeros(50, dtype=bool)
@@ -223,7 +223,7 @@ def test_a_family_contains_each_rotors_own_response() -> None:
         assert np.all(family.unstable[i] == (onset < family.speed))
 
 
-def test_variants_differ_in_one_thing_and_keep_the_rotors_mass() -> None:
+def test_variants_differ_in_one_input_and_keep_the_rotors_mass() -> None:
     for rotor in damping_variants(SHEET):
         assert replace(rotor, disk_damping=0.0) == replace(SHEET.rotor, disk_damping=0.0)
     masses = [rotor.journal_mass for rotor in journal_mass_variants(SHEET)]

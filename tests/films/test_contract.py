@@ -133,7 +133,7 @@ def test_the_gap_closes_on_the_outline(bearing, angle):
 
 
 @ALL
-def test_a_journal_at_rest_keeps_off_the_wall(bearing):
+def test_a_journal_at_rest_stays_off_the_wall(bearing):
     film = film_of(bearing)
     state = film.state(points(bearing, SIGMA))
     assert np.all(film.gap(state.position) > 0.0)

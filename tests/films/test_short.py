@@ -484,7 +484,7 @@ def test_an_eccentricity_outside_its_range_is_refused(name, bad):
 
 
 @pytest.mark.parametrize("name", OF_ECCENTRICITY)
-def test_contact_with_the_wall_has_no_force_but_a_place(name):
+def test_at_contact_with_the_wall_forces_are_refused_and_positions_given(name):
     function, _ = OF_ECCENTRICITY[name]
     if name in TO_THE_WALL:
         assert np.isfinite(function(1.0))

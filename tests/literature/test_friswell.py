@@ -38,5 +38,5 @@ def test_stiffness(example, i, j, printed, half_a_unit):
     assert example.stiffness[i, j] / 1e6 == pytest.approx(printed, rel=0, abs=half_a_unit)
 
 
-def test_a_bearing_that_carries_its_load_by_cross_coupling(example):
+def test_the_cross_stiffness_exceeds_the_direct_one(example):
     assert np.all(np.abs(np.diag(example.stiffness)) < example.stiffness[0, 1])

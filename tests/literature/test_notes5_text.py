@@ -117,7 +117,7 @@ def test_large_sommerfeld_numbers_centre_the_journal_and_small_ones_do_not():
     assert math.degrees(short.attitude_angle(heavy)) < 10
 
 
-def test_half_speed_whirl_near_the_centre():
+def test_the_whirl_ratio_near_the_centre_is_one_half():
     """For near centred journal operation the whirl frequency is 0.50 (Eq. 5.48)."""
     assert round(float(onset(0.01).whirl_ratio), 2) == 0.50
     assert onset(1e-6).whirl_ratio == pytest.approx(0.5, abs=1e-11)
@@ -193,7 +193,7 @@ def test_flexibility_lowers_the_onset_and_leaves_the_whirl_ratio():
     )
 
 
-def test_a_film_too_stiff_leaves_the_shaft_alone():
+def test_a_very_stiff_film_leaves_the_modes_of_the_shaft():
     """Small σ: the natural frequency is just (K_rot/M)^0.5, irrespective of the bearing."""
     eps, sag = 0.7559, 10.0
     at = onset(eps)

@@ -69,7 +69,7 @@ def test_energy_balances_in_a_run_up(kind):
     assert np.abs(balance.residual).max() < 1e-7 * balance.exchanged
 
 
-def test_a_settled_orbit_takes_from_the_imbalance_and_the_film_what_the_damper_takes():
+def test_a_settled_orbit_loses_in_film_and_damper_the_work_of_the_imbalance():
     machine, speed = balanced(ROTORS["damped"], 0.05 * C), 5000 * RPM
     motion = simulate(machine, speed, revolutions=60)
     balance = energy_balance(machine, motion)

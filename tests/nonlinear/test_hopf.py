@@ -59,7 +59,7 @@ def test_the_verdict_changes_at_the_published_eccentricity():
 
 
 @pytest.mark.parametrize("eps", [0.02, 0.06, 0.12, 0.16, 0.3, 0.6])
-def test_the_verdict_is_sharp(eps):
+def test_the_sign_of_the_coefficient_is_certain_on_both_sides(eps):
     found = hopf(near_hopf(eps, 1.0)[0])
     assert found.subcritical == (eps < 0.14109)
     assert found.lyapunov_error < 1e-4 * abs(found.lyapunov)

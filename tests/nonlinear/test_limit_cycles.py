@@ -64,7 +64,7 @@ def test_a_motion_started_on_a_cycle_stays_on_it(kind):
     )
 
 
-def test_an_unstable_cycle_parts_the_motions_that_die_from_those_that_grow():
+def test_an_unstable_cycle_separates_decaying_motions_from_growing_ones():
     machine, speed, rest = near_hopf(0.06, 0.99)
     branch = bifurcation(machine)
     place = int(np.argmin(np.abs(np.where(branch.stable, np.inf, branch.speed) - 0.985 * speed)))
@@ -96,7 +96,7 @@ def test_the_branch_has_the_known_cycles():
     assert 0.01 < float(sizes[~stable][0]) / C < 0.25
 
 
-def test_between_fold_and_onset_the_machine_rests_or_whirls_by_its_history(subcritical):
+def test_between_fold_and_onset_the_history_decides_between_rest_and_whirl(subcritical):
     onset = subcritical.hopf.speed
     (fold,) = subcritical.folds
     speeds = np.linspace(0.9, 1.1, 41) * onset
@@ -227,7 +227,7 @@ def test_a_branch_reaches_the_bound_or_names_why_it_ended(machine):
     assert as_said[branch.ended]
 
 
-def test_the_imbalance_plays_no_part():
+def test_imbalance_does_not_affect_the_result():
     speeds = [
         bifurcation(replace(SHEET, rotor=replace(SHEET.rotor, imbalance=u)), highest=1.01).speed
         for u in (0.0, 0.2 * C)

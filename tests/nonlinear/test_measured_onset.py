@@ -65,7 +65,7 @@ def test_three_ways_to_the_onset_agree(kind):
     assert 0.0 < told[0] < told[-1] < 1.0
 
 
-def test_the_three_differ_where_one_of_them_is_wrong(monkeypatch):
+def test_onsets_differ_where_the_measurement_is_wrong(monkeypatch):
     monkeypatch.setattr(
         measured_onset,
         "measured_growth",
@@ -92,7 +92,7 @@ def test_a_machine_without_an_onset_has_none_to_compare():
         onsets(with_rotor(disk_damping=1e5))
 
 
-def test_a_machine_none_of_whose_modes_oscillates_has_no_growth_of_a_whirl():
+def test_a_machine_without_oscillating_modes_has_no_whirl_growth():
     machine = replace(balanced(Rotor(mass=1.0, disk_damping=1e9)), load=2e5)
     speed = 1000 * RPM
     assert math.isnan(expected(machine, speed).real)

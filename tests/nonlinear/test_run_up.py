@@ -13,7 +13,7 @@ from rotorcalc.nonlinear.run_up import run_up
 from tests.machines import ROTORS, RPM, SHEET, C, balanced
 
 
-def test_a_balanced_rotor_is_stirred_and_whirls_past_its_onset(monkeypatch):
+def test_a_balanced_rotor_gets_a_small_imbalance_and_whirls_past_its_onset(monkeypatch):
     monkeypatch.setattr(module, "REVOLUTIONS", 400)
     told = []
     found = run_up(balanced(SHEET.rotor), 12000 * RPM, progress=told.append)

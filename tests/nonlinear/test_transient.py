@@ -66,9 +66,7 @@ def test_the_velocity_for_a_force_gives_that_force(eps, angle, velocity):
     velocity=st.tuples(st.floats(-3.0, 3.0), st.floats(-3.0, 3.0)),
     begins=st.floats(0.01, math.pi - 0.01),
 )
-def test_wherever_the_search_for_a_velocity_begins_it_ends_in_the_same(
-    eps, angle, velocity, begins
-):
+def test_the_velocity_found_does_not_depend_on_the_starting_point(eps, angle, velocity, begins):
     position = (eps * math.cos(angle), eps * math.sin(angle))
     found = motion.velocity(*position, *motion.force(*position, *velocity), [begins])
     assert found == pytest.approx(velocity, abs=1e-10)
@@ -89,7 +87,7 @@ def test_a_search_starts_from_the_last_solution_and_needs_one_step(monkeypatch):
 
 
 @pytest.mark.parametrize("force", [(math.nan, 1.0), (0.0, math.inf), (math.inf, math.nan)])
-def test_no_velocity_is_found_for_a_force_that_is_no_number_and_the_memory_stays(force):
+def test_no_velocity_is_found_for_a_force_of_nan_and_the_last_solution_is_kept(force):
     near = [1.0]
     with pytest.raises(ArithmeticError, match="no velocity found"):
         motion.velocity(0.3, -0.6, *force, near)
@@ -105,7 +103,7 @@ def test_the_impedance_comes_with_its_own_slopes(b):
 
 
 @pytest.mark.parametrize("rpm", range(3000, 9000, 500))
-def test_a_massless_journal_rests_at_any_speed_as_still_as_rounding_lets_it(rpm):
+def test_a_massless_journal_stays_at_rest_to_rounding_at_any_speed(rpm):
     motion = simulate(balanced(SHEET.rotor), rpm * RPM, revolutions=20)
     rest = analyse(SHEET, rpm * RPM).journal_position
     assert np.abs(motion.journal - rest).max() < 1e-13 * C
@@ -168,7 +166,7 @@ def test_above_a_supercritical_onset_kicks_small_and_large_end_on_one_cycle():
     assert large == pytest.approx(0.156, abs=0.002)
 
 
-def test_below_a_subcritical_onset_a_small_kick_dies_and_a_large_one_does_not():
+def test_below_a_subcritical_onset_a_small_kick_decays_and_a_large_one_does_not():
     machine, speed, rest = near_hopf(0.06, 0.99)
     assert last_amplitude(machine, speed, rest, kick=0.01, revolutions=800) < 0.001
     large = last_amplitude(machine, speed, rest, kick=0.25, revolutions=1200)
@@ -269,7 +267,7 @@ def test_the_journal_stays_inside_under_any_start(kind):
     assert 0.95 * C < distance.max() < C
 
 
-def test_integrations_side_by_side_do_not_meddle():
+def test_interleaved_integrations_do_not_affect_each_other():
     machines = [balanced(ROTORS[kind], 0.1 * C) for kind in ("rigid", "massless journals")] * 2
     alone = [simulate(machine, 5000 * RPM, revolutions=20).journal for machine in machines[:2]] * 2
     with ThreadPoolExecutor(4) as threads:

@@ -17,7 +17,7 @@ from rotorcalc.numerics.roots import narrow_root
         (lambda x: 1e-200 * (x - 3.0), 2.9, 3.3, 3.0),
     ],
 )
-def test_a_smooth_functions_root_is_found_to_rounding_in_one_look(
+def test_a_smooth_functions_root_is_found_to_rounding_in_one_call(
     function, low, high, root
 ) -> None:
     looks: list[int] = []

@@ -73,7 +73,7 @@ def test_eigenvalues_are_those_of_the_pencil(bearing, rotor, speed):
 
 @pytest.mark.parametrize("rotor", ROTORS)
 @pytest.mark.parametrize("bearing", WHIRLING)
-def test_the_onset_parts_decay_from_growth(bearing, rotor):
+def test_the_onset_separates_decay_from_growth(bearing, rotor):
     machine = machine_of(bearing, rotor)
     onset = onset_speed(machine)
     top = min(onset.speed, 3e4)

@@ -23,7 +23,7 @@ seeds = st.integers(0, 10**6)
 
 @wide
 @given(seeds, st.floats(-2, 3), st.booleans())
-def test_the_judge_counts_as_sixty_digits_do(seed, power, flexible):
+def test_the_stability_verdict_agrees_with_sixty_digits(seed, power, flexible):
     machine = drawn(seed)
     speeds = np.array([1.0, 1.5]) * 10.0**power / float(modified_sommerfeld(machine, 1.0))
     expected = [unstable_roots(machine, speed, flexible=flexible) > 0 for speed in speeds]
@@ -51,7 +51,7 @@ def test_the_first_range_begins_at_the_onset(seed):
 
 @wide
 @given(seeds)
-def test_ranges_part_stable_from_unstable(seed):
+def test_ranges_separate_stable_from_unstable_speeds(seed):
     machine = drawn(seed, damped=True)
     onset = onset_speed(machine).speed
     top = 20 * onset if 0.0 < onset < math.inf else 1e3

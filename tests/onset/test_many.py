@@ -28,7 +28,7 @@ QUIET = with_rotor(shaft_stiffness=1e6, disk_damping=1e5)
         max_size=6,
     )
 )
-def test_what_is_sure_is_the_onset(many):
+def test_certain_onsets_are_those_of_onset_speed(many):
     for machine, speed in zip(many, sure_onsets(many), strict=True):
         if not math.isnan(speed):
             expected = onset_speed(machine).speed
@@ -36,7 +36,7 @@ def test_what_is_sure_is_the_onset(many):
             assert speed == pytest.approx(expected, rel=error)
 
 
-def test_machines_of_all_kinds_are_sure():
+def test_onsets_of_all_kinds_of_machines_are_certain():
     """And told apart: one with no onset, and one at any speed, which is not."""
     many = [QUIET, *map(balanced, ROTORS.values()), *(p.machine for p in PRESETS.values()), QUIET]
     expected = [onset_speed(machine).speed for machine in many]
@@ -45,11 +45,11 @@ def test_machines_of_all_kinds_are_sure():
 
 
 @pytest.mark.parametrize("many", [[], [QUIET], [QUIET, QUIET]])
-def test_machines_without_an_onset(many):
+def test_machines_without_an_onset_get_infinity(many):
     assert list(sure_onsets(many)) == [math.inf] * len(many)
 
 
-def test_what_rounding_leaves_in_doubt_is_left(monkeypatch):
+def test_doubtful_onsets_are_left_to_the_single_search(monkeypatch):
     """Near the onset first, and with all that is in doubt each onset is found one by one."""
     many = [balanced(rotor) for rotor in ROTORS.values()]
     expected = [onset_speed(machine).speed for machine in many]
@@ -70,7 +70,7 @@ def test_what_rounding_leaves_in_doubt_is_left(monkeypatch):
         ([-5, -4, -3, -2, -2], True),
     ],
 )
-def test_a_hump_before_the_first_doubt_is_seen(doubt, hump):
+def test_a_hump_before_the_first_uncertain_speed_is_found(doubt, hump):
     assert list(_has_hump(np.array([doubt, [1, -3, -2, -3, 1]]))) == [hump, False]
 
 

@@ -226,7 +226,7 @@ def test_onset_puts_an_eigenvalue_on_the_imaginary_axis(machine, flexible):
 
 @few
 @given(machines(stiffness=RIGID))
-def test_a_shaft_that_must_not_bend_is_a_rigid_one(machine):
+def test_flexible_false_gives_the_onset_of_a_rigid_shaft(machine):
     rigid = onset_speed(machine)
     bending = with_rotor(machine, shaft_stiffness=1e7)
     assert onset_speed(bending, flexible=False) == rigid
@@ -263,7 +263,7 @@ def test_rigid_onset_with_damping_is_that_of_a_film_with_more_damping(machine):
 
 @few
 @given(machines(stiffness=RIGID, journals=True))
-def test_a_rigid_rotor_does_not_care_where_its_mass_is(machine):
+def test_a_rigid_rotors_results_do_not_depend_on_where_its_mass_is(machine):
     whole = onset_speed(with_rotor(machine, journal_mass=0.0))
     error = rounding(machine, whole.speed)  # m_d + M_j is M to a rounding error
     assert onset_speed(machine).speed == pytest.approx(whole.speed, rel=error)
@@ -427,7 +427,7 @@ def test_no_onset_has_no_whirl():
 
 @few
 @given(machines(damped=True, journals=True, load=loads), st.floats(-3, 3), st.booleans())
-def test_where_there_is_no_doubt_no_root_is_unstable(machine, power, flexible):
+def test_no_root_is_unstable_where_floats_prove_stability(machine, power, flexible):
     speed = 10.0**power / float(modified_sommerfeld(machine, 1.0))
     count = unstable_roots(machine, speed, flexible=flexible)
     if routh.margin_bounds(polynomial(machine, np.array(speed), flexible))[1] < 0:
@@ -435,7 +435,7 @@ def test_where_there_is_no_doubt_no_root_is_unstable(machine, power, flexible):
 
 
 @pytest.mark.parametrize("rotor", ROTORS.values(), ids=ROTORS)
-def test_there_is_no_doubt_but_beside_the_onset(rotor):
+def test_stability_is_certain_except_beside_the_onset(rotor):
     machine = balanced(rotor)
     onset = onset_speed(machine).speed
     speeds = onset * np.array([0.01, 0.1, 0.5, 1 - 1e-9, 1 + 1e-9, 1.05, 1.2, 1.5, 2, 5, 10])
@@ -445,7 +445,7 @@ def test_there_is_no_doubt_but_beside_the_onset(rotor):
     assert list(doubt > 0) == unstable
 
 
-def test_kharitonovs_polynomials_are_the_four_that_there_are():
+def test_kharitonovs_polynomials_have_the_four_patterns_of_the_theorem():
     """Even and odd part each lowest and highest on the imaginary axis, in every pair."""
     signs = routh._KHARITONOV
     assert np.all(signs[:, 2:] == -signs[:, :-2])

@@ -56,7 +56,7 @@ def test_cases_match_their_names() -> None:
 # CSV
 
 
-def test_csv_begins_with_the_mark_by_which_excel_knows_utf_8() -> None:
+def test_csv_begins_with_the_byte_order_mark_that_excel_needs() -> None:
     assert export.sweep_csv(computed("rigid"), SI).startswith(b"\xef\xbb\xbf")
 
 
@@ -340,7 +340,7 @@ def test_charts_cannot_close_the_script_that_contains_them() -> None:
 
 @every_case
 @compared
-def test_charts_are_still_and_fit_the_page(case: str, pinned: str | None) -> None:
+def test_charts_have_no_controls_and_fit_the_page(case: str, pinned: str | None) -> None:
     script = read(case, pinned).scripts[-1]
     start = script.index("{", script.index("Object.entries"))
     charts, _ = json.JSONDecoder().raw_decode(script[start:])
