@@ -8,9 +8,11 @@ import pytest
 import streamlit as st
 from starlette.types import Message
 
-from ui.serving.guard import bounds
-from ui.serving.guard.bounds import Bucket, Paced, network
+from ui.serving.guard import bounds, paced
+from ui.serving.guard.bounds import Bucket, network
+from ui.serving.guard.paced import Paced
 from ui.serving.guard.strangers import is_own_name, is_own_origin
+from ui.serving.guard.turns import Page, Sharer, Turns
 from ui.serving.settings import Limits
 
 
@@ -29,8 +31,16 @@ class Socket:
     async def send(self, message: Message) -> None:
         self.sent.append(message)
 
-    def paced(self, *buckets: Bucket, waiting: int = 5) -> Paced:
-        return Paced(self.receive, self.send, buckets=buckets, limits=Limits(waiting=waiting))
+    def paced(self, turns: Turns) -> Paced:
+        page = Page(address=Sharer(), session="page")
+        return Paced(self.receive, self.send, turns=turns, page=page, limits=Limits(waiting=5))
+
+
+def _taken() -> Turns:
+    """Return turns of which another page has one."""
+    turns = Turns()
+    turns.ask(Page(address=Sharer(), session="other"))
+    return turns
 
 
 def _said(data: bytes | None = b"run") -> Message:
@@ -54,34 +64,50 @@ def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
 
 def test_a_bucket_admits_its_burst_and_then_its_rate(clock: list[float]) -> None:
     bucket = Bucket(rate=2, burst=3)
-    assert [bucket.reserve() for _ in range(5)] == [0, 0, 0, 0.5, 1.0]
-    clock[0] = 1.0
-    assert bucket.reserve() == 0.5
+    assert [bucket.take() for _ in range(5)] == [True, True, True, False, False]
+    clock[0] = 0.5
+    assert [bucket.take() for _ in range(2)] == [True, False]
     clock[0] = 100.0
     assert [bucket.take() for _ in range(4)] == [True, True, True, False]
 
 
-def test_messages_pass_in_order_at_the_rate_of_the_tokens() -> None:
+def test_a_turn_passes_on_all_waiting_messages_and_later_ones_wait_for_the_next() -> None:
     async def go() -> None:
-        socket = Socket(_WANTED, *(_said(bytes([i])) for i in range(5)))
-        paced = socket.paced(Bucket(rate=50, burst=2), waiting=10)
+        socket = Socket(_WANTED, *(_said(bytes([i])) for i in range(3)))
+        turns, other = Turns(), Page(address=Sharer(), session="other")
+        turns.ask(other)
+        paced = socket.paced(turns)
         assert await paced.receive() == _WANTED
-        start = asyncio.get_running_loop().time()
-        assert [(await paced.receive())["bytes"][0] for _ in range(5)] == [0, 1, 2, 3, 4]
-        assert asyncio.get_running_loop().time() - start >= 0.055
-        paced.close()
+        first = asyncio.create_task(paced.receive())
+        await asyncio.sleep(0)
+        assert not first.done()
+        turns.left("other")
+        handed = [await first, await paced.receive(), await paced.receive()]
+        assert [message["bytes"][0] for message in handed] == [0, 1, 2]
+        socket.coming.put_nowait(_said())
+        fourth = asyncio.create_task(paced.receive())
+        await asyncio.sleep(0)
+        assert not fourth.done()
+        turns.left("page")
+        assert await fourth == _said()
+        await paced.close()
 
     _run(go)
 
 
-def test_a_flood_closes_its_websocket_and_stops_all_further_messages() -> None:
+@pytest.mark.parametrize("flood", [[b"run"] * 20, [bytes(1 << 20)] * 4])
+def test_a_flood_closes_its_websocket_and_stops_all_further_messages(
+    flood: list[bytes], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(paced, "HELD", 0.0)
+
     async def go() -> None:
-        socket = Socket(_WANTED, *(_said() for _ in range(20)))
-        paced = socket.paced(Bucket(rate=0.01, burst=2))
-        got = [(await paced.receive())["type"] for _ in range(5)]
-        assert got[-1] == "websocket.disconnect"
-        assert got.count("websocket.receive") <= 2
-        await paced.send({"type": "websocket.send", "bytes": b"a page"})
+        socket = Socket(_WANTED, *map(_said, flood))
+        one = socket.paced(_taken())
+        assert [(await one.receive())["type"] for _ in range(2)][-1] == "websocket.disconnect"
+        await one.send({"type": "websocket.send", "bytes": b"a page"})
+        assert socket.sent == []
+        await one.close()
         (closed,) = socket.sent
         assert closed["type"] == "websocket.close"
         assert closed["code"] == 1008
@@ -89,13 +115,22 @@ def test_a_flood_closes_its_websocket_and_stops_all_further_messages() -> None:
     _run(go)
 
 
-def test_waiting_messages_are_bounded_in_bytes() -> None:
+def test_a_flooding_websocket_stays_unread_until_it_is_closed() -> None:
     async def go() -> None:
-        socket = Socket(_WANTED, *(_said(bytes(1 << 20)) for _ in range(4)))
-        paced = socket.paced(Bucket(rate=0.01, burst=1), waiting=60)
-        while (await paced.receive())["type"] != "websocket.disconnect":
-            pass
-        assert socket.sent[0]["code"] == 1008
+        socket = Socket(_WANTED, *(_said() for _ in range(20)))
+        one = socket.paced(_taken())
+        await one.receive()
+        await one.receive()
+        closing = asyncio.create_task(one.close())
+        await asyncio.sleep(0)
+        unread = socket.coming.qsize()
+        assert unread > 10
+        socket.coming.put_nowait(_said())
+        for _ in range(10):
+            await asyncio.sleep(0)
+        assert socket.coming.qsize() == unread + 1
+        assert socket.sent == []
+        closing.cancel()
 
     _run(go)
 
@@ -103,40 +138,26 @@ def test_waiting_messages_are_bounded_in_bytes() -> None:
 def test_a_closed_page_is_noticed_before_its_waiting_messages() -> None:
     async def go() -> None:
         socket = Socket(_WANTED, *(_said() for _ in range(4)))
-        paced = socket.paced(Bucket(rate=0.01, burst=1))
-        assert [await paced.receive() for _ in range(2)] == [_WANTED, _said()]
-        waiting = asyncio.create_task(paced.receive())
+        turns = _taken()
+        one = socket.paced(turns)
+        assert await one.receive() == _WANTED
+        waiting = asyncio.create_task(one.receive())
         await asyncio.sleep(0)
         socket.coming.put_nowait(_GONE)
         assert await waiting == _GONE
-        assert await paced.receive() == _GONE
-
-    _run(go)
-
-
-def test_a_page_closed_while_waiting_costs_its_address_nothing() -> None:
-    async def go() -> None:
-        address = Bucket(rate=0.01, burst=1)
-        for _ in range(5):
-            socket = Socket(_WANTED, _said(), _said())
-            paced = socket.paced(address)
-            await paced.receive()
-            waiting = asyncio.create_task(paced.receive())
-            await asyncio.sleep(0)
-            socket.coming.put_nowait(_GONE)
-            await waiting
-            while (await paced.receive()) != _GONE:
-                pass
-        assert address.reserve() <= 100.0  # one token's time: nobody else waits
+        assert await one.receive() == _GONE
+        await one.close()
+        turns.left("other")
+        assert turns.ask(Page(address=Sharer())).done()  # it waits no more
 
     _run(go)
 
 
 def test_a_websocket_closed_at_once_still_passes_on_its_connection() -> None:
     async def go() -> None:
-        paced = Socket(_WANTED, _GONE).paced(Bucket(1, 1))
+        one = Socket(_WANTED, _GONE).paced(Turns())
         await asyncio.sleep(0.01)
-        assert [await paced.receive() for _ in range(2)] == [_WANTED, _GONE]
+        assert [await one.receive() for _ in range(2)] == [_WANTED, _GONE]
 
     _run(go)
 
@@ -144,8 +165,9 @@ def test_a_websocket_closed_at_once_still_passes_on_its_connection() -> None:
 def test_text_is_no_message_of_a_page() -> None:
     async def go() -> None:
         socket = Socket(_WANTED, _said(None))
-        paced = socket.paced(Bucket(1, 1))
-        assert [(await paced.receive())["type"] for _ in range(2)][-1] == "websocket.disconnect"
+        one = socket.paced(Turns())
+        assert [(await one.receive())["type"] for _ in range(2)][-1] == "websocket.disconnect"
+        await one.close()
         assert socket.sent[0]["code"] == 1003
 
     _run(go)

@@ -1,8 +1,9 @@
 """Hostile sessions: python -m tests.load.flood ADDRESS [--sessions 20] [--seconds 10] [--rate 0]
 
 Each asks for runs of whole pages of ever new machines, without waiting for an answer, `rate` a
-second or as fast as they are taken, and comes back when it is turned away. Printed are messages
-sent, openings and refusals.
+second or as fast as they are taken, and comes back when it is turned away. They come from this
+machine's address as everybody else, or from as many as --addresses says, where the server believes
+a proxy's X-Forwarded-For. Printed are messages sent, openings and refusals.
 """
 
 import argparse
@@ -31,10 +32,8 @@ def main() -> None:
     parser.add_argument("--sessions", type=int, default=20)
     parser.add_argument("--seconds", type=float, default=10.0)
     parser.add_argument("--rate", type=float, default=0.0)
-    asked = parser.parse_args()
-    done = asyncio.run(
-        flood(asked.address, sessions=asked.sessions, seconds=asked.seconds, rate=asked.rate)
-    )
+    parser.add_argument("--addresses", type=int, default=0)
+    done = asyncio.run(flood(**vars(parser.parse_args())))
     print(", ".join(f"{times} {what}" for what, times in done.items()))  # noqa: T201
 
 
@@ -51,24 +50,36 @@ def flooded(address: str, **options: float) -> Iterator[None]:
         process.wait()
 
 
-async def flood(address: str, *, sessions: int, seconds: float, rate: float) -> Counter[str]:
+async def flood(
+    address: str, *, sessions: int, seconds: float, rate: float, addresses: int
+) -> Counter[str]:
     """Let hostile sessions flood a server; return what they did and met."""
     done: Counter[str] = Counter()
     until = time.monotonic() + seconds
-    await asyncio.gather(*(_session(address, until, rate, done, i) for i in range(sessions)))
+    names = [f"198.51.100.{i + 1}" for i in range(addresses)] or [""]
+    await asyncio.gather(
+        *(
+            _session(address, until, rate, done, seed=i, name=names[i % len(names)])
+            for i in range(sessions)
+        )
+    )
     return done
 
 
-async def _session(address: str, until: float, rate: float, done: Counter[str], seed: int) -> None:
+async def _session(
+    address: str, until: float, rate: float, done: Counter[str], *, seed: int, name: str
+) -> None:
     parts = urlsplit(address)
     stream = urlunsplit(("ws", parts.netloc, f"{parts.path}/_stcore/stream", "", ""))
     origin = f"{parts.scheme}://{parts.netloc}"
+    headers = {"X-Forwarded-For": name} if name else {}
     numbers = itertools.count(seed * 1000)
     while time.monotonic() < until:
         try:
             async with connect(
                 stream, origin=origin, subprotocols=["streamlit", "-"],  # type: ignore[arg-type]
                 max_size=None, proxy=None, open_timeout=5, close_timeout=1,
+                additional_headers=headers,
             ) as socket:  # fmt: skip
                 done["opened"] += 1
                 ignoring = asyncio.create_task(_ignore(socket))

@@ -46,6 +46,7 @@ class Gate:
 
     def __init__(self, visitor: Callable[[], str] = lambda: "") -> None:
         self._visitor = visitor
+        self.on_leaving: Callable[[str], None] = _unheard  # called with who goes or steps aside
         self._mine = threading.local()
         self._change = threading.Lock()
         self._taken = False
@@ -130,12 +131,17 @@ class Gate:
             self._taken = False
             if self._line:
                 self._take(heapq.heappop(self._line))
+        self.on_leaving(place.visitor)
 
     def _charge(self, place: _Place, used: float) -> None:
         """Write down where on the clock a visitor's page has ended."""
         self._ends[place.visitor] = max(place.begin, self._ends.get(place.visitor, 0.0)) + used
         if len(self._ends) > _MANY:
             self._ends = {who: end for who, end in self._ends.items() if end > self._clock}
+
+
+def _unheard(_: str) -> None:
+    """Tell nobody."""
 
 
 def _session() -> str:

@@ -32,16 +32,12 @@ _LOG = ("text", "json")
 class Limits:
     """How much a replica takes; each is a variable too, ROTORCALC_MAX_SOCKETS and so on.
 
-    An address may be a whole class's. A page's messages are its runs and a heartbeat.
+    An address may be a whole class's. A page's messages are its runs, which take turns.
     """
 
     sockets: int = 400  # open at once
     sockets_address: int = 300  # of them of one address, and its burst of new ones
     openings_address: int = 5  # new ones a second of one address after that
-    messages: int = 5  # a second of one page: an arrow key held on a slider sends some ten
-    messages_burst: int = 60
-    messages_address: int = 40  # a second of one address: as many as a core computes
-    messages_address_burst: int = 60
     waiting: int = 60  # messages of one page, after which it is closed
     waiting_megabytes: int = 2  # that they may take
     upload_session: int = 4  # megabytes of files of one page

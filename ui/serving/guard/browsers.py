@@ -59,7 +59,7 @@ class OwnBrowser:
 
         async def noting(message: Message) -> None:
             nonlocal begun
-            if not begun and (session := _session(message)):
+            if not begun and (session := session_begun(message)):
                 self._note(secret, session)
                 begun = True
             await send(message)
@@ -101,7 +101,7 @@ def _secret(scope: Scope) -> str | None:
     return cookie.value if cookie and _SECRET.fullmatch(cookie.value) else None
 
 
-def _session(message: Message) -> str:
+def session_begun(message: Message) -> str:
     """Return the session that a message to a browser begins or takes up again, or ""."""
     try:
         return ForwardMsg.FromString(message.get("bytes") or b"").new_session.initialize.session_id
