@@ -143,10 +143,10 @@ class Sweep(Result):
         Returns
         -------
         pandas.DataFrame
-            Columns "speed [rad/s]", "stiffness_XY [N/m]" and so on. Responses stand as amplitude
-            [m], zero to peak, and phase lag [rad], of X behind cos Ωt and of Y behind sin Ωt,
-            unwrapped over the sweep, as in a Bode plot. The flexible rotor's eigenvalues
-            stand as real and imaginary parts, each mode followed over the sweep.
+            Columns "speed [rad/s]", "stiffness_XY [N/m]" and so on. Responses are given as
+            amplitude [m], zero to peak, and phase lag [rad], of X behind cos Ωt and of Y behind
+            sin Ωt, unwrapped over the sweep, as in a Bode plot. The flexible rotor's eigenvalues
+            are given as real and imaginary parts, each mode followed over the sweep.
 
         Raises
         ------

@@ -21,7 +21,7 @@ def real_array(name: str, values: ArrayLike, *, ends: tuple[int, ...] = ()) -> A
     NumPy alone would read "6000", True and None as numbers. `ends` is the shape of each value, (2,)
     of vectors and (2, 2) of matrices.
     """
-    # The common cases, without the checks below: a film asks this 30 times a speed.
+    # The common cases, without the checks below: a film calls this 30 times per speed.
     kind = type(values)
     if kind is np.ndarray and cast("Array", values).dtype is _FLOAT:
         array = cast("Array", values)

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from rotorcalc.arrays import Array, real_array
 
-# What a film makes of floats, two matrices and a vector a speed, needs no closer look.
+# Types of a film's own results, two matrices and a vector per speed: they need no conversion.
 _SURELY_NUMBERS = frozenset({float, np.float64, np.ndarray})
 
 

@@ -14,7 +14,7 @@ from rotorcalc.units import rpm
 
 @dataclass(frozen=True, kw_only=True)
 class Preset:
-    """A named machine with the speeds at which to look at it.
+    """A named machine with its running speed and the top speed of its charts.
 
     Attributes
     ----------

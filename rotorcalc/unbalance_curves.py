@@ -378,7 +378,7 @@ def damping_reference(machine: Machine) -> float:
 def damping_variants(machine: Machine) -> tuple[Rotor, ...]:
     """Return the rotor, then variants with midspan damping of 0 to ½ `damping_reference`."""
     rotor, unit = machine.rotor, damping_reference(machine)
-    # Two digits, as these values stand in the chart's legend.
+    # Two digits, as these values are shown in the chart's legend.
     dampings = [float(f"{share * unit:.2g}") for share in _DAMPING]
     others = (replace(rotor, disk_damping=value) for value in dampings)
     return (rotor, *(other for other in others if other != rotor))

@@ -32,7 +32,7 @@ class Check(Result):
     Attributes
     ----------
     name : str
-        What is checked, in words with its symbol.
+        The quantity checked, in words and by its symbol.
     value : array, (...)
         The number compared with the limits [-].
     caution, limit : array, (...)
@@ -70,9 +70,9 @@ def validity(sweep: Sweep) -> tuple[Check, ...]:
     Returns
     -------
     tuple of Check
-        What the film model assumes of the bearing, for the short one length over diameter;
+        The film model's own assumptions about the bearing, such as L/D for the short one; the
         Reynolds number of the film, ρΩRC/μ, against that at which Taylor's vortices appear,
-        41.1√(R/C) (Taylor 1923), with turbulence at 2000; smallest film against an assumed
+        41.1√(R/C) (Taylor 1923), with turbulence at 2000; the smallest film against an assumed
         roughness of 1 µm, full film above 3 of it, and against the clearance; the journal's
         imbalance orbit and the rotor's static sag against the clearance. Numbers and verdicts
         have the shape (...).

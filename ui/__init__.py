@@ -1,11 +1,12 @@
 """Where Streamlit meets the core: widgets to records, charts, the address bar, export.
 
 A page is a function of its `page.Page`, which has the machine, its results, and the methods that
-show them. `page.show` draws navigation and sidebar, and the page anew at each move of a slider.
+show them. `page.show` draws navigation and sidebar, and redraws the content at each move of a
+slider.
 """
 
 import os
 
 # Before NumPy is imported. Its small matrices gain nothing from threads, which wait for each other
-# by turning idly: two computations side by side took seven times as long with two threads each.
+# by busy waiting: two computations side by side took seven times as long with two threads each.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")

@@ -1,4 +1,4 @@
-"""The kind of a bearing among the kept values: its word, the fields of its bore, its film model.
+"""The kept values of a bearing: its kind, the fields of its bore, its film model.
 
 A kind's fields stand beside the inputs under their own names, in the units of the address bar:
 angles in °, lengths in mm, clearances and depths in µm, pressures in MPa, flows in l/min.
@@ -14,7 +14,7 @@ from rotorcalc.geometry import Geometry
 from rotorcalc.records import Bound, Rule, rules
 from rotorcalc.units import SI, Unit, Units
 
-# A number; a word; or None for what follows from the rest, as a load from the rotor's weight.
+# A number; a word; or None for a value that follows from others, as a load from the weight.
 Value = float | str | None
 Values = dict[str, Value]
 
@@ -59,7 +59,7 @@ class Field:
         return float(f"{float(self.unit(SI).of(value)):.14g}")  # type: ignore[arg-type]
 
     def taken(self, word: object) -> Value:
-        """Return what a link or a file says as it is kept, or raise ValueError in words."""
+        """Return the kept value of a link's or a file's text, or raise ValueError."""
         # A link has no None; "none" is its word for it.
         if self.rule.optional and word in (None, "none"):
             return None
@@ -112,7 +112,7 @@ def bearing_values(bearing: JournalBearing) -> Values:
 
 
 def defaults_of(kind: str) -> Values:
-    """Return the kept values of a kind of bearing as it is by itself."""
+    """Return the default values of a kind of bearing."""
     return {KIND: kind, FILM: None} | {
         key: field.kept(field.rule.default)
         for key, field in fields_of(kind).items()
@@ -121,7 +121,7 @@ def defaults_of(kind: str) -> Values:
 
 
 def without_shape(values: Mapping[str, Value]) -> Values:
-    """Return kept values without kind, film model and fields of their bearing."""
+    """Return kept values without the kind, film model and fields of their bearing."""
     shape = {KIND, FILM, *fields_of(values[KIND])}
     return {key: value for key, value in values.items() if key not in shape}
 
@@ -138,7 +138,7 @@ def shape_of(values: Mapping[str, Value]) -> tuple[Geometry, str | None]:
 
 
 def written(value: Value) -> str:
-    """Return a kept value as a link has it: as short as it can be exactly."""
+    """Return a kept value as written in a link: the shortest text that gives it exactly."""
     if value is None or isinstance(value, str):
         return value or "none"
     # NaN equals nothing, itself included, and has no longer form.

@@ -54,13 +54,13 @@ T = TypeVar("T")
 
 # Points of a sweep: enough for a smooth line across a projector.
 POINTS = 240
-# The notes' figures run over these modified Sommerfeld numbers.
+# The notes' figures span these modified Sommerfeld numbers.
 _SOMMERFELD = np.geomspace(1e-2, 1e2, POINTS)
 # 100, 200, 500 … 50000 rpm, to mark on the journal's locus.
 _ROUND_SPEEDS = np.array([a * 10.0**b for b in (2, 3, 4) for a in (1, 2, 5)]) * math.pi / 30
 # From close to the wall, ε = 0.997, to near the centre.
 _TO_THE_WALL = np.geomspace(1e-5, 1e2, POINTS)
-# Around and along the film: every two degrees, every twentieth of the length.
+# Around the film every two degrees, along it every twentieth of the length.
 _THETA = np.linspace(0.0, 2.0 * np.pi, 181)
 # The wall, every degree: a square bore's corners are among them.
 _AROUND = np.linspace(0.0, 2.0 * np.pi, 361)
@@ -68,7 +68,7 @@ _ZETA = np.linspace(-0.5, 0.5, 21)
 
 
 class Computed:
-    """A machine at its running speed, with all that the pages show of it."""
+    """A machine at its running speed, with all results that the pages show."""
 
     def __init__(self, machine: Machine, speed: float, top_speed: float) -> None:
         self.machine = machine
@@ -111,7 +111,7 @@ class Computed:
 
     @property
     def path(self) -> Path:
-        """Where the journal sits over speed, within the wall."""
+        """The journal's equilibrium over speed, and the wall."""
         outline = film_of(self.machine.bearing).outline(_AROUND)
         return Path(self.curves, self.sweep, self.at_round_speeds, outline)
 
@@ -122,7 +122,7 @@ class Computed:
 
     @cached_property
     def force_curves(self) -> FilmForces:
-        """The film's forces at the running speed, wherever its journal may sit."""
+        """The film's forces at the running speed, from close to the wall to near the centre."""
         return _from_first_answer(
             lambda sigma: film_forces(self.machine, self.speed, sommerfeld=sigma), _TO_THE_WALL
         )
@@ -321,9 +321,9 @@ def _curves(bearing: JournalBearing, lowest: int, highest: int) -> FilmCurves:
 
 
 def _from_first_answer(ask: Callable[[Array], T], values: Array) -> T:
-    """Return what a film answers at rising σ or speeds, from the first at which it does.
+    """Return a film's results at rising σ or speeds, from the first at which it gives any.
 
-    A film can refuse what presses the journal too far: too heavy a load, too low a speed.
+    A film can refuse too heavy a load or too low a speed, at which the journal nears the wall.
     """
     # All at once first: only a film that refuses some of them is asked one by one.
     with suppress(ValueError):

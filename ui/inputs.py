@@ -1,8 +1,8 @@
 """The inputs of the sliders: their keys, symbols, units, ranges and groups.
 
 A value is kept in the unit of the address bar (SI as engineers write it: mm, µm, mPa·s, rpm), under
-its key there; what shapes a bearing's bore besides is in `ui.bearing`. `machine_of` and `values_of`
-lead from such values to the core's records and back: here a slider's value becomes a machine.
+its key there; the fields of a bearing's bore are in `ui.bearing`. `machine_of` and `values_of`
+convert such values to the core's records and back: here a slider's value becomes a machine.
 """
 
 import functools

@@ -55,5 +55,5 @@ def compared(draw: Draw, computed: Computed, baseline: Computed | None) -> Chart
         return chart
     try:
         return with_baseline(chart, draw(baseline))
-    except ValueError:  # what the pinned machine's film does not know
+    except ValueError:  # the pinned machine's film does not give this result
         return chart

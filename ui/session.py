@@ -40,12 +40,13 @@ class Session:
     token: str = field(default_factory=secrets.token_urlsafe)
     # Whether the page's content runs together with its frame the next time.
     whole: bool = False
-    # How often a page's frame was drawn: whether sliders or preview know better what a value is.
+    # Number of the frame drawn last. Of sliders and preview of one frame, the preview's values are
+    # the newer.
     frame: int = 0
-    # Long computations: what a visitor has asked for, by its button, and those not yet ended.
+    # Long computations: those requested, by button, and those that have begun and not ended.
     asked: dict[str, str] = field(default_factory=dict)
     begun: set[str] = field(default_factory=set)
-    # What was chosen beside the machine, as far as a page on which it is not shown needs it.
+    # Choices beside the machine, such as a release's length, kept while another page is shown.
     chosen: dict[str, float] = field(default_factory=dict)
     # The page whose sidebar was drawn last, and whether the visitor has just come to another.
     page: str = ""
@@ -57,7 +58,7 @@ class Session:
         return SYSTEMS[self.units_name]
 
     def set_value(self, key: str, value: Value) -> None:
-        """Keep a moved value, and drop the problems of a link or a file, by now read."""
+        """Keep a moved value, and drop the messages about a link or a file."""
         self.values[key] = value
         self.problems.clear()
 
@@ -115,7 +116,7 @@ class Session:
         }  # fmt: skip
 
     def recall(self, kept: object) -> None:
-        """Restore what a browser kept, as far as it is valid: it is untrusted."""
+        """Restore the valid part of what a browser kept, which is untrusted."""
         given: dict[str, Any] = kept if isinstance(kept, dict) else {}
         if isinstance(pinned := given.get("pinned"), dict):
             self.baseline = address.read({key: str(word) for key, word in pinned.items()}).values
@@ -126,7 +127,7 @@ class Session:
         self.chosen = _words(given.get("chosen"), (int, float))
 
     def choice(self, key: str, default: Number, low: Number, high: Number) -> Number | None:
-        """Return with what a widget of a key begins: nothing where it is there already."""
+        """Return the initial value of a widget; None where the widget already has one."""
         if key in st.session_state:
             return None
         value = self.chosen.setdefault(key, default)
@@ -152,7 +153,7 @@ def session() -> Session:
 
 
 def write_address_bar() -> dict[str, str]:
-    """Put the whole machine into the address bar, where it is not there yet; return it."""
+    """Write the machine to the address bar if it differs; return the query parameters."""
     visitor = session()
     params = address.write(visitor.preset, visitor.values, visitor.units_name)
     # Streamlit sends the address bar to the browser at each assignment, changed or not.

@@ -31,7 +31,7 @@ _FIRST_STEP, _LONGEST_STEP, _SHORTEST_STEP = 0.02, 0.035, 1e-5
 _FEW, _LONGER, _SHORTER = 6, 1.5, 0.4
 # Minimum film over clearance at which a branch ends: the limit that `validity` sets.
 _NEAREST_WALL = 0.03
-# No known branch has so many cycles; the bound only stops a branch that never ends.
+# Known branches have fewer cycles; the bound only stops a branch that never ends.
 _MOST_CYCLES = 2000
 
 

@@ -83,8 +83,8 @@ def energy_balance(machine: Machine, motion: Transient) -> EnergyBalance:
     Returns
     -------
     EnergyBalance
-        Stored energy and the load's work from the samples, the other works integrated anew between
-        them. Over an interval each term is the difference of two samples.
+        Stored energy and the load's work are taken from the samples; the other works are integrated
+        between them. Over an interval each term is the difference of two samples.
 
     Raises
     ------

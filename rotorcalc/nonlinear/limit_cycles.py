@@ -203,7 +203,7 @@ def sweep(branch: Bifurcation, speed: ArrayLike, *, down: bool = False) -> Array
         sizes, stable = branch.at(float(speed[i]))
         held = np.append(sizes[stable], [0.0] if speed[i] < branch.hopf.speed else [])
         if len(held):
-            # The state nearest to the last one stands for the one that the motion falls into.
+            # Of several stable states the one nearest to the last is taken as the one reached.
             last = reached[i] = float(held[np.argmin(np.abs(held - last))])
     return reached
 

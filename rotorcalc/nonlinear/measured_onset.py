@@ -27,7 +27,7 @@ from rotorcalc.nonlinear.transient import TransientError, simulate, start_on_mod
 from rotorcalc.onset.closed_form import closed_form_onset, covers
 from rotorcalc.onset.search import searched_onset
 
-# The initial whirl, in clearances, and at most in minimum film thicknesses: so small that its
+# The initial whirl, in clearances, and its bound in minimum film thicknesses: so small that its
 # growth is linear to a millionth of |λ|, yet large against the integrator's errors.
 _WHIRL, _OF_FILM = 1e-4, 1e-2
 # Observed time: _WHIRLS periods of whirl, or _LIFETIMES of 1/|growth rate| if shorter; at least
@@ -111,7 +111,7 @@ def onsets(machine: Machine, *, progress: Callable[[float], object] | None = Non
     machine : Machine
         The machine; its imbalance plays no part.
     progress : callable or None
-        Called now and then with the share done, 0 to 1. What it raises ends the work.
+        Called repeatedly with the share done, 0 to 1. An exception that it raises ends the work.
 
     Returns
     -------
@@ -153,8 +153,8 @@ def measured_growth(machine: Machine, speed: float) -> float:
     Returns
     -------
     float
-        Growth rate [1/s] of a whirl of a ten-thousandth of the clearance. Not a number where no
-        mode oscillates, where two whirls take more than 400 revolutions or a revolution more than
+        Growth rate [1/s] of a whirl of a ten-thousandth of the clearance. NaN where no mode
+        oscillates, where two whirls take more than 400 revolutions or a revolution more than
         400 whirls (that bounds the cost), or where the motion cannot be integrated.
 
     Raises
@@ -193,7 +193,7 @@ def _watched(expected: complex, speed: float) -> float:
     """Return the time for which to observe a mode [s], NaN where that would take too long."""
     whirl, revolution = 2.0 * math.pi / expected.imag, 2.0 * math.pi / speed
     time = _WHIRLS * whirl
-    # A fast decay leaves nothing to measure after some lifetimes, a fast growth is linear no more.
+    # After a few lifetimes a decay leaves nothing to measure, and a growth is no longer linear.
     if expected.real != 0.0:
         time = min(time, _LIFETIMES / abs(expected.real))
     if time > _MOST * revolution:
@@ -214,13 +214,13 @@ def measured_onset(
     near : float
         First guess [rad/s].
     progress : callable or None
-        Called now and then with the share done, 0 to 1. What it raises ends the work.
+        Called repeatedly with the share done, 0 to 1. An exception that it raises ends the work.
 
     Returns
     -------
     float
-        Speed [rad/s] to a millionth; not a number where the whirl grows, or dies, at every speed
-        from half to twice the one to begin with.
+        Speed [rad/s] to a millionth; NaN where the whirl grows, or dies, at every speed
+        from half to twice the first guess.
     """
     releases = 0
 

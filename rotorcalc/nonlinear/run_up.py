@@ -1,7 +1,7 @@
 """A run-up to the top speed, and the spectra that an engineer would record along it.
 
 Model: the nonlinear motion of `transient` at evenly rising speed; a balanced rotor is stirred by a
-small imbalance, for a perfect one would never leave its rest.
+small imbalance, as a perfectly balanced one would never leave its equilibrium.
 """
 
 import math
@@ -17,7 +17,7 @@ from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.signals import Waterfall, waterfall
 from rotorcalc.nonlinear.transient import simulate
 
-# A run-up begins at this share of its end, and takes so many revolutions.
+# Initial over final speed, and the number of revolutions.
 FROM, REVOLUTIONS = 0.3, 1600
 # The imbalance of a balanced rotor, in clearances.
 _STIR = 1e-3
@@ -60,12 +60,12 @@ def run_up(
     top_speed : float
         Speed at the end [rad/s].
     progress : callable or None
-        Called now and then with the share done, 0 to 1. What it raises ends the work.
+        Called repeatedly with the share done, 0 to 1. An exception that it raises ends the work.
 
     Returns
     -------
     RunUp
-        Without onset and running speed, which are left to who knows them.
+        Onset and running speed are NaN: the caller sets them.
 
     Raises
     ------

@@ -187,7 +187,7 @@ def free_modes(
     rest : array_like, (2,) or None
         Where the journal would rest [m]; None fits it with the modes.
     revolutions : int or None
-        Take the first so many; None for all.
+        How many revolutions to take, from the start; None for all.
 
     Returns
     -------
@@ -253,7 +253,7 @@ def growth(
     rest : array_like, (2,) or None
         Where the journal would rest [m]; None fits it with the modes.
     revolutions : int or None
-        Take the first so many; None for all.
+        How many revolutions to take, from the start; None for all.
 
     Returns
     -------

@@ -54,7 +54,7 @@ def _shown(key: str, values: Values, units: Units) -> str:
 
 
 def _bearings(pinned: Values, live: Values, units: Units) -> list[dict[str, str]]:
-    """Return what differs in the kind of the bearing, its film model and its fields."""
+    """Return the differences in the bearing's kind, film model and fields."""
     rows = [(word.capitalize(), f"{pinned[word]}", f"{live[word]}")
             for word in (KIND, FILM) if pinned[word] != live[word]]  # fmt: skip
     # Bearings of two kinds have different fields: one that is missing is shown as a dash.

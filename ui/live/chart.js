@@ -1,17 +1,17 @@
-// A chart: Plotly redraws it in the same element, so that zoom and hidden lines stay.
+// A chart: Plotly redraws it in the same element, which keeps zoom and hidden lines.
 //
 // `data` is JSON in UTF-8: key, chart (data, layout, frames), config, alt, and the
 // addresses of Plotly and of move.js.
 
 const FAILED = "This chart could not be drawn: Plotly's script did not load. Reload the page.";
-// Milliseconds that a moved picture rests before Plotly draws it.
+// Milliseconds without a change after which Plotly draws a moved chart.
 const WHILE = 300;
-// How many charts are being drawn: sliders wait for them.
+// Number of charts being drawn: sliders wait for them.
 window.rotorcalcDrawing ??= 0;
 // Charts by key, for the preview.
 window.rotorcalcCharts ??= new Map();
 
-let loading; // one script a page
+let loading; // the script is loaded once per page
 function plotly(address) {
   if (window.Plotly) return Promise.resolve(window.Plotly);
   loading ??= new Promise((resolve, reject) => {
@@ -50,7 +50,7 @@ function differ(a, b) {
   return JSON.stringify(a) !== JSON.stringify(b);
 }
 
-// Plotly keeps a zoom only where it is given the range that stood before.
+// Plotly keeps a zoom only if it is given the same range as before.
 function keepZoom(chart, { layout }) {
   for (const [name, range] of chart.ranges) {
     if (layout[name] && differ(chart.element.layout[name]?.range, range)) layout[name].range = [...range];
@@ -66,8 +66,8 @@ async function redrawn(Plotly, chart, { chart: figure, config }) {
   delete chart.element.dataset.moved;
 }
 
-// Moves the picture where that will do, and lets Plotly draw it when nothing has come for a while:
-// what is hovered, zoomed or saved is Plotly's own.
+// Moves the existing SVG where possible, and lets Plotly draw the chart after a pause: hovering, zooming and
+// saving use Plotly's own data, not the SVG.
 async function redraw(chart, wanted) {
   const { shown } = chart;
   clearTimeout(chart.due);
@@ -81,7 +81,8 @@ async function redraw(chart, wanted) {
   }
 }
 
-// Draws what is wanted last; what came while it drew is drawn next, and what lies between never.
+// Draws the latest figure. Of those that arrive meanwhile only the last is drawn: a slow browser skips figures
+// instead of falling behind.
 function draw(chart, wanted) {
   chart.wanted = wanted;
   chart.drawing ??= drawn(chart).finally(() => {

@@ -27,7 +27,7 @@ def show(chart: Chart, *, key: str, alt: str, config: dict[str, Any]) -> None:
 def encoded(message: dict[str, Any]) -> bytes:
     """Return a message as JSON with its arrays as Plotly's script reads them, in single precision.
 
-    Seven digits are more than a screen shows, and half of what double precision takes.
+    Seven digits are more than a screen shows, at half the bytes of double precision.
     """
     return orjson.dumps(message, default=_array)
 

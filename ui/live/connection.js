@@ -1,16 +1,16 @@
-// The connection to the server: how soon it is back, and what the browser keeps for a server that knows nothing.
+// The connection to the server: fast reconnection, and the state kept here for a server without the session.
 //
-// A server that was restarted, or stands in for another, has no session of this page. What a session holds beside
-// the address bar is kept here, and given to Streamlit as this component's state when the connection is lost: it
-// goes out with the run that Streamlit asks for when the connection is back.
+// A server that was restarted, or that replaces another, has no session of this page. The session's state beside the
+// address bar is kept here. When the connection is lost it becomes this component's state in Streamlit, which sends
+// it with the first run after reconnection.
 //
-// Streamlit looks for a lost server up to four seconds apart, waits fifteen for one that is silent, and does not
-// notice a connection that has died without a word. So the server is asked here too. Where it answers and Streamlit
-// has no connection, Streamlit begins a new one at once; where it has one, that must answer a heartbeat. Both are
-// messages that Streamlit takes from a page around it (ui/serving/own_origin.py lets this page be that).
+// Streamlit tries a lost server every four seconds at most, waits fifteen for a silent one, and does not notice a
+// connection that was cut without a close. So this script asks too: if the server answers while Streamlit has no
+// connection, Streamlit is told to open one at once; an open connection must answer a heartbeat. Streamlit accepts
+// both messages from a page that embeds it (ui/serving/own_origin.py makes this page count as one).
 
-// Milliseconds: between two looks at a server that is gone, and as long as a look may take; what a new connection
-// gets to come about; for a heartbeat's answer, which stands behind what a run sends.
+// Milliseconds: between two requests to a lost server, and the longest that one may take; for a new connection to
+// open; for a heartbeat's answer, and during a run, whose messages are sent before it.
 const LOOK = 1000;
 const BEGIN = 3000;
 const PATIENCE = 4000;
@@ -35,7 +35,7 @@ class Connection {
   }
 
   update({ kept, health }, keep) {
-    this.kept = kept ?? this.kept; // a server that knew nothing of the session has nothing to tell
+    this.kept = kept ?? this.kept; // a server without the session sends nothing
     this.health = health;
     this.keep = keep;
   }

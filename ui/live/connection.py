@@ -1,8 +1,8 @@
 """The browser's connection: fast reconnection, and what the browser keeps for another server.
 
-A session goes with its server. What it held beside the address bar is told to the browser here with
-each run of the whole page, and comes back with the first run that a server without that session
-makes; `connection.js` says how.
+A session is lost with its server. Its state beside the address bar is sent to the browser with each
+run of the whole page, and returned with the first run on a server without that session; see
+`connection.js`.
 """
 
 from typing import Any
@@ -20,7 +20,7 @@ _component = component("rotorcalc.connection", js=assets.module("connection"), i
 def show(kept: dict[str, Any] | None) -> object:
     """Give the browser what to keep, or nothing yet; return what it kept, which is untrusted.
 
-    It kept nothing, None, before its connection was lost for the first time.
+    None before its connection was lost for the first time.
     """
     health = make_url_path(st.get_option("server.baseUrlPath") or "", "_stcore/health")
     state = _component(key=_KEY, data={"kept": kept, "health": health}, on_kept_change=lambda: None)

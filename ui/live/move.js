@@ -1,18 +1,18 @@
-// Moves a drawn chart to another machine's, in a tenth of the time that Plotly needs to draw it anew.
+// Updates a drawn chart to another machine, in a tenth of the time that Plotly needs to redraw it.
 //
-// Lines, points, notes and shapes go to their new places in the picture as it stands. Where that cannot
-// be done Plotly draws at once, and elsewhere when nothing has moved for a while.
+// Lines, points, annotations and shapes are moved in the existing SVG. Where that is not possible Plotly redraws
+// at once, otherwise after a pause.
 //
-// Written for plotly.js of the Python package plotly 7.1.0: it reads _fullLayout and _fullData, the names
-// and the order of the classes in the SVG, and where uid, data-index and data-unformatted stand, none of
-// which Plotly promises to keep. After an update run tests/browser/test_live.py, then change the number.
+// Written for plotly.js of the Python package plotly 7.1.0: it relies on _fullLayout and _fullData, on the classes
+// of the SVG and their order, and on uid, data-index and data-unformatted, none of which is part of Plotly's API.
+// After an update run tests/browser/test_live.py, then change the number.
 
-// Seen only under a pointer, and that is on a thumb.
+// Shown on hovering only, and the pointer is on a slider.
 const HOVERED = new Set(["customdata", "hovertemplate"]);
 const TRACE = new Set(["x", "y", "text", "name", ...HOVERED]);
 const NOTE = new Set(["x", "y", "ax", "ay", "text"]);
 const SHAPE = new Set(["x0", "x1", "y0", "y1"]);
-// Beside these a layout may differ in its notes and shapes alone.
+// Only these parts of a layout may differ: notes and shapes are moved, an animation's slider waits for Plotly.
 const LAYOUT = new Set(["annotations", "shapes", "sliders"]);
 
 class Fixed extends Error {}
@@ -32,7 +32,7 @@ function changes(before, now, known) {
   return changed;
 }
 
-// Calls `act` with each item that has changed, its place, and what has changed of it.
+// Calls `act` with each changed item, its index, and the names of its changed properties.
 function each(before, now, known, act) {
   need((before?.length ?? 0) === (now?.length ?? 0));
   now?.forEach((item, i) => {
@@ -41,7 +41,7 @@ function each(before, now, known, act) {
   });
 }
 
-// An array as it travels: itself, or its numbers' bytes.
+// An array as the server sends it: a list, or its numbers in base64.
 function numbers(array) {
   if (!array.bdata) return array.map((value) => value ?? NaN);
   const bytes = Uint8Array.from(atob(array.bdata), (letter) => letter.charCodeAt(0));
@@ -52,7 +52,7 @@ function axis(gd, name) {
   return gd._fullLayout[`${name[0]}axis${name.slice(1)}`];
 }
 
-// Where a value of an axis, or a share of the plot, stands in the picture.
+// Pixel position of a value on an axis, or of a share of the plot.
 function at(gd, letter, reference, value) {
   const { l, t, w, h } = gd._fullLayout._size;
   if (reference === "paper") return letter === "x" ? l + value * w : t + (1 - value) * h;
@@ -60,7 +60,7 @@ function at(gd, letter, reference, value) {
   return found._offset + found.d2p(value);
 }
 
-// Overwrites words that are all plain or all bold.
+// Overwrites a text that is all plain or all bold.
 function say(node, text) {
   const [, bold, words] = text.match(/^(<b>)?([^<&]*)(?:<\/b>)?$/) ?? [];
   const place = bold ? node.querySelector("tspan") : node;
@@ -107,7 +107,7 @@ function moveTrace(gd, trace, i, changed) {
   }
 }
 
-// A note is drawn where it first stood, and carried from there.
+// A note is drawn at its first position and translated from there.
 function moveNote(gd, note, i, changed) {
   const group = gd.querySelector(`.annotation[data-index="${i}"]`);
   if (changed.includes("text")) say(group.querySelector(".annotation-text"), note.text);
@@ -136,7 +136,7 @@ function moveShape(gd, shape, i) {
   }
 }
 
-// Moves a chart from the figure that it shows to another, or returns false.
+// Updates a chart from the figure that it shows to another; returns false where only Plotly can.
 export function move(gd, before, { data, layout }) {
   try {
     changes(before.layout, layout, LAYOUT);

@@ -1,20 +1,20 @@
-// The preview: what a page would show for the value to which a slider is being dragged.
+// The preview: a page's charts and numbers at the value to which a slider is being dragged.
 //
-// While a slider is dragged the server is asked for charts and numbers, past Streamlit's own running of the page.
-// Charts are redrawn, numbers overwritten where they stand, and what has no preview is dimmed. When the slider has
-// been released and the page has run, what the page says holds again.
+// While a slider is dragged, charts and numbers are requested from the server without a run of the page by Streamlit.
+// Charts are redrawn, numbers overwritten in place, and parts without a preview dimmed. After release, when the page
+// has run, its own content applies again.
 //
-// A released slider sends its value through this component, because Streamlit then runs only the part of the page
-// in which the component stands, and not the sidebar; the answer has the value of every slider.
+// A released slider sends its value through this component, because Streamlit then runs only the fragment that
+// contains the component, and not the sidebar; the answer has the value of every slider.
 
 const STYLE = `
 .rotorcalc-dragging :is([data-testid=stAlert], [data-testid=stMetricDelta], .katex-display, [data-testid=stTable]) {
   opacity: 0.35;}
 `;
 
-// Milliseconds: a connection can die without a word. Sliders then send through Streamlit.
+// Milliseconds to wait, as a connection can be lost without an error. Sliders then send through Streamlit.
 const PATIENCE = 5000;
-const MARK = "\u200b"; // takes no room
+const MARK = "\u200b"; // of zero width
 
 function textOf(element) {
   const walker = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
@@ -23,7 +23,7 @@ function textOf(element) {
 
 class Preview {
   constructor() {
-    this.written = new Map(); // text nodes: what the page said, and what is written over it
+    this.written = new Map(); // text nodes: the page's own text, and the one written over it
   }
 
   update(common, values, send) {
@@ -31,7 +31,7 @@ class Preview {
     for (const { slider } of document.querySelectorAll(".live-slider")) slider.rest();
   }
 
-  // Ends when the answer is drawn; false where there is none to be had.
+  // Resolves when the answer is drawn; false where there is none.
   async show(name, value) {
     if (!this.available) return false;
     const asked = new URLSearchParams({ name, value });
@@ -43,7 +43,7 @@ class Preview {
       return false;
     }
     if (answer.status !== 200) {
-      this.available = false; // not known there: sliders send through Streamlit
+      this.available = false; // the server does not know this page: sliders send through Streamlit
       return false;
     }
     const { charts, rows } = await answer.json();
@@ -57,7 +57,7 @@ class Preview {
     return true;
   }
 
-  // Marked as ours: the page may come to say the same itself.
+  // Marked, to tell it from the same text written by the page.
   write(node, words) {
     const text = `${words}${MARK}`;
     if (!node || node.nodeValue === text) return;
@@ -66,7 +66,7 @@ class Preview {
     this.written.set(node, { said, text });
   }
 
-  // The page knows only what it said itself: where it has said nothing new, that holds again.
+  // Streamlit updates only the texts that differ from its own last ones; the others are restored here.
   settle() {
     for (const [node, { said, text }] of this.written) if (node.nodeValue === text) node.nodeValue = said;
     this.written.clear();

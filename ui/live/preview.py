@@ -1,9 +1,9 @@
 """The preview in a browser: charts and numbers at the value of a slider being dragged.
 
-While a slider is dragged the browser asks the server at `path()` for what a value would give, with
-the token of the page's session, past all of Streamlit's own running and drawing, and draws the
-answer. Nothing of that is kept. The value on release comes through Streamlit, by this component:
-then only that part of the page runs in which it was shown, and the sidebar is left as it stands.
+While a slider is dragged the browser requests charts and numbers at the slider's value from
+`path()`, with the token of the page's session, and draws the answer; Streamlit takes no part, and
+nothing is stored. The value on release comes through Streamlit, by this component: then only the
+fragment that holds it runs, and the sidebar stays as it is.
 """
 
 import asyncio
@@ -34,7 +34,7 @@ class Preview(Protocol):
     def at(self, name: str, value: str) -> dict[str, Any]:
         """Return {"charts": {key: chart}, "rows": {key: numbers as text}} at one input's value.
 
-        Raises ValueError where the value is none, lies outside its range or makes no machine.
+        Raises ValueError where the value is no number, out of range, or gives no valid machine.
         """
         ...
 
@@ -92,7 +92,7 @@ def _packed(token: str, preview: Preview, name: str, value: str) -> bytes:
     try:
         with one_at_a_time.PAGES.through(token):
             shown = preview.at(name, value)
-    except ValueError:  # said in words when the slider is released
+    except ValueError:  # reported when the slider is released
         shown = {"charts": {}, "rows": {}}
     # Compressed at the fastest level; Streamlit would use the smallest, ten times slower.
     return gzip.compress(encoded(shown), compresslevel=1, mtime=0)

@@ -1,12 +1,12 @@
-// Sliders that send while they move, each with a field to type its value in.
+// Sliders that send while they are dragged, each with a field for typing its value.
 //
-// While a slider is dragged its values go to the page's preview, where there is one. Otherwise, and on release, the
-// slider sends {name, value, dragging, number}, and the server answers with `number` as `echo`. It sends through the
-// preview's component, or by itself where there is none yet or where the page is running: that run ends then, and the
-// whole page runs.
+// While a slider is dragged its values go to the page's preview, if there is one. Otherwise, and on release, the
+// slider sends {name, value, dragging, number}, and the server returns `number` as `echo`. It sends through the
+// preview's component; where there is none yet, or the page is running, it sends itself, which ends that run and
+// starts one of the whole page.
 //
-// The next value goes out only when the last one's answer is drawn: a slow server makes fewer updates, never a
-// queue. The last value always goes out, with dragging = false.
+// The next value is sent only when the answer to the last one is drawn: a slow server makes fewer updates, never a
+// queue. The final value is always sent, with dragging = false.
 
 const STYLE = `
 .live-slider {display: grid; grid-template-columns: 1fr 4.6rem; gap: 0.2rem 0.6rem; align-items: center;
@@ -22,7 +22,7 @@ const STYLE = `
 .live-slider input:disabled {opacity: 0.5;}
 `;
 
-// The value at a place of the range, and the place of a value.
+// Conversion between a value and a position of the range input.
 function scale({ low, high, step, log, beyond }) {
   if (log) {
     const last = Math.round(Math.log10(high / low) * step);
@@ -55,7 +55,7 @@ function connected() {
   return document.querySelector('[data-testid="stApp"]')?.dataset.testConnectionState === "CONNECTED";
 }
 
-// Which of the page's frames is shown, and of which session.
+// Session and number of the frame that is shown.
 function drawing() {
   const preview = window.rotorcalcPreview;
   return preview && `${preview.token} ${preview.frame}`;
@@ -72,18 +72,18 @@ class Slider {
       { type: "text", inputMode: "decimal", autocomplete: "off" });
     this.range = Object.assign(document.createElement("input"), { type: "range", id });
     this.root.append(this.label, this.range, this.field);
-    // A key's step is an input and a change at once: the change alone will do.
+    // A step by key fires input and change together: one of them is enough.
     this.range.addEventListener("keydown", () => { this.keyed = true; });
     this.range.addEventListener("pointerdown", () => { this.keyed = false; });
     this.range.addEventListener("input", () => this.keyed || this.moved(true));
     this.range.addEventListener("change", () => this.moved(false));
-    // The browser reports no change of a slider that is released where it was grasped.
+    // The browser fires no change event for a slider that is released at its old value.
     for (const end of ["pointerup", "pointercancel"])
       this.range.addEventListener(end, () => setTimeout(() => this.grasped && this.moved(false)));
     this.field.addEventListener("change", () => this.typed());
-    this.waiting = null; // what goes out next
-    this.previewed = null; // the value that was previewed last
-    this.out = false; // whether something is on its way, or being drawn
+    this.waiting = null; // the next message to send
+    this.previewed = null; // the last value previewed
+    this.out = false; // whether a message is on its way or its answer being drawn
   }
 
   update(data, send) {
@@ -91,7 +91,7 @@ class Slider {
     this.send = send;
     this.scale = scale(data);
     const { min, max, step } = this.scale;
-    // The bounds first: a range clips its value to them.
+    // The bounds first, as the input clips its value to them.
     Object.assign(this.range, { min, max, step });
     this.label.textContent = data.label;
     this.label.title = data.help;
@@ -101,7 +101,7 @@ class Slider {
     this.rest();
   }
 
-  // The value as the server knows it: the preview was sent after the sliders of its frame.
+  // The server's value: a preview is sent after the sliders of the same frame, so it is the newer.
   get value() {
     const preview = window.rotorcalcPreview;
     return preview?.frame === this.data.frame ? preview.values[this.data.name] : this.data.value;
@@ -141,7 +141,7 @@ class Slider {
     if (!this.out) this.go();
   }
 
-  // One at a time: while a value is out, what comes in waits, and only the last of it goes next.
+  // One message at a time. Those that come meanwhile replace each other: only the last is sent next.
   async go() {
     while (this.waiting !== null) {
       const message = this.waiting;
@@ -156,7 +156,7 @@ class Slider {
     this.rest();
   }
 
-  // While dragging, and for the value on release where it differs from the one previewed last.
+  // While dragging, and on release if the value differs from the last one previewed.
   async preview({ value, dragging }) {
     const preview = window.rotorcalcPreview;
     const due = dragging || (this.previewed !== null && this.previewed !== value);
@@ -165,8 +165,8 @@ class Slider {
     return previewed;
   }
 
-  // Ends when Streamlit's answer is drawn. What was lost with its connection is asked again when the page has run
-  // for the new one, as is what has no answer after ten seconds, unless something newer waits.
+  // Resolves when Streamlit's answer is drawn. A message that was lost with its connection is sent again once the
+  // page has run on the new one; so is one without an answer after ten seconds, unless a newer one waits.
   async ask(message) {
     for (let lost = true; lost && this.root.isConnected; lost &&= this.waiting === null) {
       const number = performance.now();
@@ -176,7 +176,7 @@ class Slider {
     }
   }
 
-  // Whether a message has been lost, as soon as that is certain; false where its answer is drawn or the slider gone.
+  // Resolves to whether a message was lost; false where its answer is drawn or the slider has been removed.
   async lost(number, before) {
     for (let cut = false; this.root.isConnected; await new Promise(requestAnimationFrame)) {
       cut ||= !connected();
@@ -201,7 +201,7 @@ export default function ({ data, parentElement, setTriggerValue }) {
   const group = new Map(sliders.map(({ name }) => [name, known.get(name) ?? new Slider()]));
   for (const slider of sliders) group.get(slider.name).update({ ...slider, ...common }, setTriggerValue);
   const roots = [...group.values()].map(({ root }) => root);
-  // Left in its place, a slider keeps the keyboard.
+  // A slider that stays in the document keeps the keyboard focus.
   if (roots.some((root, i) => root !== parentElement.children[i])) parentElement.replaceChildren(...roots);
   groups.set(parentElement, group);
 }

@@ -15,8 +15,8 @@ _component = component("rotorcalc.sliders", js=assets.module("slider"), isolate_
 class Slider:
     """A slider as it is shown.
 
-    `step` lies between two places, or is the number of places a decade where `log`; `beyond` is the
-    word for one more place above `high`.
+    `step` is the distance between two stops, or the number of stops per decade where `log`;
+    `beyond` is the word for one more stop above `high`.
     """
 
     name: str
@@ -40,8 +40,8 @@ def show(
 ) -> None:
     """Show some sliders below each other, one element of the page.
 
-    They send through the page's preview, and the whole page runs only where there is none, or it is
-    in the middle of something. `frame` is the number of the frame in which they are drawn.
+    They send through the page's preview. The whole page runs only where there is no preview, or
+    where a run is under way. `frame` is the number of the frame in which they are drawn.
     """
     _component(
         key=key,

@@ -34,7 +34,7 @@ def equations() -> str:
 
 
 def _equation(item: Equation) -> str:
-    # What the notes do not number is named by its source instead.
+    # An equation without a number in the notes is named by its source.
     number = f"**Eq. {item.number}**" if item.number[0].isdigit() else f"*{item.number}*"
     functions = ", ".join(f"`{name}`" for name in item.functions)
     return f"{number} · {item.title}\n\n$$\n{item.latex}\n$$\n\n{functions} · {item.pages}"
@@ -42,7 +42,7 @@ def _equation(item: Equation) -> str:
 
 @functools.lru_cache(maxsize=1)
 def checked() -> tuple[tuple[Case, ...], float]:
-    """Return all checks, computed once a process, and the seconds that they took."""
+    """Return all checks, computed once per process, and the seconds that they took."""
     start = time.perf_counter()
     return validate(), time.perf_counter() - start
 

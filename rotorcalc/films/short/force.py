@@ -48,7 +48,7 @@ def film_force(position: ArrayLike, velocity: ArrayLike) -> Array:
     V = np.hypot(A, B)
     if not np.all(np.isfinite(V)):
         raise ValueError("velocity: must be finite")
-    still = V == 0.0  # any direction serves: the factor V makes the force zero
+    still = V == 0.0  # any direction will do, as the factor V makes the force zero
     sin, cos = A / np.where(still, 1.0, V), -B / np.where(still, 1.0, V)
     a, b = x * cos + y * sin, -x * sin + y * cos
     kappa = np.sqrt(kappa2)
