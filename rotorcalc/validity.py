@@ -95,7 +95,7 @@ def validity(sweep: Sweep) -> tuple[Check, ...]:
                "vortices, and then turbulence, replace the laminar flow"),
         _below("Smallest film over roughness of 1 µm", film / ROUGHNESS, 10.0, 3.0,
                "surface asperities touch through the film"),
-        _below("Smallest film over clearance, h_min/C", film / C, 0.1, 0.03,
+        _below("Smallest film over clearance, h/C", film / C, 0.1, 0.03,
                "so thin a film is heated and deforms the bearing, which the model neglects"),
         _above("Imbalance orbit over clearance", swing, 0.1, np.maximum(film / C, 0.1),
                "linear coefficients hold for small orbits; at the limit it touches the wall"),

@@ -12,7 +12,6 @@ from rotorcalc.display import Result
 from rotorcalc.figures import plane, style, text
 from rotorcalc.figures.plane import Part
 from rotorcalc.figures.style import Axis, Chart, Trace
-from rotorcalc.geometry import Plain
 from rotorcalc.units import Unit, Units
 
 HEIGHT = 440
@@ -22,11 +21,11 @@ _SOFT = "rgba(127,127,127,0.8)"
 _MARGIN = {"l": 64, "r": 16, "t": 26, "b": 48}
 # Half the width of the drawn plane, in radial clearances.
 _EDGE = 1.24
-# Labels of speeds closer together than this, in radial clearances, would overlap.
+# Labels of speeds closer together than this share of the clearance's reach would overlap.
 _SPACING = 0.17
 # X/C below which the path has turned so far down that labels stand beside it, not above.
 _LOW = 0.55
-# The arrow that shows the sense of rotation: its ends [rad] and its radius.
+# The arrow that shows the sense of rotation: its ends [rad] and its radius over that reach.
 _TURN = (1.9, 2.45, 1.08)
 
 
@@ -47,8 +46,10 @@ def locus(path: Path, point: Sweep, units: Units) -> Chart:
     """Return the journal's path in its clearance, traced by speed."""
     curves, sweep, marks, outline = path.curves, path.sweep, path.marks, path.outline
     at = point.journal_position / point.machine.bearing.radial_clearance
-    edge = _EDGE * float(np.hypot(*outline.T).max())
-    shown = _spaced(marks.film.position, at)
+    widest = float(np.hypot(*outline.T).max())
+    edge = _EDGE * widest
+    shown = _spaced(marks.film.position, at, _SPACING * widest)
+    turn = (*_TURN[:2], _TURN[2] * widest)
     ticks, speeds = marks.film.position[shown], units.speed.of(marks.speed[shown])
     traces = [
         *_behind_path(curves, point),
@@ -61,15 +62,15 @@ def locus(path: Path, point: Sweep, units: Units) -> Chart:
             plane.label(f"{rpm:.0f}", place, size=12, **_beside(place, at))
             for rpm, place in zip(speeds, ticks, strict=True)
         ),
-        *_locus_labels(point, at, units),
-        *_load_arrow(point, units),
-        plane.turning_head(*_TURN[1:]),
+        *_locus_labels(point, at, outline, units),
+        *_load_arrow(point, float(outline[:, 0].max()), units),
+        plane.turning_head(*turn[1:]),
     ]  # fmt: skip
     shapes = [
         plane.outline(outline),
-        plane.stroke((-1.0, 0.0), (1.0, 0.0)),
-        plane.stroke((0.0, -1.0), (0.0, 1.0)),
-        *plane.turning(*_TURN),
+        plane.stroke((-widest, 0.0), (widest, 0.0)),
+        plane.stroke((0.0, -widest), (0.0, widest)),
+        *plane.turning(*turn),
         *(plane.dot(place, style.JOURNAL) for place in ticks),
     ]
     x = style.axis("Y/C, in the sense of rotation →", -edge, edge, dtick=0.5)
@@ -206,12 +207,12 @@ def _path(sweep: Sweep, units: Units) -> Trace:
     return plane.line(places, "up to the top speed", style.JOURNAL, **extra)
 
 
-def _spaced(places: Array, at: Array) -> list[int]:
+def _spaced(places: Array, at: Array, spacing: float) -> list[int]:
     """Return the indices of points to mark, apart from each other and from the running speed."""
     kept: list[int] = []
     for i, place in enumerate(places):
         others = [at, *(places[j] for j in kept)]
-        if all(math.dist(place, other) >= _SPACING for other in others):
+        if all(math.dist(place, other) >= spacing for other in others):
             kept.append(i)
     return kept
 
@@ -235,29 +236,29 @@ def _position_hover(point: Sweep, units: Units) -> str:
     return f"{place}<br>ε = {float(point.eccentricity_ratio):.4f}<extra>running speed</extra>"
 
 
-def _locus_labels(point: Sweep, at: Array, units: Units) -> list[Part]:
+def _locus_labels(point: Sweep, at: Array, outline: Array, units: Units) -> list[Part]:
     C, rpm = point.machine.bearing.radial_clearance, float(units.speed.of(point.speed))
     phi = text.amount(units.angle, point.attitude_angle).replace(" ", "")
-    round_bore = isinstance(point.machine.bearing.geometry, Plain)
-    circle = f"clearance{' circle' if round_bore else ''}, C = {text.amount(units.film, C)}"
+    is_circle = np.allclose(np.hypot(*outline.T), 1.0, rtol=0.0, atol=1e-9)
+    circle = f"clearance{' circle' if is_circle else ''}, C = {text.amount(units.film, C)}"
     left: Part = {"xanchor": "right", "xshift": -6}
     yshift = 20 if at[0] < _LOW else -4
     return [
         plane.label(f"<b>{rpm:.0f} rpm</b>", at, xshift=10, yshift=yshift, xanchor="left"),
         plane.label(f"φ = {phi}", (0.3, 0.0), **left),
-        plane.label("Ω", plane.at(2.2, 1.18)),
-        plane.label(circle, (1.1, 0.0), size=12, **left),
+        plane.label("Ω", plane.at(2.2, 1.18 * float(np.hypot(*outline.T).max()))),
+        plane.label(circle, (1.1 * float(outline[:, 0].max()), 0.0), size=12, **left),
     ]
 
 
-def _load_arrow(point: Sweep, units: Units) -> list[Part]:
+def _load_arrow(point: Sweep, reach: float, units: Units) -> list[Part]:
     load = point.machine.static_load
     if load == 0.0:
         centred = not np.any(point.journal_position)
         words = "no load: the journal is centred" if centred else "no load"
-        return [plane.label(words, (-0.6, 0.0))]
+        return [plane.label(words, (-0.6 * reach, 0.0))]
     words = f"Fₒ = {text.amount(units.force, load)}"
     return [
-        plane.label(words, (-0.75, 0.0), xshift=8, xanchor="left"),
-        plane.arrow((-0.95, 0.0), (-0.45, 0.0), style.GREY),
+        plane.label(words, (-0.75 * reach, 0.0), xshift=8, xanchor="left"),
+        plane.arrow((-0.95 * reach, 0.0), (-0.45 * reach, 0.0), style.GREY),
     ]

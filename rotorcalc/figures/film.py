@@ -33,7 +33,7 @@ def film_around(field: PressureField, point: Sweep, units: Units) -> Chart:
     peak = float(units.angle.of(field.peak_theta))
     top = float(units.pressure.of(point.peak_pressure))
     C = float(units.film.of(point.machine.bearing.radial_clearance))
-    x = _around(anchor="y2")
+    x = _around(field, anchor="y2")
     y = style.axis(
         style.titled("Film", "h", units.film.name), 0.0, style.ceiling(2 * C), domain=style.UPPER
     )
@@ -51,7 +51,7 @@ def film_around(field: PressureField, point: Sweep, units: Units) -> Chart:
             hovertemplate=text.hover("θ = %{x:.0f}°", units.pressure),
         ),
     ]  # fmt: skip
-    if point.machine.static_load > 0.0:
+    if _has_shape(field, point):
         traces += [
             *style.here(theta[thinnest], h[thinnest], x, y, "thinnest film"),
             *style.lower(style.here(peak, top, x, y2, "highest pressure")),
@@ -66,7 +66,7 @@ def pressure_map(field: PressureField, point: Sweep, units: Units) -> Chart:
     edge, high = style.ceiling(z), style.ceiling(units.pressure.of(point.peak_pressure))
     p = np.where(field.cavitated[:, None], np.nan, units.pressure.of(field.pressure))
     once = slice(None, -1)  # 360° repeats 0°
-    x = _around()
+    x = _around(field)
     y = style.axis(style.titled("Axial position", "z", units.length.name), -edge, edge)
     title = style.titled("Pressure", "p", units.pressure.name)
     contour: Trace = {
@@ -79,7 +79,7 @@ def pressure_map(field: PressureField, point: Sweep, units: Units) -> Chart:
         f"%{{z:.3g}} {units.pressure.name}<extra></extra>",
     }  # fmt: skip
     peak = style.here(float(units.angle.of(field.peak_theta)), 0.0, x, y, "highest pressure")
-    traces = [contour, *peak] if point.machine.static_load > 0.0 else []
+    traces = [contour, *peak] if _has_shape(field, point) else []
     notes = _over_theta(field, point, units, level=0.5)
     return style.chart(traces, x, y, height=HEIGHT, showlegend=False, **notes)
 
@@ -103,7 +103,7 @@ def forces(curves: FilmForces, at: FilmForces, units: Units) -> Chart:
         )
     ]
     if load == 0.0:
-        note = text.remark("no load: the journal is centred, the film force is zero", 0.98, 0.03)
+        note = text.remark("no load: the film force is zero", 0.98, 0.03)
         return style.chart(traces, x, y, height=HEIGHT, annotations=[note])
     e, parts = float(at.eccentricity_ratio), units.force.of(np.array([at.tangential, -at.radial]))
     marker = {"size": 9, "color": [_TANGENTIAL, _RADIAL], "line": {"color": style.HERE, "width": 2}}
@@ -151,17 +151,11 @@ def force_balance(at: FilmForces, point: Sweep, units: Units) -> Chart:
 
 def _over_theta(field: PressureField, point: Sweep, units: Units, *, level: float) -> Part:
     """Return the common parts of charts over θ: the load's direction and the cavitated film."""
-    load = point.machine.static_load
-    if load == 0.0:
+    if not _has_shape(field, point):
         words = "no load: uniform film, no pressure"
         return {"annotations": [text.remark(words, 0.5, level, xanchor="center")]}
     theta = units.angle.of(field.theta)
-    at = float(units.angle.of(field.load_theta))
-    above: Part = {"xref": "x", "yanchor": "bottom", "font": {"size": 13}}
-    notes = [style.note(f"load, {text.amount(units.force, load)}", at, 1.0, **above)]
-    shapes: list[Part] = [
-        _upright(at, at, type="line", line={"color": _SOFT, "width": 1.6, "dash": "dot"})
-    ]
+    notes, shapes = _load_line(field, point, units)
     for first, last in _runs(field.cavitated):
         a, b = float(theta[max(first - 1, 0)]), float(theta[min(last + 1, len(theta) - 1)])
         shapes.append(
@@ -172,8 +166,28 @@ def _over_theta(field: PressureField, point: Sweep, units: Units, *, level: floa
     return {"annotations": notes, "shapes": shapes}
 
 
-def _around(**extra: Any) -> Axis:
-    return style.axis("θ from the thickest film [°]", 0.0, 360.0, dtick=60, **extra)
+def _has_shape(field: PressureField, point: Sweep) -> bool:
+    """Return whether the film is not uniform: a load or, without one, a bore that is not round."""
+    return point.machine.static_load > 0.0 or bool(np.ptp(field.thickness) > 0.0)
+
+
+def _load_line(field: PressureField, point: Sweep, units: Units) -> tuple[list[Part], list[Part]]:
+    """Return name and line of the load's direction."""
+    load, at = point.machine.static_load, float(units.angle.of(field.load_theta))
+    if load == 0.0:
+        return [], []
+    above: Part = {"xref": "x", "yanchor": "bottom", "font": {"size": 13}}
+    dotted: Part = {"type": "line", "line": {"color": _SOFT, "width": 1.6, "dash": "dot"}}
+    note = style.note(f"load, {text.amount(units.force, load)}", at, 1.0, **above)
+    return [note], [_upright(at, at, **dotted)]
+
+
+def _around(field: PressureField, **extra: Any) -> Axis:
+    """Return the axis of θ, which begins opposite to the line of centres."""
+    h = field.thickness
+    thickest = bool(h[0] >= np.nanmax(h) * (1 - 1e-12))
+    start = "the thickest film" if thickest else "opposite the line of centres"
+    return style.axis(f"θ from {start} [°]", 0.0, 360.0, dtick=60, **extra)
 
 
 def _upright(left: float, right: float, **extra: Any) -> Part:

@@ -1,6 +1,7 @@
 """The bearing in cross-section, with journal, equilibrium position and pressure distribution."""
 
 import math
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,11 +12,13 @@ from rotorcalc.arrays import Array
 from rotorcalc.coefficients import PressureField
 from rotorcalc.figures import style
 from rotorcalc.figures.style import Chart, Trace
+from rotorcalc.films import film_of
 from rotorcalc.units import Units
 
 # Clearance over the bore's radius in the exaggerated drawing; to scale it would be invisible.
 EXAGGERATED = 0.3
 _ANGLES = np.linspace(0.0, 2.0 * np.pi, 181)
+_AROUND = np.linspace(0.0, 2.0 * np.pi, 361)  # a square bore's corners are among these
 
 
 def cross_section(
@@ -37,17 +40,16 @@ def cross_section(
     Returns
     -------
     Chart
-        Lengths in radii of the bore.
+        Lengths in radii of the bore, where it is widest.
     """
-    bearing = point.machine.bearing
-    C = bearing.radial_clearance
-    gap = C / (bearing.radius + C) if to_scale else EXAGGERATED
-    centre = point.journal_position / C * gap
+    bore = _Bore.of(point, to_scale=to_scale)
+    centre = point.journal_position / point.machine.bearing.radial_clearance * bore.gap
     pressure = film.pressure[:, np.argmin(np.abs(film.axial_position))]
+    journal = centre + _circle(bore.journal, _ANGLES)
     traces = [
-        *_pressure(film.theta - film.load_theta, pressure),
-        _ring(np.zeros(2), 1.0, "bearing", style.GREY, fill=None),
-        _ring(centre, 1.0 - gap, "journal", style.JOURNAL, fill="rgba(43,123,186,0.16)"),
+        *_pressure(film.theta - film.load_theta, pressure, bore),
+        _ring(bore.wall(_ANGLES), "bearing", style.GREY, fill=None),
+        _ring(journal, "journal", style.JOURNAL, fill="rgba(43,123,186,0.16)"),
         _line_of_centres(point),
         style.mark(*_drawn(centre), "journal centre", hoverinfo="name"),
     ]
@@ -61,12 +63,42 @@ def cross_section(
         _hidden(-1.6, 1.1, scaleanchor="x"),
         annotations=[
             *_load_arrow(load, units),
-            *_rotation_arrow(centre, 0.5 * (1.0 - gap)),
+            *_rotation_arrow(centre, 0.5 * bore.journal),
             style.note(words, 0.0, 0.0, xanchor="left"),
         ],
         showlegend=False,
         margin={"l": 8, "r": 8, "t": 8, "b": 8},
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _Bore:
+    """The bore as it is drawn.
+
+    The journal touches it wherever its centre is on the film's outline, so the wall lies one
+    journal's radius beyond the outline: `gap` is the clearance as drawn, `journal` the radius.
+    """
+
+    outline: Array
+    gap: float
+    journal: float
+
+    @classmethod
+    def of(cls, point: Sweep, *, to_scale: bool) -> "_Bore":
+        bearing = point.machine.bearing
+        outline = film_of(bearing).outline(_AROUND)
+        widest = float(np.hypot(*outline.T).max())
+        C = bearing.radial_clearance
+        gap = C / (bearing.radius + widest * C) if to_scale else EXAGGERATED / widest
+        return cls(outline, gap, 1.0 - gap * widest)
+
+    def wall(self, angles: Array) -> Array:
+        """Return the wall where its normal points in these directions, (n, 2)."""
+        normal = _circle(1.0, angles)
+        if np.ptp(np.hypot(*self.outline.T)) < 1e-9:  # round, as most are: nothing to look for
+            return normal
+        touched = self.outline[np.argmax(normal @ self.outline.T, axis=-1)]
+        return self.gap * touched + self.journal * normal
 
 
 def _drawn(position: Array) -> tuple[Array, Array]:
@@ -78,20 +110,20 @@ def _circle(radius: ArrayLike, angles: Array) -> Array:
     return np.asarray(radius)[..., None] * np.stack((np.cos(angles), np.sin(angles)), axis=-1)
 
 
-def _ring(centre: Array, radius: float, name: str, colour: str, *, fill: str | None) -> Trace:
-    x, y = _drawn(centre + _circle(radius, _ANGLES))
+def _ring(places: Array, name: str, colour: str, *, fill: str | None) -> Trace:
+    x, y = _drawn(np.concatenate((places, places[:1])))
     filled = {"fill": "toself", "fillcolor": fill} if fill else {}
     return style.line(x, y, name, colour, hoverinfo="name", **filled)
 
 
-def _pressure(angles: Array, pressure: Array) -> list[Trace]:
+def _pressure(angles: Array, pressure: Array, bore: _Bore) -> list[Trace]:
     """Return the pressure as a band outside the bore, its height the pressure over its peak."""
     if np.isnan(pressure).any():  # not given by the film's model
         return []
     peak = max(float(np.max(pressure)), 1e-300)  # without load there is no pressure to scale by
-    outer = _circle(1.0 + 0.5 * pressure / peak, angles)
-    inner = _circle(np.ones_like(angles), angles)[::-1]
-    x, y = _drawn(np.concatenate((outer, inner)))
+    wall = bore.wall(angles)
+    outer = wall + _circle(0.5 * pressure / peak, angles)
+    x, y = _drawn(np.concatenate((outer, wall[::-1])))
     return [
         style.line(
             x, y, "pressure", style.UNSTABLE, width=1.4,
@@ -122,7 +154,7 @@ def _load_arrow(load: float, units: Units) -> list[dict[str, Any]]:
 
 
 def _rotation_arrow(centre: Array, radius: float) -> list[dict[str, Any]]:
-    """Return an arrow with the sense of rotation, X to Y: counter-clockwise on the screen."""
+    """Return an arrow with the sense of rotation, X to Y: counterclockwise on the screen."""
     tail, head = centre + _circle(radius, np.radians([205.0, 245.0]))
     (tail_x, head_x), (tail_y, head_y) = (
         tuple(map(float, pair)) for pair in zip(_drawn(tail), _drawn(head), strict=True)

@@ -1,6 +1,6 @@
 """Charts of nonlinear orbits: a released journal, its spectrum, a run-up, and the limit cycles.
 
-In the plane X, along the load, points down and Y to the right, so the shaft turns anticlockwise.
+In the plane X, along the load, points down and Y to the right, so the shaft turns counterclockwise.
 The linear theory is always drawn in purple, broken.
 """
 
@@ -22,7 +22,7 @@ from rotorcalc.units import Unit, Units
 
 LINEAR = style.PURPLE
 UP, DOWN = style.GREEN, style.OCHRE
-# Tall: the clearance circle is the page's main picture.
+# Tall: the clearance is the page's main picture.
 _PLANE_HEIGHT = 680
 # Frames of an animation at most, points of the journal's trail, revolutions that the trail spans.
 _FRAMES, _TRAIL, _REACH = 120, 48, 2.0
@@ -33,13 +33,13 @@ _LEGEND = {"orientation": "h", "x": 0, "yref": "container", "y": 0, "yanchor": "
 
 
 def orbit(let_go: Release, units: Units) -> Chart:
-    """Return the journal's path in the clearance circle, with play buttons and a slider."""
-    unit, C = units.film, float(units.film.of(let_go.clearance))
-    x, y = _plane_axes(1.06 * C, unit)
+    """Return the journal's path in its clearance, with play buttons and a slider."""
+    unit = units.film
+    x, y = _plane_axes(let_go, unit)
     steps, labels = _steps(let_go, unit)
     rest = unit.of(let_go.rest)
     still = [
-        _ring(C),
+        _wall(let_go, unit),
         _path(let_go.motion.journal, unit, "whole path", style.GREY, width=0.8, opacity=0.6),
         *_steady(let_go, unit),
         {
@@ -60,10 +60,11 @@ def orbit(let_go: Release, units: Units) -> Chart:
 def over_time(let_go: Release, units: Units) -> Chart:
     """Return X and Y of the journal over revolutions, and the linear theory's."""
     unit, at = units.film, _thin(let_go.revolutions)
-    C, last = float(unit.of(let_go.clearance)), float(let_go.revolutions[-1])
+    last = float(let_go.revolutions[-1])
+    (X, Y) = unit.of(np.abs(let_go.wall).max(axis=0))
     x = style.axis("Revolutions since the release [-]", 0.0, last, anchor="y2")
-    y = style.axis(f"X [{unit.name}]", -C, C, domain=style.UPPER)
-    y2 = style.axis(f"Y [{unit.name}]", -C, C, domain=style.LOWER)
+    y = style.axis(f"X [{unit.name}]", -X, X, domain=style.UPPER)
+    y2 = style.axis(f"Y [{unit.name}]", -Y, Y, domain=style.LOWER)
     motion, linear = unit.of(_thin(let_go.motion.journal)), unit.of(_thin(let_go.linear))
     panes = [
         [
@@ -85,7 +86,9 @@ def film(let_go: Release, units: Units) -> Chart:
     unit, thickness = units.film, let_go.film
     place = int(np.argmin(thickness))
     x = style.axis("Revolutions since the release [-]", 0.0, float(let_go.revolutions[-1]))
-    y = style.axis(titled("Thinnest film", "h", unit.name), 0.0, float(unit.of(let_go.clearance)))
+    # No film is thicker than a journal's way to the wall.
+    top = max(let_go.clearance, float(thickness.max()))
+    y = style.axis(titled("Thinnest film", "h", unit.name), 0.0, float(unit.of(top)))
     least = f"least, {text.amount(unit, thickness[place])}"
     traces = [
         style.line(_thin(let_go.revolutions), unit.of(_thin(thickness)), "thinnest film",
@@ -146,13 +149,12 @@ def spectrum(let_go: Release, units: Units) -> Chart:
 def once_a_revolution(let_go: Release, units: Units) -> Chart:
     """Return the journal's positions once per revolution, the last quarter emphasised."""
     unit = units.film
-    reach = 1.06 * float(unit.of(let_go.clearance))
-    x, y = _plane_axes(reach, unit)
+    x, y = _plane_axes(let_go, unit)
     points = unit.of(let_go.points)
     late = points[-max(len(points) // 4, 4) :]
     dots: dict[str, Any] = {"mode": "markers", "marker": {"size": 4, "color": style.GREY}}
     traces: list[Trace] = [
-        _ring(float(unit.of(let_go.clearance))),
+        _wall(let_go, unit),
         {**style.line(points[:, 1], points[:, 0], "all", style.GREY), **dots},
         style.mark(late[:, 1], late[:, 0], "last quarter"),
     ]
@@ -259,15 +261,14 @@ def onset_growth(found: Onsets, curve: GrowthCurve, units: Units) -> Chart:
 # --- The plane --------------------------------------------------------------------------------
 
 
-def _plane_axes(reach: float, unit: Unit) -> tuple[Axis, Axis]:
+def _plane_axes(let_go: Release, unit: Unit) -> tuple[Axis, Axis]:
+    reach = 1.06 * float(unit.of(np.hypot(*let_go.wall.T).max()))
     x = style.axis(titled("Y", "", unit.name), -reach, reach)
     return x, style.axis(f"X, along the load [{unit.name}]", reach, -reach)
 
 
-def _ring(C: float) -> Trace:
-    angle = np.linspace(0.0, 2.0 * np.pi, 181)
-    circle = C * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    return plane.line(circle, "clearance", style.GREY, width=1.8, showlegend=False)
+def _wall(let_go: Release, unit: Unit) -> Trace:
+    return plane.line(unit.of(let_go.wall), "clearance", style.GREY, width=1.8, showlegend=False)
 
 
 def _path(points: Array, unit: Unit, name: str, colour: str, **extra: Any) -> Trace:

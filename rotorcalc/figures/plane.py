@@ -1,6 +1,6 @@
 """Drawing in the plane across the shaft: X, the load's direction, down, and Y to the right.
 
-So a journal that turns X→Y turns anticlockwise. Points are (X, Y), angles run from X towards Y.
+So a journal that turns X→Y turns counterclockwise. Points are (X, Y), angles run from X towards Y.
 """
 
 import math

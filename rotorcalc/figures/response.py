@@ -1,7 +1,7 @@
 """Charts of the steady response to imbalance: amplitude and phase over speed, and orbits.
 
 Orbits are drawn with X, along the load, pointing down and Y to the right, so that the shaft turns
-anticlockwise. A dot marks the instant when the imbalance points down, along X; an arrowhead the
+counterclockwise. A dot marks the instant when the imbalance points down, along X; an arrowhead the
 direction of motion.
 """
 

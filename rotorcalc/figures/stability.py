@@ -150,7 +150,7 @@ def threshold_speed(figure: FilmFigure) -> Chart:
     y = style.axis(
         titled("Threshold speed", "p<sub>s</sub>", "-"), 0.0, style.ceiling([6.0, min(now, 30.0)])
     )
-    return _film_chart(figure, figure.curves.onset.threshold_speed, y, now, "p_s")
+    return _film_chart(figure, figure.curves.onset.threshold_speed, y, now, "p<sub>s</sub>")
 
 
 def critical_mass_number(figure: FilmFigure) -> Chart:
@@ -159,7 +159,7 @@ def critical_mass_number(figure: FilmFigure) -> Chart:
     y = style.axis(
         titled("Critical mass", "p<sub>s</sub>²", "-"), 0.0, style.ceiling([30.0, min(now, 900.0)])
     )
-    return _film_chart(figure, figure.curves.onset.critical_mass, y, now, "p_s²")
+    return _film_chart(figure, figure.curves.onset.critical_mass, y, now, "p<sub>s</sub>²")
 
 
 def flexible_threshold(
@@ -275,7 +275,7 @@ def _over_speed(
     if _inside(here, axes):
         traces += style.here(*here, x, y)
     else:
-        notes.append(_beyond("running speed: no whirl, ε is too high", here[1], y))
+        notes.append(_beyond("running speed: no whirl", here[1], y))
     return style.chart(traces, x, y, annotations=notes, legend=LEGEND, margin=MARGIN, **layout)
 
 
@@ -328,7 +328,7 @@ def _unstable_side(onset: float, x: Axis) -> list[Item]:
 def _verdict(onset: float, x: Axis, unit: Unit) -> Item:
     """Return a text that says which side of the chart is unstable."""
     if onset == 0.0:
-        words = "no load: unstable at any speed"
+        words = "unstable at any speed"
     elif math.isinf(onset):
         words = "stable at every speed"
     elif onset >= _high(x):
@@ -377,7 +377,7 @@ def _stable_side(figure: FilmFigure, x: Axis) -> tuple[list[Item], list[Item]]:
 
 def _where(figure: FilmFigure) -> str:
     if figure.here is None:
-        return "no load: σ is infinite, ε = 0"
+        return "no load: σ is infinite"
     film = figure.here.film
     return (
         f"running speed: σ = {float(film.sommerfeld):.3g}, ε = {float(film.eccentricity_ratio):.3f}"

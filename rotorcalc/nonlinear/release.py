@@ -27,6 +27,8 @@ from rotorcalc.unbalance_response import orbit_points
 _MOST_SWINGS, FEWEST_REVOLUTIONS = 800, 16
 # Share of a motion, at its end, that is taken as settled.
 _SETTLED = 0.25
+# Around the wall, every degree: a square bore's corners are among them.
+_AROUND = np.linspace(0.0, 2.0 * np.pi, 361)
 # Clearances beyond the wall at which a linear orbit is cut off in charts.
 _FAR = 0.5
 
@@ -41,6 +43,8 @@ class Release(Result):
         The nonlinear motion.
     clearance : float
         C [m].
+    wall : array, (p, 2)
+        Positions of the journal's centre at contact, all the way round, in X, Y [m].
     rest : array, (2,)
         Static equilibrium of the journal, in X, Y from the bearing's centre [m].
     linear : array, (n, 2)
@@ -61,6 +65,7 @@ class Release(Result):
 
     motion: Transient
     clearance: float
+    wall: Array
     rest: Array
     linear: Array
     ellipse: Array
@@ -169,6 +174,7 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
     return Release(
         motion=motion,
         clearance=C,
+        wall=C * film_of(machine.bearing).outline(_AROUND),
         rest=rest,
         linear=rest + _drawn(linear, rest, machine.bearing),
         ellipse=rest + orbit_points(*theory.forced[theory.journal]),

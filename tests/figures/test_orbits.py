@@ -9,6 +9,7 @@ import pytest
 from rotorcalc import bifurcation, onsets, simulate
 from rotorcalc.figures import SI, US, orbits
 from rotorcalc.figures.style import HERE
+from rotorcalc.films import film_of
 from rotorcalc.nonlinear.limit_cycles import sweep
 from rotorcalc.nonlinear.measured_onset import GrowthCurve
 from rotorcalc.nonlinear.release import release
@@ -20,6 +21,7 @@ from tests.figures.charts import (
     curves_in_window,
     notes,
 )
+from tests.films.models import BEARINGS
 from tests.machines import ROTORS, RPM, SHEET, C, balanced, near_hopf, with_rotor
 
 OF_A_RELEASE = [
@@ -50,6 +52,24 @@ def test_every_chart_of_a_release_is_a_plotly_figure(releases, draw, name, units
     if name != "follows":
         check_baseline_is_behind(chart, draw(releases["follows"], units))
     assert any(trace.get("marker", {}).get("color") == HERE for trace in chart["data"])
+
+
+@pytest.mark.parametrize("name", BEARINGS)
+def test_the_clearance_is_drawn_as_the_film_has_its_wall(name):
+    film = film_of(BEARINGS[name])
+    let_go = release(
+        replace(balanced(SHEET.rotor), bearing=BEARINGS[name]), 6000 * RPM,
+        kick=0.1 * C, revolutions=16,
+    )  # fmt: skip
+    for draw in (orbits.orbit, orbits.once_a_revolution):
+        chart = draw(let_go, SI)
+        (wall,) = (trace for trace in chart["data"] if trace["name"] == "clearance")
+        places = np.stack([wall["y"], wall["x"]], axis=-1) / (1e6 * C)
+        assert film.gap(places) == pytest.approx(0.0, abs=1e-9)
+        for axis, values in (("xaxis", wall["x"]), ("yaxis", wall["y"])):
+            assert np.abs(values).max() < max(chart["layout"][axis]["range"])
+    across = orbits.over_time(let_go, SI)["layout"]
+    assert across["yaxis"]["range"][1] == pytest.approx(np.abs(wall["y"]).max())
 
 
 def test_the_animation_ends_on_the_still_and_moves_its_last_traces(releases):
