@@ -19,8 +19,11 @@ Value = float | str | None
 Values = dict[str, Value]
 
 KIND, FILM = "bearing", "film"
-# Keys of the address bar that mean something else: a bore's field of that name is "bearing.load".
-_TAKEN = frozenset(("load", "film", "flow", "share", "preset", "units", "tab", "present"))
+# Keys of the address bar that mean something else: a bore's field "load" is "bearing_load" there.
+_TAKEN = frozenset((
+    "mass", "load", "T", "mu", "TR", "alpha", "rho", "C", "D", "L", "k", "u", "cs", "mj", "rpm",
+    "rpm_max", "bearing", "film", "T_in", "flow", "share", "preset", "units", "tab", "present",
+))  # fmt: skip
 _UNITS = {"rad": "angle", "m": "length", "Pa": "pressure", "m³/s": "flow", "kg": "mass"}
 
 
@@ -34,8 +37,8 @@ class Field:
 
     @property
     def label(self) -> str:
-        """Its name in words."""
-        return self.name.replace("_", " ").capitalize()
+        """Its name in words, which tells a bearing's load from the machine's."""
+        return self.key.replace("_", " ").capitalize()
 
     def unit(self, units: Units) -> Unit:
         """Return the unit in which a visitor sees it."""
@@ -96,7 +99,7 @@ def fields_of(kind: object) -> dict[str, Field]:
 @functools.cache
 def _fields(geometry: type[Geometry]) -> dict[str, Field]:
     found = (
-        Field(f"{KIND}.{name}" if name in _TAKEN else name, name, rule)
+        Field(f"{KIND}_{name}" if name in _TAKEN else name, name, rule)
         for name, rule in rules(geometry).items()
     )
     return {field.key: field for field in found}

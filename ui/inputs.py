@@ -228,7 +228,23 @@ PRESET_VALUES: dict[str, Values] = {key: preset_values(preset) for key, preset i
 
 
 def machine_of(values: Values) -> Machine:
-    """Return the machine that kept values describe, or raise the core's ValueError."""
+    """Return the machine that kept values describe, or raise ValueError in the sidebar's words."""
+    try:
+        return _machine_of(values)
+    except ValueError as error:
+        raise ValueError(_in_words(f"{error}")) from error
+
+
+def _in_words(message: str) -> str:
+    """Return a message of the core with a field's name as the sidebar has it."""
+    field, _, _ = message.partition(" = ")
+    for item in INPUTS.values():
+        if field == item.field.rpartition(".")[2]:
+            return f"{item.label} {item.symbol}{message.removeprefix(field)}"
+    return message
+
+
+def _machine_of(values: Values) -> Machine:
     records: dict[str, dict[str, Any]] = {"oil": {}, "bearing": {}, "rotor": {}, "": {}}
     for key, item in INPUTS.items():
         record, _, name = item.field.rpartition(".")

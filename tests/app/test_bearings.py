@@ -2,7 +2,6 @@
 
 import csv
 import io
-import json
 import math
 from dataclasses import replace
 from types import SimpleNamespace
@@ -15,13 +14,15 @@ from rotorcalc.units import SI, US
 from tests.app.session import HOME, NOTES, PAGES, faults, session_of, texts, tours, visit
 from tests.films.models import BEARINGS, Ringed
 from tests.machines import SHEET
-from ui.bearing import bearing_values, shape_of
+from ui.bearing import _TAKEN, bearing_values, fields_of, shape_of
 from ui.computed import Computed
-from ui.inputs import machine_of, values_of
+from ui.inputs import INPUTS, machine_of, values_of
 from ui.sharing import address, export, popover, report
 
 RPM = math.pi / 30
 OTHERS = [name for name in BEARINGS if name != "short"]
+# Keys of the address bar that are not inputs yet.
+_LATER = ("T_in", "flow", "share", "tab", "present")
 SPEED, TOP = 6000 * RPM, 12000 * RPM
 
 
@@ -58,16 +59,25 @@ def test_a_link_writes_a_bore_in_the_units_of_engineers() -> None:
     written = address.write("sheet-1e8", values_of(whole, SPEED, TOP), "SI")
     assert written["bearing"] == "ringed"
     assert written["outer_clearance"] == "110"
-    # A key that means something else in the address bar stands behind the bearing's name.
-    assert written["bearing.share"] == "0.25"
+    # A key that means something else in the address bar says that it is the bearing's.
+    assert written["bearing_share"] == "0.25"
     assert "ring_mass" not in written
+    link = address.read(written)
+    assert link.problems == []
+    assert machine_of(link.values) == whole
+
+
+def test_no_field_of_a_bore_takes_the_key_of_an_input() -> None:
+    assert set(INPUTS) < _TAKEN
+    assert {"bearing", "film", "preset", "units", *_LATER} < _TAKEN
 
 
 @pytest.mark.parametrize(
     ("given", "word"),
     [
         ({"bearing": "square"}, "`'square'` is not one of plain"),
-        ({"bearing": "ringed", "bearing.share": "-1"}, "must be positive"),
+        ({"bearing": "ringed", "bearing_share": "-1"}, "must be positive"),
+        ({"bearing": "ringed", "bearing_share": "-1"}, "Bearing share"),
         ({"bearing": "ringed", "outer_clearance": "wide"}, "is not a number"),
         ({"bearing": "sprung", "outer_clearance": "90"}, "is not an input of this machine"),
         ({"film": "finite"}, "film = 'finite'"),
@@ -104,10 +114,10 @@ def test_files_are_written_for_every_bearing(name: str) -> None:
     assert all(len(row) == len(rows[0]) for row in rows)
     assert export.ross_table(shown)[:2] == b"PK"
     page = report.report(shown, Computed(SHEET, SPEED, TOP), US, "link", "0").decode()
-    for key in json.loads(shown.machine.to_json())["bearing"].get("geometry", {}):
-        assert key == "type" or key.replace("_", " ").capitalize() in page
-    if name != "short":
-        assert BEARINGS[name].geometry.kind in page
+    for field in fields_of(BEARINGS[name].geometry.kind).values():
+        assert field.label in page
+    for words in ("Kind of bearing", BEARINGS[name].geometry.kind, "Film model"):
+        assert f"<td>{words}</td>" in page or f'<td class="n">{words}</td>' in page
 
 
 @pytest.mark.parametrize("path", PAGES)

@@ -113,7 +113,7 @@ def test_both_ends_are_in_and_beyond_them_is_out(key: str) -> None:
 def test_a_journal_mass_that_leaves_no_disk_is_named() -> None:
     read = address.read({"mj": "140", "C": "80"})
     (problem,) = read.problems
-    assert "journal_mass" in problem
+    assert "Journal mass Mⱼ" in problem
     assert "140" in problem
     assert read.values == PRESET_VALUES[DEFAULT_PRESET] | {"C": 80.0}
 
