@@ -4,6 +4,7 @@ from rotorcalc.figures import equilibrium as place
 from rotorcalc.figures import film
 from ui.frame.page import Page, show
 from ui.words import equilibrium as words
+from ui.words.citation import cited, remark
 
 
 def content(page: Page) -> None:
@@ -25,8 +26,11 @@ def locus(page: Page) -> None:
         page.chart(
             lambda c: place.locus(c.path, c.point, units),
             "locus",
-            alt="Path of the journal in the clearance circle, from the wall to the middle.",
-            caption="Path of the journal, with rpm along it; dotted, any speed. Eqs. 5.7, 5.8.",
+            alt="Path of the journal in its clearance, from the wall to the middle.",
+            caption=cited(
+                "Path of the journal, with rpm along it; dotted, any speed.",
+                page.computed, "attitude", "eccentricity",
+            ),
         )  # fmt: skip
     with right:
         over = st.segmented_control(
@@ -41,7 +45,12 @@ def locus(page: Page) -> None:
             ),
             "position",
             alt="Eccentricity ratio and attitude angle, the running speed marked on both.",
-            caption="More speed or viscosity, less load: closer to the centre. Eqs. 5.7, 5.8.",
+            caption=cited(
+                remark(page.computed, "eccentricity", otherwise="At each speed's equilibrium."),
+                page.computed,
+                "attitude",
+                "eccentricity",
+            ),
         )
 
 
@@ -54,14 +63,19 @@ def film_and_pressure(page: Page) -> None:
         page.chart(
             lambda c: film.film_around(c.film, c.point, units), "film",
             alt="Thickness and pressure of the film once around the journal, and the load.",
-            caption="Film and pressure above ambient at mid-length; θ in the sense of "
-            "rotation. Eqs. 5.19, 5.25.",
+            caption=cited(
+                "Film and pressure above ambient at mid-length; θ in the sense of rotation.",
+                page.computed, "thickness", "pressure",
+            ),
         )  # fmt: skip
     with right:
         page.chart(
             lambda c: film.pressure_map(c.film, c.point, units), "pressure",
             alt="Contour map of the film's pressure over angle and axial position.",
-            caption="The film unwrapped: a parabola along z, ambient at both ends. Eq. 5.25.",
+            caption=cited(
+                remark(page.computed, "pressure", "The film unwrapped: {}.", "The film unwrapped."),
+                page.computed, "pressure",
+            ),
         )  # fmt: skip
 
 
@@ -72,28 +86,35 @@ def forces(page: Page) -> None:
         page.chart(
             lambda c: film.forces(c.force_curves, c.forces, units), "forces",
             alt="Resultant, tangential and radial force of the film over eccentricity ratio.",
-            caption="At the running speed: the journal sits where the resultant meets the "
-            "load. Eqs. 5.5, 5.6, Fig. 5.2.",
+            caption=cited(
+                "At the running speed: the journal sits where the resultant meets the load.",
+                page.computed, "force",
+            ),
         )  # fmt: skip
     with right:
         page.chart(
             lambda c: film.force_balance(c.forces, c.point, units), "balance",
             alt="Right-angled triangle of load, tangential and radial film force.",
-            caption="The forces close a triangle; φ lies between load and radial force. "
-            "Eqs. 5.4, 5.7.",
+            caption=cited(
+                "The forces close a triangle; φ lies between load and radial force.",
+                page.computed, "attitude", rotor="Eq. 5.4",
+            ),
         )  # fmt: skip
 
 
 def losses(page: Page) -> None:
     units = page.units
     left, right = st.columns(2)
-    friction = place.drag_torque if page.computed.unloaded else place.friction_coefficient
+    computed = page.computed
+    friction = place.drag_torque if computed.unloaded else place.friction_coefficient
     for column, draw, caption in (
-        (left, place.power_loss, "Drag torque times speed, all dissipated as heat. Sheet."),
-        (right, place.side_flow, "Oil that leaves at both ends and must be supplied. Sheet."),
+        (left, place.power_loss,
+         cited("Drag torque times speed, all dissipated as heat.", computed, "drag")),
+        (right, place.side_flow,
+         cited("Oil that leaves at both ends and must be supplied.", computed, "flow")),
         (left, friction, "Drag torque/(R Fₒ); without load the drag torque itself."),
-        (right, place.minimum_film_thickness, "C(1 − ε), below the clearance. Eq. 5.19."),
-    ):
+        (right, place.minimum_film_thickness, words.thinnest(computed)),
+    ):  # fmt: skip
         name = draw.__name__
         title = name.replace("_", " ").capitalize()
         with column:

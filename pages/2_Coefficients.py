@@ -8,6 +8,7 @@ from rotorcalc.coefficients import BULK_FLOW, LAMINAR
 from rotorcalc.figures import coefficients as draw
 from ui.frame.page import Page, show
 from ui.words import coefficients as words
+from ui.words.citation import cited, remark
 
 
 def content(page: Page) -> None:
@@ -37,7 +38,12 @@ def against_speed(page: Page, axes: Axes) -> None:
             ),
             "stiffness_speed",
             alt="Stiffness coefficients and equivalent stiffness of one bearing against speed.",
-            caption="Per bearing, each speed at its own equilibrium. Eqs. 5.30, 5.35, 5.45.",
+            caption=cited(
+                "Per bearing, each speed at its own equilibrium.",
+                page.computed,
+                "stiffness",
+                rotor="Eq. 5.45",
+            ),
         )
     with right:
         page.chart(
@@ -46,7 +52,11 @@ def against_speed(page: Page, axes: Axes) -> None:
             ),
             "damping_speed",
             alt="Damping coefficients of one bearing against speed.",
-            caption="Per bearing; large at low speed, where the film is thin. Eqs. 5.31, 5.35.",
+            caption=cited(
+                remark(page.computed, "damping", "Per bearing; {}.", "Per bearing."),
+                page.computed,
+                "damping",
+            ),
         )
 
 
@@ -60,7 +70,7 @@ def dimensionless(page: Page, axes: Axes, against: Literal["ε", "σ"]) -> None:
                 ),
                 f"{symbol}_{against}",
                 alt=f"Dimensionless coefficients {symbol} against {against}, logarithmic.",
-                caption=words.dimensionless_caption(symbol, against),
+                caption=words.dimensionless_caption(page.computed, symbol, against),
             )
     words.say_unloaded(page.computed)
 
@@ -88,7 +98,7 @@ def added_mass(page: Page) -> None:
 
 def only_cross_coupling(page: Page) -> None:
     units = page.units
-    if words.say_stiff_centre(page.computed, units):
+    if words.say_other_centre(page.computed, units):
         return
     left, right = st.columns(2)
     with left:
@@ -96,8 +106,12 @@ def only_cross_coupling(page: Page) -> None:
             lambda c: draw.unloading(c.unloading, c.unloading_here, c.centred, units),
             "unloading",
             alt="Stiffness against eccentricity ratio: direct falls to zero, cross stays.",
-            caption="At the running speed, the load alone varied; dashed: minus the value. "
-            "Eqs. 5.35, 5.37.",
+            caption=cited(
+                "At the running speed, the load alone varied; dashed: minus the value.",
+                page.computed,
+                "stiffness",
+                "centre",
+            ),
         )
     with right:
         words.show_centred(page.computed, units)

@@ -6,6 +6,7 @@ from rotorcalc.figures import stability as figures
 from ui.frame.page import Page, show
 from ui.words import design
 from ui.words import stability as ask
+from ui.words.citation import cited
 
 
 def content(page: Page) -> None:
@@ -52,7 +53,7 @@ def threshold(page: Page) -> None:
         over_speed(figures.critical_mass, units),
         "critical_mass",
         alt="Critical mass over the rotor's mass, over running speed; unstable below one.",
-        caption="$M_c/M = (Ω_s/Ω)^2$: a rotor heavier than $2M_c$ would whirl. Eq. 5.46.",
+        caption="$M_c/M = (Ω_s/Ω)^2$: a rotor heavier than $2M_c$ would whirl. Eq. 5.45.",
     )
 
 
@@ -66,22 +67,28 @@ def figures_of_the_notes(page: Page) -> None:
         page.chart(
             lambda c: figures.whirl_ratio(ask.film_figure(c, over_eps)),
             "whirl_ratio",
-            alt="Whirl frequency ratio: one half for a centred journal, zero above the limit.",
-            caption=f"{ask.ends_of_whirl(computed)} Fig. 5.7, Eq. 5.46.",
+            alt="Whirl frequency ratio; zero where the film feeds no whirl.",
+            caption=cited(ask.ends_of_whirl(computed), computed, "whirl ratio", rotor="Eq. 5.46"),
         )
         page.chart(
             lambda c: figures.critical_mass_number(ask.film_figure(c, over_eps)),
             "critical_mass_number",
             alt="Dimensionless critical mass of the bearing.",
-            caption=r"$m_c = p_s^2 = M_c C Ω^2/F_o$. Fig. 5.9, Eqs. 5.45, 5.46.",
+            caption=cited(
+                r"$m_c = p_s^2 = M_c C Ω^2/F_o$.", computed, "critical mass", rotor="Eq. 5.45"
+            ),
         )
     with right:
         page.chart(
             lambda c: figures.threshold_speed(ask.film_figure(c, over_eps)),
             "threshold_speed",
             alt="Dimensionless threshold speed of a rigid rotor on the bearing.",
-            caption=r"$p_s = Ω_s\sqrt{MC/F_o}$"
-            f"{ask.lowest_threshold(computed)}. Fig. 5.8, Eq. 5.46.",
+            caption=cited(
+                rf"$p_s = Ω_s\sqrt{{MC/F_o}}${ask.lowest_threshold(computed)}.",
+                computed,
+                "threshold",
+                rotor="Eq. 5.45",
+            ),
         )
         page.chart(
             lambda c: figures.flexible_threshold(
@@ -92,8 +99,12 @@ def figures_of_the_notes(page: Page) -> None:
             ),
             "flexible_threshold",
             alt="Dimensionless threshold speed of flexible rotors for several static sags.",
-            caption="The more the shaft sags, Γ = Fₒ/Kᵣₒₜ, the lower the threshold. Fig. "
-            "5.10, Eq. 5.50.",
+            caption=cited(
+                "The more the shaft sags, Γ = Fₒ/Kᵣₒₜ, the lower the threshold.",
+                computed,
+                "flexible threshold",
+                rotor="Eq. 5.50",
+            ),
         )
 
 

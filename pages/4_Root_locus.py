@@ -25,8 +25,8 @@ def plane(page: Page, *, bends: bool) -> None:
         "locus",
         alt=words.ALTS["locus"],
         caption=" ".join([
-            words.CAPTIONS["locus"],
-            words.crossing(onset(computed, bends=bends), computed.top_speed, units),
+            words.caption("locus", computed),
+            words.crossing(computed, onset(computed, bends=bends), units),
             locus_figures.beyond(computed.locus(bends), units),
         ]),
     )  # fmt: skip
@@ -39,7 +39,7 @@ def against_speed(page: Page, *, bends: bool) -> None:
         return figures.OverSpeed(c.locus(bends), onset(c, bends=bends), units)
 
     def chart(draw, key):
-        page.chart(draw, key, alt=words.ALTS[key], caption=words.CAPTIONS[key])
+        page.chart(draw, key, alt=words.ALTS[key], caption=words.caption(key, page.computed))
 
     left, right = st.columns(2)
     with left:
@@ -57,7 +57,7 @@ def against_speed(page: Page, *, bends: bool) -> None:
     left, right = st.columns(2)
     with left:
         chart(lambda c: figures.decrement(shown(c)), "decrement")
-    right.markdown(words.HOW_TO_READ)
+    right.markdown(words.how_to_read(page.computed))
 
 
 def mode_shape(page: Page, *, bends: bool) -> None:
@@ -79,7 +79,7 @@ def mode_shape(page: Page, *, bends: bool) -> None:
             ),
             "shape",
             alt=words.ALTS["shape"],
-            caption=words.CAPTIONS["shape"],
+            caption=words.caption("shape", computed),
         )
 
 

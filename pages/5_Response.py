@@ -53,7 +53,7 @@ def orbits(page: Page) -> None:
             alt="The journal's orbit about its equilibrium inside its clearance.",
             caption="The journal's centre in its clearance, about the point where it "
             "rests at running speed. X points down, along the load; the shaft turns "
-            "anticlockwise.",
+            "counterclockwise.",
         )
     with right:
         page.chart(

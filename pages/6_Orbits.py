@@ -7,6 +7,7 @@ from rotorcalc.nonlinear.release import Release
 from ui.frame.page import Page, show
 from ui.words import on_demand
 from ui.words import orbits as ask
+from ui.words.citation import cited, remark
 
 
 def content(shown: Page) -> None:
@@ -37,7 +38,7 @@ def orbit(page: Page, asked: ask.Ask) -> None:
         page.chart(
             of_release(draw.orbit, page, asked),
             "orbits_path",
-            alt="The journal's path in its clearance circle, with an animation.",
+            alt="The journal's path in its clearance, with an animation.",
             caption="Play it, or move the slider. Blue: M ẍ = F(x, ẋ) + load + imbalance (Eq. 5.1, "
             "forward); purple: the linear theory from the same start (Eq. 5.38).",
         )
@@ -65,7 +66,16 @@ def in_time(page: Page, asked: ask.Ask) -> None:
             of_release(draw.film, page, asked),
             "orbits_film",
             alt="Thinnest film over revolutions.",
-            caption="Thinnest film around the journal, h = C(1 − ε). Eq. 5.19.",
+            caption=cited(
+                remark(
+                    page.computed,
+                    "thickness",
+                    "Thinnest film around the journal, h = {}.",
+                    "Thinnest film around the journal.",
+                ),
+                page.computed,
+                "thickness",
+            ),
         )
 
 

@@ -17,7 +17,7 @@ def digits(value: float) -> str:
 
 def amount(unit: Unit, value: ArrayLike) -> str:
     """Return an SI value in a unit, with the unit's name."""
-    return f"{digits(float(unit.of(value)))} {unit.name}"
+    return f"{minus(digits(float(unit.of(value))))} {unit.name}"
 
 
 def minus(text: str) -> str:

@@ -107,13 +107,16 @@ class Source:
     Attributes
     ----------
     equation : str
-        "Eq. 5.8", or in words what was solved.
+        Where it is printed, as "Eq. 5.8" or "Eqs. 5.5, 5.6, Fig. 5.2"; or in words what was solved.
     tex : str
         The equation in TeX; empty where none can be written down.
+    remark : str
+        What a caption says of the result on this film alone, without capital and full stop.
     """
 
     equation: str
     tex: str = ""
+    remark: str = ""
 
 
 class Film(Protocol):
@@ -135,7 +138,11 @@ class Film(Protocol):
     limits : tuple of Limit
         What the model assumes of the bearing.
     sources : mapping of str to Source
-        By the name of the result.
+        By the name of the result, of those that the model knows: "film" (the model itself),
+        "eccentricity", "attitude", "thickness", "pressure", "force", "drag", "flow", "stiffness",
+        "damping", "k", "c", both in "XY" and in "rt", "centre" (K without load), "half speed"
+        (whirl of a light load); and of figures, "over ε", "over σ", "whirl ratio", "threshold",
+        "critical mass", "flexible threshold". Pages cite nothing else of a film.
     """
 
     @property

@@ -71,9 +71,10 @@ def _flow(computed: Computed) -> str:
     return rf"{product} = {tex(float(computed.point.side_flow), 'm^3/s')}"
 
 
+_SHEET = "the notes' calculation sheet"
 EQUILIBRIUM: tuple[Result, ...] = (
     Result(
-        "viscosity", "Viscosity μ", "viscosity", lambda c: c.machine.viscosity, "Sheet",
+        "viscosity", "Viscosity μ", "viscosity", lambda c: c.machine.viscosity, _SHEET,
         r"\mu = \mu_R\, e^{-\alpha(T-T_R)}", _viscosity,
     ),
     Result(
@@ -88,7 +89,7 @@ EQUILIBRIUM: tuple[Result, ...] = (
     ),
     Result(
         "sommerfeld", "Sommerfeld number σ", "number", lambda c: float(c.point.sommerfeld),
-        "Eq. 5.8",
+        "Definition",
         r"\sigma = \frac{\mu\Omega L R}{4F_o}\left(\frac{L}{C}\right)^2", _sommerfeld,
         "The modified one. The classical Sommerfeld number is S = σ(D/L)²/π.",
     ),
@@ -111,14 +112,14 @@ EQUILIBRIUM: tuple[Result, ...] = (
     ),
     Result(
         "power_loss", "Power loss", "power", lambda c: float(c.point.power_loss),
-        "Sheet", r"P = \Omega\left(\frac{2\pi\mu\Omega R^3L}{C\sqrt{1-\varepsilon^2}}"
+        _SHEET, r"P = \Omega\left(\frac{2\pi\mu\Omega R^3L}{C\sqrt{1-\varepsilon^2}}"
         r"+\tfrac12 e F_o\sin\phi\right)", _power,
         "Per bearing: shear at the journal's surface, and half the couple of the load, which "
         "drives the pressure flow.", unknown="not known", source="drag",
     ),
     Result(
         "side_flow", "Side flow", "flow", lambda c: float(c.point.side_flow),
-        "Sheet", r"Q = \Omega R L C\,\varepsilon", _flow, "Per bearing, both ends together.",
+        _SHEET, r"Q = \Omega R L C\,\varepsilon", _flow, "Per bearing, both ends together.",
         unknown="not known", source="flow",
     ),
 )  # fmt: skip

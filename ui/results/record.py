@@ -7,10 +7,11 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rotorcalc.films import film_of
+from rotorcalc.films.model import Source
 from rotorcalc.units import Unit, Units
 from ui.computed import Computed
-from ui.format import digits
+from ui.format import digits, minus
+from ui.words import citation
 
 
 @dataclass(frozen=True)
@@ -18,9 +19,9 @@ class Result:
     """A number that pages show.
 
     `equation` is LaTeX, `number` where it stands in the notes, `filled` its right-hand side with
-    this machine's SI values, `remark` what the equation does not say, `nought` a word for zero,
-    `unknown` one for no number. `source` names the result among those of the film, where another
-    film has another equation.
+    this machine's SI values, `remark` what the equation does not say, `nought` words for zero,
+    `unknown` for no number. `source` names the result among those of the film, where another film
+    has another equation; `solved` returns what was solved where that depends on the machine.
     """
 
     key: str
@@ -31,9 +32,10 @@ class Result:
     equation: str
     filled: Callable[[Computed], str]
     remark: str = ""
-    nought: str = ""
+    nought: Callable[[Computed], str] | None = None
     unknown: str = "none"
     source: str = ""
+    solved: Callable[[Computed], Source] | None = None
 
     def unit(self, units: Units) -> Unit:
         """Return the unit in which the result is shown."""
@@ -47,15 +49,28 @@ class Result:
         if math.isinf(value):
             return "no limit"
         if value == 0.0 and self.nought:
-            return self.nought
+            return self.nought(computed)
         unit = self.unit(units)
-        number = digits(float(unit.of(value)))
+        number = minus(digits(float(unit.of(value))))
         return number + {"-": "", "°": "°"}.get(unit.name, f" {unit.name}")
 
-    def is_of(self, computed: Computed) -> bool:
-        """Return whether the equation is the one by which the machine's film answers."""
-        known = film_of(computed.machine.bearing).sources.get(self.source)
-        return not self.source or (known is not None and known.equation == self.number)
+    def origin(self, computed: Computed) -> Source | None:
+        """Return what was solved for this machine, None where its film names no source."""
+        if self.solved:
+            return self.solved(computed)
+        if self.source:
+            return citation.source(computed, self.source)
+        return Source(self.number, self.equation)
+
+    def is_own(self, computed: Computed) -> bool:
+        """Return whether it was the result's equation that was solved for this machine."""
+        origin = self.origin(computed)
+        return origin is not None and origin.equation == self.number
+
+    def cited(self, computed: Computed) -> str:
+        """Return where what was solved stands, or in words what it was."""
+        origin = self.origin(computed)
+        return citation.capital(origin.equation) if origin else "Film model"
 
     def change(self, computed: Computed, baseline: Computed) -> str | None:
         """Return the change from the baseline's result, or nothing where that is NaN."""

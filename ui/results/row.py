@@ -2,12 +2,11 @@
 
 import streamlit as st
 
-from rotorcalc.films import film_of
-from rotorcalc.films.model import Source
 from rotorcalc.units import Units
 from ui.computed import Computed
 from ui.results.record import Result
 from ui.results.table import RESULTS
+from ui.words import citation
 
 
 def row_key(keys: tuple[str, ...]) -> str:
@@ -35,21 +34,22 @@ def show_results(computed: Computed, baseline: Computed | None, units: Units, *k
 
 
 def _explain(result: Result, computed: Computed, units: Units) -> None:
-    source = film_of(computed.machine.bearing).sources.get(result.source)
-    own = result.is_of(computed)
+    # A column is too narrow for whose calculation sheet it is.
+    label = citation.capital(result.cited(computed).removeprefix("The notes' "))
     opened = st.popover(
-        result.number if own else source.equation if source else "Film model",
+        label,
         type="tertiary",
         key=f"explain_{result.key}",
         on_change="rerun",
     )
     if opened.open:
         with opened:
+            own = result.is_own(computed)
             if not own:
-                _explain_other(source)
+                _explain_other(result, computed)
             elif computed.unloaded:
                 st.latex(result.equation)
-                st.caption("Without load: the limit ε → 0.")
+                st.caption("Without load: the limit of a vanishing load.")
             else:
                 st.latex(result.equation)
                 st.latex(f"= {result.filled(computed)}")
@@ -58,9 +58,10 @@ def _explain(result: Result, computed: Computed, units: Units) -> None:
                 st.caption(result.remark)
 
 
-def _explain_other(source: Source | None) -> None:
-    """Show by which equation another film than the notes' answers, where it has one."""
-    if source and source.tex:
-        st.latex(source.tex)
+def _explain_other(result: Result, computed: Computed) -> None:
+    """Show what was solved where that is not the notes' equation."""
+    origin = result.origin(computed)
+    if origin and origin.tex:
+        st.latex(origin.tex)
     else:
         st.caption("The model of this bearing's film gives it.")

@@ -5,10 +5,12 @@ import math
 import numpy as np
 
 from rotorcalc import analyse, modes
+from rotorcalc.films.model import Source
 from rotorcalc.onset import closed_form
 from ui.computed import Computed
 from ui.format import tex
 from ui.results.record import Result
+from ui.words.citation import whirl_without_load
 
 
 def leading(computed: Computed) -> complex:
@@ -39,7 +41,7 @@ def _ratio(computed: Computed) -> str:
 def _critical_mass(computed: Computed) -> str:
     p = computed.point
     if not math.isfinite(float(p.critical_mass)):
-        return r"\infty\ \text{(no whirl at this eccentricity)}"
+        return r"\infty\ \text{(no whirl in this equilibrium)}"
     product = rf"({tex(float(p.whirl_ratio))}\cdot {tex(computed.speed)})^2"
     top = tex(float(p.equivalent_stiffness))
     return rf"\frac{{{top}}}{{{product}}} = {tex(float(p.critical_mass), 'kg')}"
@@ -49,7 +51,7 @@ def _threshold(computed: Computed) -> str:
     K_eq, ratio = float(computed.point.equivalent_stiffness), float(computed.point.whirl_ratio)
     M, omega = computed.machine.rotor.half_mass, float(computed.point.rigid_threshold)
     if ratio == 0.0:
-        return r"\infty\ \text{(no whirl at this eccentricity)}"
+        return r"\infty\ \text{(no whirl in this equilibrium)}"
     root = rf"\sqrt{{\frac{{{tex(K_eq)}}}{{{tex(M)}}}}}"
     return rf"\frac{{1}}{{{tex(ratio)}}}{root} = {tex(omega, 'rad/s')}"
 
@@ -66,10 +68,10 @@ def _margin(computed: Computed) -> float:
 
 
 def _onset(computed: Computed, flexible: bool) -> str:
-    """Return Eq. 5.50 with the numbers at the onset, or the condition at the onset otherwise."""
+    """Return the notes' equation with the numbers at the onset."""
     onset = computed.onset if flexible else computed.rigid_onset
     speed = tex(onset.speed, "rad/s")
-    if not math.isfinite(onset.speed) or not closed_form.has_closed_form(computed.machine):
+    if not math.isfinite(onset.speed):
         return speed
     there = analyse(computed.machine, onset.speed)
     K_eq, ratio = tex(float(there.equivalent_stiffness)), tex(float(there.whirl_ratio))
@@ -79,10 +81,42 @@ def _onset(computed: Computed, flexible: bool) -> str:
     return rf"{series}{root} = {speed}"
 
 
-_ONSET_REMARK = (
-    "With the equilibrium at the onset speed itself. With midspan damping or journal mass the "
-    "equation does not hold, and the onset follows from the machine's eigenvalues: max Re λ = 0."
-)
+def _solved(computed: Computed, flexible: bool) -> Source:
+    """Return what gave the onset: the notes' equation, or another where that does not hold."""
+    machine = computed.machine
+    holds = closed_form.has_closed_form if flexible else closed_form.covers
+    if holds(machine):
+        return Source(_FLEXIBLE if flexible else _RIGID)
+    onset = computed.onset if flexible else computed.rigid_onset
+    if onset.method == "film":
+        return Source("no whirl", r"K_{XY} = K_{YX}")
+    if onset.method == "closed form":  # undamped, with a journal mass
+        return Source(
+            "force balance",
+            r"(K_{eq}-M_jX)(K_{rot}-m_dX) = K_{rot}\,m_dX,\quad X = (\bar\omega\,\Omega)^2",
+        )
+    return Source("eigenvalues", r"\max\mathrm{Re}\,\lambda(\Omega) = 0")
+
+
+def _solved_frequency(computed: Computed) -> Source:
+    """Return what gave the whirl's frequency at the onset."""
+    solved = _solved(computed, True)
+    if solved.equation == _FLEXIBLE:
+        return Source(_RATIO)
+    return Source(solved.equation, r"\omega_s = |\mathrm{Im}\,\lambda|")
+
+
+def _whirl(computed: Computed) -> str:
+    onset = computed.onset
+    if not 0.0 < onset.speed < math.inf:
+        return tex(onset.whirl_frequency, "rad/s")
+    ratio = tex(onset.whirl_frequency / onset.speed)
+    return rf"{ratio}\cdot {tex(onset.speed)} = {tex(onset.whirl_frequency, 'rad/s')}"
+
+
+# Where the notes have the threshold of a rigid and of a flexible rotor, and the whirl ratio.
+_RIGID, _FLEXIBLE, _RATIO = "Eq. 5.47", "Eq. 5.50", "Eq. 5.46"
+_ONSET_REMARK = "With the equilibrium at the onset speed itself."
 
 STABILITY: tuple[Result, ...] = (
     Result(
@@ -93,9 +127,10 @@ STABILITY: tuple[Result, ...] = (
     ),
     Result(
         "whirl_ratio", "Whirl ratio ω̄", "number", lambda c: float(c.point.whirl_ratio),
-        "Eq. 5.46", r"\bar\omega^2 = \frac{(K_{eq}-K_{XX})(K_{eq}-K_{YY})-K_{XY}K_{YX}}"
+        _RATIO, r"\bar\omega^2 = \frac{(K_{eq}-K_{XX})(K_{eq}-K_{YY})-K_{XY}K_{YX}}"
         r"{\Omega^2(C_{XX}C_{YY}-C_{XY}C_{YX})}", _ratio,
-        "At this speed's equilibrium; 0 where the film cannot whirl.",
+        "Of the film's synchronous coefficients at this speed's equilibrium, whatever the rotor; 0 "
+        "where it feeds no whirl.",
     ),
     Result(
         "critical_mass", "Critical mass per bearing", "mass",
@@ -105,33 +140,33 @@ STABILITY: tuple[Result, ...] = (
     ),
     Result(
         "rigid_threshold", "Threshold, rigid shaft", "speed",
-        lambda c: float(c.point.rigid_threshold), "Eq. 5.47",
+        lambda c: float(c.point.rigid_threshold), _RIGID,
         r"\Omega_s = \frac{1}{\bar\omega}\sqrt{\frac{K_{eq}}{M}}", _threshold,
         "At this speed's equilibrium.",
     ),
     Result(
         "flexible_threshold", "Threshold, flexible shaft", "speed",
-        lambda c: float(c.point.flexible_threshold), "Eq. 5.50",
+        lambda c: float(c.point.flexible_threshold), _FLEXIBLE,
         r"\Omega_{sf} = \frac{\Omega_s}{\sqrt{1+K_{eq}/K_{rot}}}", _flexible,
         "At this speed's equilibrium; without midspan damping and journal mass.",
     ),
     Result(
-        "onset_speed", "Onset of whirl Ωₛ", "speed", lambda c: c.onset.speed, "Eq. 5.50",
-        r"\Omega = \Omega_{sf}(\varepsilon(\Omega)) \;\Leftrightarrow\; "
-        r"\max\mathrm{Re}\,\lambda = 0",
-        lambda c: _onset(c, flexible=True), _ONSET_REMARK, nought="any speed",
+        "onset_speed", "Onset of whirl Ωₛ", "speed", lambda c: c.onset.speed, _FLEXIBLE,
+        r"\Omega = \Omega_{sf}(\varepsilon(\Omega))",
+        lambda c: _onset(c, flexible=True), _ONSET_REMARK, nought=lambda _: "any speed",
+        solved=lambda c: _solved(c, True),
     ),
     Result(
         "rigid_onset", "Onset if the shaft were rigid", "speed", lambda c: c.rigid_onset.speed,
-        "Eq. 5.47", r"\Omega = \Omega_s(\varepsilon(\Omega)) \;\Leftrightarrow\; "
-        r"\max\mathrm{Re}\,\lambda = 0",
-        lambda c: _onset(c, flexible=False), _ONSET_REMARK, nought="any speed",
+        _RIGID, r"\Omega = \Omega_s(\varepsilon(\Omega))",
+        lambda c: _onset(c, flexible=False), _ONSET_REMARK, nought=lambda _: "any speed",
+        solved=lambda c: _solved(c, False),
     ),
     Result(
         "whirl_frequency", "Whirl frequency", "speed",
-        lambda c: c.onset.whirl_frequency, "Eq. 5.47", r"\omega_s = |\mathrm{Im}\,\lambda|",
-        lambda c: tex(c.onset.whirl_frequency, "rad/s"), "At the onset. " + _ONSET_REMARK,
-        nought="½ Ω at any speed",
+        lambda c: c.onset.whirl_frequency, _RATIO, r"\omega_s = \bar\omega\,\Omega_s",
+        _whirl, "At the onset. " + _ONSET_REMARK,
+        nought=whirl_without_load, solved=_solved_frequency,
     ),
     Result(
         "margin", "Margin to onset", "percent", _margin, "Ωₛ/Ω − 1",

@@ -26,8 +26,9 @@ ROSS_NOTE = (
     "ROSS table: `rs.BearingElement.from_table(n=0, file='ross_bearing.xlsx')` reads it. One "
     "bearing, K in N/m, C in N·s/m, speed in rad/s. ROSS's x is horizontal, its y up, the shaft "
     "turning from x to y; X here points down along the load, Y at +90° in the sense of rotation. "
-    "So x = Y and y = −X, a rotation by −90°: kxx = K_YY, kxy = −K_YX, kyx = −K_XY, kyy = K_XX, "
-    "and c likewise. Signs are the same in both, K_ij = −∂F_i/∂X_j. Between the speeds ROSS lays "
+    "So x = Y and y = −X, a rotation by −90°: $k_{xx} = K_{YY}$, $k_{xy} = −K_{YX}$, "
+    "$k_{yx} = −K_{XY}$, $k_{yy} = K_{XX}$, and c likewise. Signs are the same in both, "
+    "Kᵢⱼ = −∂Fᵢ/∂Xⱼ. Between the speeds ROSS lays "
     "splines; a phase counts there from x, here from X."
 )
 

@@ -22,10 +22,11 @@ from rotorcalc.validity import validity
 from ui.bearing import KIND, Values, fields_of
 from ui.computed import Computed
 from ui.format import amount, digits, minus
-from ui.inputs import GROUPS, INPUTS, number, values_of
+from ui.inputs import GROUPS, INPUTS, machine_of, number, values_of
 from ui.results.table import RESULTS
 from ui.sharing import report_charts
 from ui.sharing.report_charts import Figure
+from ui.words import citation
 from ui.words import validity as validity_words
 from ui.words.verdict import verdict
 
@@ -48,7 +49,7 @@ def report(
         _validity(computed),
         _reading(computed, baseline),
         *(
-            _section(title, figures, charts)
+            _section(computed, title, figures, charts)
             for title, figures in report_charts.sections(computed).items()
         ),
     )
@@ -61,6 +62,7 @@ def report(
         version=escape(version),
         date=dt.datetime.now(dt.UTC).date().isoformat(),
         link=_anchor(link),
+        film=escape(_film(computed)),
         plotly=_plotly(),
         charts=_script(charts),
     ).encode()
@@ -82,6 +84,13 @@ def _script(charts: report_charts.Charts) -> str:
 def _anchor(link: str) -> str:
     text = escape(link)
     return f'<a href="{text}">{text}</a>' if link.startswith(("http://", "https://")) else text
+
+
+def _film(computed: Computed) -> str:
+    """Return what the film's model is, in words."""
+    model = computed.machine.bearing.model
+    found = citation.source(computed, "film")
+    return found.equation if found else f"{model}, of a bearing of another kind than the notes'"
 
 
 def _subtitle(computed: Computed, baseline: Computed | None, units: Units) -> str:
@@ -114,11 +123,12 @@ def _inputs(computed: Computed, baseline: Computed | None, units: Units) -> str:
 
 
 def _bearing(live: Values, pinned: Values | None, units: Units) -> Iterator[str]:
-    """Yield rows of the kind of the bearing and its fields; a plain one's has none to tell."""
-    if live[KIND] == "plain" and (pinned is None or pinned[KIND] == "plain"):
-        return
+    """Yield rows of the kind of the bearing, its film model, and the fields of its bore."""
     fields = fields_of(live[KIND])
-    rows = [("Kind", "", lambda values: f"{values[KIND]}")]
+    rows = [
+        ("Kind of bearing", "", lambda values: f"{values[KIND]}"),
+        ("Film model", "", lambda values: machine_of(values).bearing.model),
+    ]
     rows += [
         (
             field.label,
@@ -168,7 +178,7 @@ def _result(key: str, computed: Computed, baseline: Computed | None, units: Unit
         change = (result.change(computed, baseline) or "").removesuffix(" vs A")
         cells.append((minus(result.shown(baseline, units)), "n"))
         cells.append(("" if change == "+0 %" else minus(change), "n"))
-    return _row([*cells, (result.number, "")])
+    return _row([*cells, (result.cited(computed), "")])
 
 
 def _matrices(computed: Computed, units: Units) -> str:
@@ -247,12 +257,16 @@ def _reading(computed: Computed, baseline: Computed | None) -> str:
     return f'<p class="reading">{"".join(lines)}</p>'
 
 
-def _section(title: str, figures: Iterable[Figure], charts: report_charts.Charts) -> str:
+def _section(
+    computed: Computed, title: str, figures: Iterable[Figure], charts: report_charts.Charts
+) -> str:
     rows = (
-        "".join(_figure(figure, charts[figure.key]) for figure in row) for row in _paired(figures)
+        "".join(_figure(computed, figure, charts[figure.key]) for figure in row)
+        for row in _paired(figures)
     )
     drawn = "".join(f'<div class="charts">{row}</div>' for row in rows)
-    return f"<h2>{escape(title)}</h2>{drawn}"
+    missing = (f"<p>{escape(words)}</p>" for words in report_charts.left_out(computed, title))
+    return f"<h2>{escape(title)}</h2>{drawn}{''.join(missing)}"
 
 
 def _paired(figures: Iterable[Figure]) -> Iterator[list[Figure]]:
@@ -266,12 +280,13 @@ def _paired(figures: Iterable[Figure]) -> Iterator[list[Figure]]:
     yield row
 
 
-def _figure(figure: Figure, chart: report_charts.Chart) -> str:
+def _figure(computed: Computed, figure: Figure, chart: report_charts.Chart) -> str:
     width, height = (chart["layout"][key] for key in ("width", "height"))
     return (
         f'<figure style="width:{width}px"><div class="plot" id="{figure.key}" '
         f'style="width:{width}px;height:{height}px"></div>'
-        f"<figcaption><b>{escape(figure.title)}.</b> {escape(figure.caption)}</figcaption></figure>"
+        f"<figcaption><b>{escape(figure.title)}.</b> {escape(figure.words(computed))}</figcaption>"
+        "</figure>"
     )
 
 

@@ -4,6 +4,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
+import numpy as np
+
 from rotorcalc import whirl_energy
 from rotorcalc.figures import (
     Chart,
@@ -20,6 +22,7 @@ from rotorcalc.figures import (
 from rotorcalc.units import Units
 from ui.computed import Computed
 from ui.words import stability as ask
+from ui.words.citation import cited
 
 Charts: TypeAlias = dict[str, Chart]
 
@@ -34,17 +37,38 @@ _MARGIN = {"l": 58, "r": 10, "t": 30, "b": 44}
 class Figure:
     """A chart of the report: `key` names its place, `draw` takes the machine and the units.
 
-    `titles` are shorter titles of axes, for a chart too low for its own; they may name `units`.
+    `film` and `rotor` are the caption's sources. `titles` are shorter titles of axes, for a chart
+    too low for its own; they may name `units`. `missing` returns why a machine has no such chart.
     """
 
     key: str
     title: str
     draw: Callable[[Computed, Units], Chart]
     caption: str
+    film: tuple[str, ...] = ()
+    rotor: str = ""
     width: int = HALF
     height: int = _HEIGHT
     titles: Mapping[str, str] = field(default_factory=dict[str, str])
     legend: bool = True
+    missing: Callable[[Computed], str] = lambda _: ""
+
+    def words(self, computed: Computed) -> str:
+        """Return the caption with its sources."""
+        return cited(self.caption, computed, *self.film, rotor=self.rotor)
+
+
+def _unknown(field: str) -> Callable[[Computed], str]:
+    """Return what says that a film's model does not know a field of the sweep."""
+    return lambda c: _NOT_GIVEN if np.isnan(getattr(c.point, field)).any() else ""
+
+
+def _unknown_film(computed: Computed) -> str:
+    return _NOT_GIVEN if np.isnan(computed.film.pressure).any() else ""
+
+
+def _no_whirl(computed: Computed) -> str:
+    return "" if ask.whirls(computed) else ask.NO_WHIRL
 
 
 def _of_sweep(draw: Callable[..., Chart]) -> Callable[[Computed, Units], Chart]:
@@ -71,86 +95,93 @@ def _dimensionless(symbol: Literal["k", "c"]) -> Callable[[Computed, Units], Cha
     )
 
 
+_NOT_GIVEN = "The model of this bearing's film does not give it."
 RESPONSE = "Imbalance response"
 SECTIONS: dict[str, tuple[Figure, ...]] = {
     "Static equilibrium": (
         Figure(
             "cross_section", "Bearing",
             lambda c, u: machine.cross_section(c.point, c.film, u),
-            "Film exaggerated; pressure at mid-length. Eq. 5.25.", height=285,
+            "Film exaggerated; pressure at mid-length.", ("pressure",), height=285,
         ),
         Figure(
             "path", "Journal's path",
             lambda c, u: equilibrium.locus(c.path, c.point, u),
-            "In the clearance circle. Eqs. 5.7, 5.8.", height=285,
+            "In its clearance.", ("attitude", "eccentricity"), height=285,
         ),
         Figure(
             "position", "Eccentricity and attitude angle",
-            _of_sweep(equilibrium.position_over_speed), "Eqs. 5.7, 5.8.",
+            _of_sweep(equilibrium.position_over_speed), "", ("attitude", "eccentricity"),
             titles={"yaxis": "ε [-]", "yaxis2": "φ [°]"},
         ),
         Figure(
             "film", "Film", lambda c, u: film.film_around(c.film, c.point, u),
-            "Thickness, and pressure at mid-length. Eq. 5.25.",
+            "Thickness, and pressure at mid-length.", ("thickness", "pressure"),
             titles={"yaxis": "h [{units.film.name}]", "yaxis2": "p [{units.pressure.name}]"},
+            missing=_unknown_film,
         ),
         Figure(
-            "power", "Power loss", _of_sweep(equilibrium.power_loss), "Of one bearing. Sheet.",
-            titles={"yaxis": "P [{units.power.name}]"},
+            "power", "Power loss", _of_sweep(equilibrium.power_loss), "Of one bearing.", ("drag",),
+            titles={"yaxis": "P [{units.power.name}]"}, missing=_unknown("power_loss"),
         ),
         Figure(
-            "flow", "Side flow", _of_sweep(equilibrium.side_flow), "Of one bearing. Sheet.",
-            titles={"yaxis": "Q [{units.flow.name}]"},
+            "flow", "Side flow", _of_sweep(equilibrium.side_flow), "Of one bearing.", ("flow",),
+            titles={"yaxis": "Q [{units.flow.name}]"}, missing=_unknown("side_flow"),
         ),
     ),
     "Force coefficients": (
         Figure(
             "stiffness", "Stiffness", _of_coefficients(coefficients.stiffness_against_speed),
-            "Of one bearing, each speed at its own equilibrium. Eqs. 5.30, 5.35, 5.45.", FULL, 260,
+            "Of one bearing, each speed at its own equilibrium.", ("stiffness",), "Eq. 5.45",
+            width=FULL, height=260,
         ),
         Figure(
             "damping", "Damping", _of_coefficients(coefficients.damping_against_speed),
-            "Of one bearing. Eqs. 5.31, 5.35.", FULL, 260,
+            "Of one bearing.", ("damping",), width=FULL, height=260,
         ),
         Figure(
             "k", "Dimensionless stiffness", _dimensionless("k"),
-            "Dashed: minus the value. Eq. 5.35.",
+            "Dashed: minus the value.", ("over σ", "k"), "Eq. 5.32",
         ),
         Figure(
             "c", "Dimensionless damping", _dimensionless("c"),
-            "Dashed: minus the value. Eq. 5.35.",
+            "Dashed: minus the value.", ("over σ", "c"), "Eq. 5.32",
         ),
     ),
     "Stability": (
         Figure(
             "threshold", "Threshold speed", _of_thresholds(stability.threshold),
-            "Where it meets the line Ω the rotor goes unstable. Eqs. 5.45, 5.46, 5.50.", FULL, 290,
+            "Where it meets the line Ω the rotor goes unstable.", (), "Eqs. 5.45, 5.46, 5.50",
+            width=FULL, height=290, missing=_no_whirl,
         ),
         Figure(
             "whirl", "Whirl frequency at the threshold", _of_thresholds(stability.whirl_frequency),
-            "About half the speed. Eq. 5.47.",
+            "", (), "Eq. 5.47", missing=_no_whirl,
         ),
         Figure(
             "mass", "Critical mass", _of_thresholds(stability.critical_mass),
-            "Unstable below 1. Eqs. 5.45, 5.46.", titles={"yaxis": "M_c/M [-]"},
+            "Unstable below 1.", (), "Eq. 5.45",
+            titles={"yaxis": "M<sub>c</sub>/M [-]"}, missing=_no_whirl,
         ),
         Figure(
             "whirl_ratio", "Whirl ratio",
-            lambda c, _: stability.whirl_ratio(ask.film_figure(c)), "Fig. 5.7, Eq. 5.46.",
+            lambda c, _: stability.whirl_ratio(ask.film_figure(c)),
+            "", ("whirl ratio",), "Eq. 5.46", missing=_no_whirl,
         ),
         Figure(
             "threshold_speed", "Threshold of a rigid rotor",
-            lambda c, _: stability.threshold_speed(ask.film_figure(c)), "Fig. 5.8, Eq. 5.46.",
+            lambda c, _: stability.threshold_speed(ask.film_figure(c)),
+            "", ("threshold",), "Eq. 5.45", missing=_no_whirl,
         ),
     ),
     "Root locus": (
         Figure(
             "plane", "Complex plane", lambda c, u: root_locus.plane(c.locus(True), c.onset, u),
             "Eigenvalues with rising speed, upper half; dotted: constant damping ratio.",
-            FULL, 300,
+            width=FULL, height=300,
         ),
         Figure("growth", "Growth rate", _of_modes(modes.growth), "Unstable where one is positive."),
-        Figure("frequency", "Whirl frequency", _of_modes(modes.frequency), "ω_d = Im λ."),
+        Figure("frequency", "Whirl frequency", _of_modes(modes.frequency), "Im λ."),
         Figure("ratio", "Damping ratio", _of_modes(modes.damping), "ζ = −Re λ/|λ|."),
         Figure(
             "natural", "Natural frequency",
@@ -158,17 +189,17 @@ SECTIONS: dict[str, tuple[Figure, ...]] = {
                 modes.OverSpeed(c.locus(True), c.onset, u),
                 rigid=c.rigid_frequency, shaft=c.shaft_frequency,
             ),
-            "ω_n = |λ|. Eq. 5.47.",
+            "|λ|.", (), "Eq. 5.47",
         ),
     ),
     RESPONSE: (
         Figure(
             "amplitude", "Amplitude", lambda c, u: response.amplitude(c.response, "axes", u),
-            "Semi-axes of the orbits, zero to peak. Eq. 5.38.", FULL, 255,
+            "Semi-axes of the orbits, zero to peak.", (), "Eq. 5.38", width=FULL, height=255,
         ),
         Figure(
             "phase", "Phase lag", lambda c, u: response.phase(c.response, u),
-            "Behind the imbalance, which turns forward. Eq. 5.38.", FULL, 225,
+            "Behind the imbalance, which turns forward.", (), "Eq. 5.38", width=FULL, height=225,
         ),
         Figure(
             "orbits", "Orbits", lambda c, u: response.at_running_speed(c.orbits, u),
@@ -185,9 +216,21 @@ SECTIONS: dict[str, tuple[Figure, ...]] = {
 
 def sections(computed: Computed) -> dict[str, tuple[Figure, ...]]:
     """Return the charts that a machine has: a balanced one has no response."""
-    if computed.machine.rotor.imbalance > 0.0:
-        return SECTIONS
-    return {title: figures for title, figures in SECTIONS.items() if title != RESPONSE}
+    balanced = computed.machine.rotor.imbalance == 0.0
+    return {
+        title: tuple(figure for figure in figures if not figure.missing(computed))
+        for title, figures in SECTIONS.items()
+        if not (balanced and title == RESPONSE)
+    }
+
+
+def left_out(computed: Computed, title: str) -> list[str]:
+    """Return which charts of a section are left out, and why, a sentence for each reason."""
+    reasons: dict[str, list[str]] = {}
+    for figure in SECTIONS[title]:
+        if reason := figure.missing(computed):
+            reasons.setdefault(reason, []).append(figure.title)
+    return [f"Left out: {', '.join(titles)}. {reason}" for reason, titles in reasons.items()]
 
 
 def charts(computed: Computed, baseline: Computed | None, units: Units) -> Charts:

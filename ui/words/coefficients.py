@@ -7,7 +7,8 @@ from rotorcalc.analysis import Axes, ForceCoefficients
 from rotorcalc.coefficients import BULK_FLOW, LAMINAR
 from rotorcalc.units import Unit, Units
 from ui.computed import Computed
-from ui.format import amount, digits, tex
+from ui.format import amount, digits, minus, tex
+from ui.words.citation import cited, is_stiff_unloaded, remark, source
 
 FRAMES: dict[Axes, str] = {"XY": "X, Y: along the load", "rt": "r, t: line of centres"}
 # From these shares of the rotor's mass on, the film's added mass is small, or worth counting.
@@ -31,11 +32,11 @@ def show_matrices(computed: Computed, axes: Axes, units: Units) -> None:
     with right:
         st.latex(matrix("C", here.damping, units.damping, axes))
         _without_dimensions("c", film, film.damping, computed)
-    st.caption(
-        "K and C per bearing at the running speed, K_ij = −∂F_i/∂X_j (Eq. 5.14); "
-        "k = KC/F_o and c = CΩC/F_o (Eq. 5.32). "
-        + ("Eqs. 5.30, 5.31, 5.34." if axes == "rt" else "Eq. 5.35, k_YY and c_YY corrected.")
+    words = (
+        "K and C per bearing at the running speed, Kᵢⱼ = −∂Fᵢ/∂Xⱼ (Eq. 5.14); "
+        "k = KC/Fₒ and c = CΩC/Fₒ (Eq. 5.32)."
     )
+    st.caption(f"{cited(words, computed, axes)} {remark(computed, axes)}")
 
 
 def _without_dimensions(
@@ -47,38 +48,39 @@ def _without_dimensions(
         st.latex(matrix(symbol, values, Unit("-"), film.axes))
 
 
-def dimensionless_caption(symbol: str, against: str) -> str:
+def dimensionless_caption(computed: Computed, symbol: str, against: str) -> str:
     """Return the caption of the charts of k and c."""
-    unit = "k = KC/F_o" if symbol == "k" else "c = CΩC/F_o"
-    figure = "5.5" if against == "ε" else "5.6"
-    return (
+    unit = "k = KC/Fₒ" if symbol == "k" else "c = CΩC/Fₒ"
+    words = (
         f"{unit}; dashed: negative values, drawn as −{symbol}. The unit is the load, so the trend "
-        f"is not that of K and C themselves. Fig. {figure}, Eqs. 5.32 to 5.35"
-        + (", 5.45." if symbol == "k" else ".")
+        "is not that of K and C themselves."
     )
+    rotor = "Eqs. 5.32, 5.45" if symbol == "k" else "Eq. 5.32"
+    return cited(words, computed, f"over {against}", symbol, rotor=rotor)
 
 
 def say_unloaded(computed: Computed) -> None:
     """Show why the dimensionless charts have no point without load."""
     if computed.unloaded:
         st.info(
-            "Without load σ is infinite, ε is 0, and k and c, which are in units of the load, are "
+            "Without load σ is infinite, and k and c, which are in units of the load, are "
             "undefined: the charts show no running speed. K and C against speed do."
         )
 
 
-def say_stiff_centre(computed: Computed, units: Units) -> bool:
-    """Say that a film holds its centred journal, and return whether it does."""
-    K = computed.centred.stiffness
-    direct, cross = abs(K[0, 0] + K[1, 1]), abs(K[0, 1] - K[1, 0])
-    stiff = bool(direct > 1e-9 * cross)
-    if stiff:
-        st.info(
-            "This film has direct stiffness in the centre: it holds a journal without load, and "
-            "cross-coupling is not alone there. At this machine's speed, its load taken off:"
-        )
-        st.latex(matrix("K", K, units.stiffness))
-    return stiff
+def say_other_centre(computed: Computed, units: Units) -> bool:
+    """Show the stiffness without load of a film that names no equation for it; return whether."""
+    if source(computed, "centre"):
+        return False
+    st.info(
+        "This film has direct stiffness without load: it holds its journal, and cross-coupling is "
+        "not alone there. At this machine's speed, its load taken off:"
+        if is_stiff_unloaded(computed)
+        else "This film has no direct stiffness without load. At this machine's speed, its load "
+        "taken off:"
+    )
+    st.latex(matrix("K", computed.centred.stiffness, units.stiffness))
+    return True
 
 
 def show_centred(computed: Computed, units: Units) -> None:
@@ -92,22 +94,23 @@ def show_centred(computed: Computed, units: Units) -> None:
         "pushes it back: no direct stiffness, only $K_{XY} = -K_{YX}$. If the journal whirls at "
         "half the shaft's speed, the narrow place travels as fast as the oil does on average, and "
         "no pressure rises at all: stiffness and damping cancel, so $K_{XY} = "
-        "\\tfrac{\\Omega}{2}C_{XX}$ (Eq. 5.37). At this machine's speed, its load taken off:"
+        "\\tfrac{\\Omega}{2}C_{XX}$. At this machine's speed, its load taken off:"
     )
     damping = tex(float(unit.of(centred.whirl_damping[0, 0])))
     st.latex(matrix("K", centred.stiffness, unit))
     st.latex(rf"\tfrac{{\Omega}}{{2}}C_{{XX}} = {damping}{_unit(unit)}")
+    st.caption(cited("", computed, "centre"))
     st.markdown(_distance_from_centre(computed, here.stiffness, units))
 
 
 def _distance_from_centre(computed: Computed, K: np.ndarray, units: Units) -> str:
     if computed.unloaded:
-        return "This machine has no load: it runs exactly there, at ε = 0."
+        return "This machine has no load: it runs exactly there, in the centre."
     unit = units.stiffness
-    direct, cross = (digits(float(unit.of(K[place]))) for place in ((0, 0), (0, 1)))
+    direct, cross = (minus(digits(float(unit.of(K[place])))) for place in ((0, 0), (0, 1)))
     return (
         f"Under its load it runs at ε = {digits(float(computed.point.eccentricity_ratio))}, with "
-        f"K_XX = {direct} and K_XY = {cross} {unit.name}."
+        f"$K_{{XX}}$ = {direct} and $K_{{XY}}$ = {cross} {unit.name}."
     )
 
 
@@ -130,12 +133,12 @@ def show_added_mass(computed: Computed, units: Units) -> None:
     density = amount(units.density, computed.machine.oil.density)
     st.markdown(
         f"**{_percent(share)} of half the rotor's mass**: {_verdict(share)} With a flat profile of "
-        f"velocity (bulk flow, α_m = 1) it is {_percent(float(bulk.to_rotor))}. At running speed "
+        f"velocity (bulk flow, αₘ = 1) it is {_percent(float(bulk.to_rotor))}. At running speed "
         f"the force of the film's inertia is {_percent(float(laminar.to_damping))} of the force of "
         "its damping."
     )
     st.caption(
-        "Assumes laminar flow, α_m = 6/5, temporal inertia only, the film over half the "
+        "Assumes laminar flow, αₘ = 6/5, temporal inertia only, the film over half the "
         f"circumference, and the oil's density of {density} (sidebar, Oil). "
         "Definition: Eq. 5.14. The rest of the program neglects added mass, as the notes do."
     )

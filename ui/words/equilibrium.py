@@ -4,6 +4,16 @@ import numpy as np
 import streamlit as st
 
 from rotorcalc.arrays import Array
+from ui.computed import Computed
+from ui.words.citation import cited, remark
+
+
+def thinnest(computed: Computed) -> str:
+    """Return the caption of the smallest film over speed."""
+    words = remark(
+        computed, "thickness", "{}, below the clearance.", "The thinnest place of the film."
+    )
+    return cited(words, computed, "thickness")
 
 
 def known(words: str, values: Array) -> bool:

@@ -5,7 +5,8 @@ import streamlit as st
 from rotorcalc import whirl_energy
 from rotorcalc.figures import equilibrium, machine, response, stability, style
 from ui.frame.page import Page, show
-from ui.words.stability import crossing
+from ui.words.citation import cited
+from ui.words.stability import can_whirl, crossing
 from ui.words.verdict import verdict
 
 
@@ -28,7 +29,11 @@ def content(page: Page) -> None:
             ),
             "cross_section",
             alt="Cross-section of the bearing with the journal, the load and the film's pressure",
-            caption="Journal in its bearing, seen along the shaft. Pressure of the film: Eq. 5.25.",
+            caption=cited(
+                "Journal in its bearing, seen along the shaft, and pressure of the film.",
+                page.computed,
+                "pressure",
+            ),
         )
     with results:
         st.caption("Stability")
@@ -47,24 +52,13 @@ def content(page: Page) -> None:
         page.chart(
             lambda c: style.small(equilibrium.locus(c.path, c.point, units)),
             "home_locus",
-            alt="Path of the journal's centre in the clearance circle, and its present position",
-            caption="Position of the journal. Eqs. 5.7, 5.8.",
+            alt="Path of the journal's centre in its clearance, and its present position",
+            caption=cited("Position of the journal.", page.computed, "attitude", "eccentricity"),
         )
         st.page_link("pages/1_Equilibrium.py", label="Static equilibrium")
     with threshold:
-        page.chart(
-            lambda c: style.small(
-                stability.threshold(
-                    whirl_energy.thresholds(c.sweep),
-                    whirl_energy.thresholds(c.point),
-                    crossing(c),
-                    units,
-                )
-            ),
-            "home_threshold",
-            alt="Threshold speed over running speed, and the line that it crosses at the onset",
-            caption="Onset of whirl: the threshold meets the line Ω. Eqs. 5.45–5.50.",
-        )
+        if can_whirl(page.computed):
+            _threshold(page)
         st.page_link("pages/3_Stability.py", label="Stability")
     with swing:
         page.chart(
@@ -74,6 +68,23 @@ def content(page: Page) -> None:
             caption="Amplitudes of disk and journals. Eq. 5.38.",
         )
         st.page_link("pages/5_Response.py", label="Imbalance response")
+
+
+def _threshold(page: Page) -> None:
+    units = page.units
+    page.chart(
+        lambda c: style.small(
+            stability.threshold(
+                whirl_energy.thresholds(c.sweep),
+                whirl_energy.thresholds(c.point),
+                crossing(c),
+                units,
+            )
+        ),
+        "home_threshold",
+        alt="Threshold speed over running speed, and the line that it crosses at the onset",
+        caption="Onset of whirl: the threshold meets the line Ω. Eqs. 5.45, 5.46, 5.50.",
+    )
 
 
 def draw() -> None:

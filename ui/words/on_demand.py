@@ -23,6 +23,7 @@ from ui.jobs import cache, work
 from ui.jobs.work import Progress
 from ui.results.stability import leading
 from ui.session import session
+from ui.words.citation import capital, without_load
 
 T = TypeVar("T")
 
@@ -95,7 +96,7 @@ def ask_cycles(page: Page) -> Bifurcation | None:
     """Return the limit cycles on request, or show why there are none."""
     computed, onset = page.computed, page.computed.onset.speed
     if not 0.0 < onset < math.inf:
-        st.info(_no_onset(onset))
+        st.info(_no_onset(computed))
         return None
     return on_demand(
         page, "Follow the limit cycles", "orbits_cycles", ("cycles", _balanced(computed.machine)),
@@ -144,7 +145,7 @@ def ask_onsets(computed: Computed) -> tuple[Onsets, GrowthCurve] | None:
     """Return the onset found three ways, and growth over speed, or show why there is none."""
     onset = computed.onset.speed
     if not 0.0 < onset < math.inf:
-        st.info(_no_onset(onset))
+        st.info(_no_onset(computed))
         return None
     return _try(lambda: three_onsets(computed))
 
@@ -190,11 +191,11 @@ def _balanced(machine: Machine) -> Machine:
     return replace(machine, rotor=replace(machine.rotor, imbalance=0.0))
 
 
-def _no_onset(onset: float) -> str:
-    if onset == 0.0:
+def _no_onset(computed: Computed) -> str:
+    if computed.onset.speed == 0.0:
         return (
-            "Without load this machine whirls at any speed (Eq. 5.37): there is no onset from "
-            "which limit cycles could branch off, and none to compare."
+            f"{capital(without_load(computed))}, so this machine whirls at any speed: there is no "
+            "onset from which limit cycles could branch off, and none to compare."
         )
     return "No speed makes this machine whirl: it has no onset, and no limit cycles."
 

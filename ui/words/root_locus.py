@@ -12,6 +12,7 @@ from rotorcalc.unbalance_response import orbit_ellipse
 from rotorcalc.units import Units
 from ui.computed import Computed
 from ui.format import minus
+from ui.words.citation import capital, source, without_load
 
 ALTS = {
     "locus": "Eigenvalues in the complex plane as the speed rises: left of the imaginary axis a "
@@ -28,16 +29,16 @@ CAPTIONS = {
     "locus": "Eigenvalues λ of Eq. 5.38 (rigid) and of the calculation sheet (flexible), the upper "
     "half-plane; the lower one is its mirror image. Dotted rays: constant damping ratio ζ.",
     "growth": "Real part of λ: unstable as soon as one is positive. Eq. 5.42 holds at zero.",
-    "frequency": "Imaginary part of λ. The film's whirl follows ½× (Eq. 5.48); imbalance excites "
-    "a mode where it crosses 1×.",
+    "frequency": "Imaginary part of λ. Imbalance excites a mode where it crosses 1×.",
     "damping": "ζ = −Re λ/|λ|: zero at the onset; 1, dotted, where a mode does not oscillate.",
-    "natural": "|λ|, beside √(K_eq/M) of a rigid rotor on the film (Eq. 5.47) and √(K_rot/M) of "
-    "the shaft in rigid bearings. The rigid rotor's onset is where its mode meets √(K_eq/M).",
+    "natural": r"|λ|, beside $\sqrt{K_{eq}/M}$ of a rigid rotor on the film (Eq. 5.47) and "
+    r"$\sqrt{K_{rot}/M}$ of the shaft in rigid bearings. The rigid rotor's onset is where its mode "
+    r"meets $\sqrt{K_{eq}/M}$.",
     "decrement": "δ = −2π Re λ/|Im λ|: each cycle's amplitude is e^(−δ) times the previous one's.",
     "shape": "Right eigenvector of λ, its largest displacement 1; orbits about equilibrium. X "
     "points down along the load, the shaft turns counterclockwise, from X to Y.",
 }
-HOW_TO_READ = """
+_HOW_TO_READ = r"""
 **How to read these charts**
 
 - Modes are numbered by rising frequency at the lowest speed, and keep their number where curves
@@ -45,13 +46,13 @@ HOW_TO_READ = """
 - Two eigenvalues that are mirror images are one mode; only the one with Im λ ≥ 0 is drawn.
 - A **real eigenvalue does not oscillate**: the journal creeps back through the oil. It has a growth
   rate, drawn dotted, but no frequency and no decrement.
-- The rigid rotor's curve √(K_eq/M) is its whirl frequency *at* the onset. Below the onset its mode
-  follows half the running speed instead.
+- The rigid rotor's curve $\sqrt{K_{eq}/M}$ is its whirl frequency *at* the onset.
 """
+_HALF_SPEED = " Below the onset its mode follows half the running speed instead."
 ABOUT_MODES = """
 Film and shaft carry the whirl in series: the disk moves more than the journals by what the shaft
 bends. Near the onset the orbit is nearly a circle and turns **forward**, with the shaft: the
-cross-coupled stiffness K_XY − K_YX can feed only a forward whirl.
+cross-coupled stiffness $K_{XY} − K_{YX}$ can feed only a forward whirl.
 
 The table gives the direction and the ratio of the orbit's axes, minor to major. A real eigenvalue
 has no orbit: disk and journals creep along a line.
@@ -75,14 +76,26 @@ def choose_shaft(computed: Computed) -> bool:
     return chosen != "rigid"
 
 
-def crossing(onset: Onset, top_speed: float, units: Units) -> str:
+def caption(key: str, computed: Computed) -> str:
+    """Return the caption of a chart."""
+    if key == "frequency" and (half := source(computed, "half speed")):
+        return f"{CAPTIONS[key]} The film's whirl follows ½× ({half.equation})."
+    return CAPTIONS[key]
+
+
+def how_to_read(computed: Computed) -> str:
+    """Return how to read the charts against speed, Markdown."""
+    return _HOW_TO_READ.rstrip() + (_HALF_SPEED if source(computed, "half speed") else "")
+
+
+def crossing(computed: Computed, onset: Onset, units: Units) -> str:
     """Return a text that says where a mode crosses the imaginary axis."""
     if math.isinf(onset.speed):
         return "No mode crosses the imaginary axis: this film cannot make this rotor whirl."
     speed = f"{float(units.speed.of(onset.speed)):.0f} {units.speed.name}"
     if onset.speed == 0.0:
-        return "Without load the film has no direct stiffness, and the rotor whirls at any speed."
-    if onset.speed > top_speed:
+        return f"{capital(without_load(computed))}, and the rotor whirls at any speed."
+    if onset.speed > computed.top_speed:
         return f"The onset, {speed}, lies above the top speed of this chart."
     whirl = f"{float(units.speed.of(onset.whirl_frequency)):.0f} {units.speed.name}"
     ratio = f"{onset.whirl_frequency / onset.speed:.3f}"

@@ -15,10 +15,15 @@ from rotorcalc.onset import closed_form
 from rotorcalc.units import Units
 from ui.computed import Computed
 from ui.format import amount
+from ui.words.citation import capital, without_load
 
 BARE = (
     "Midspan damping or journal mass: the closed forms, drawn dashed, neglect both and no longer "
     "give the onset. The vertical line marks it, from the eigenvalues."
+)
+NO_WHIRL = (
+    "This film cannot whirl: it has no cross-coupled stiffness that could feed a whirl, at any "
+    "load, and so no threshold speed to draw. Every rotor is stable on it."
 )
 WORK = r"""
 \begin{gathered}
@@ -55,10 +60,12 @@ def film_figure(computed: Computed, over_eccentricity: bool = False) -> FilmFigu
 def ends_of_whirl(computed: Computed) -> str:
     """Return in words above which eccentricity the bearing's film feeds no whirl."""
     limit = film_figure(computed).limit
+    ratio = float(computed.curves.onset.whirl_ratio[-1])
+    light = "Half-speed whirl" if abs(ratio - 0.5) < 1e-3 else f"Whirl at {ratio:.3g} of the speed"
+    light = f"{light} of a light load" if ratio > 0.0 else "No whirl of a light load"
     if limit is None:
-        return "Whirl of a light load."
-    eps = float(limit.film.eccentricity_ratio)
-    return f"Half-speed whirl of a light load; none above ε = {eps:.4f}."
+        return f"{light}."
+    return f"{light}; none above ε = {float(limit.film.eccentricity_ratio):.4f}."
 
 
 def lowest_threshold(computed: Computed) -> str:
@@ -69,14 +76,16 @@ def lowest_threshold(computed: Computed) -> str:
 
 def can_whirl(computed: Computed) -> bool:
     """Return whether any load lets the film feed a whirl; say so if none does."""
+    if not whirls(computed):
+        st.info(NO_WHIRL)
+        return False
+    return True
+
+
+def whirls(computed: Computed) -> bool:
+    """Return whether any load lets the film feed a whirl."""
     film = film_of(computed.machine.bearing)
-    whirls = film.can_whirl and bool(np.any(computed.curves.onset.whirl_ratio > 0.0))
-    if not whirls:
-        st.info(
-            "This film cannot whirl: it has no cross-coupled stiffness that could feed a whirl, at "
-            "any load, and so no threshold speed to draw. Every rotor is stable on it."
-        )
-    return whirls
+    return film.can_whirl and bool(np.any(computed.curves.onset.whirl_ratio > 0.0))
 
 
 def sags(computed: Computed) -> tuple[float, ...]:
@@ -122,8 +131,8 @@ def balance(computed: Computed, units: Units) -> str:
     here, running = energies(computed).here, amount(units.speed, computed.speed)
     if computed.onset.speed == 0.0:
         return (
-            "Without load the film has no direct stiffness and the whirl is infinitely slow: "
-            f"damping dissipates nothing, and at {running} as at any speed the orbit grows."
+            f"{capital(without_load(computed))}, and the whirl is infinitely slow: damping "
+            f"dissipates nothing, and at {running} as at any speed the orbit grows."
         )
     ratio = float((here.film_loss + here.disk_loss) / here.fed_in)
     whirl = amount(units.speed, computed.onset.whirl_frequency)

@@ -7,6 +7,7 @@ from typing import Literal
 from rotorcalc.units import Units
 from ui.computed import Computed
 from ui.format import amount, digits
+from ui.words.citation import without_load
 
 
 @dataclass(frozen=True)
@@ -25,8 +26,8 @@ def verdict(computed: Computed, units: Units) -> Verdict:
     if computed.onset.speed == 0.0:
         return Verdict(
             "unstable",
-            f"Unstable at {running}: without load the film has no direct stiffness (Eq. 5.37), and "
-            "the machine whirls at any speed.",
+            f"Unstable at {running}: {without_load(computed)}, and the machine whirls at any "
+            "speed.",
         )
     return Verdict("unstable", f"Unstable at {running}: {_past(computed, units)}")
 

@@ -33,25 +33,43 @@ from rotorcalc.machine import JournalBearing
 _WHIRLS_ABOVE, _CENTRED_ABOVE = 0.066385, 10.0
 
 # As printed in the notes, with their misprints corrected.
+_SHEET = "the notes' calculation sheet"
 _SOURCES: dict[str, Source] = {
+    "film": Source("short bearing, no pressure flow around the journal, cavitated at ambient"),
     "eccentricity": Source(
         "Eq. 5.8",
         r"\frac{1}{\sigma}=\frac{\varepsilon\sqrt{16\varepsilon^2+\pi^2(1-\varepsilon^2)}}"
         r"{(1-\varepsilon^2)^2}",
+        remark="more speed or viscosity, less load: closer to the centre",
     ),
     "attitude": Source("Eq. 5.7", r"\tan\varphi=\frac{\pi\sqrt{1-\varepsilon^2}}{4\,\varepsilon}"),
+    "thickness": Source("Eq. 5.19", r"h_{min}=C(1-\varepsilon)", remark="C(1 − ε)"),
     "pressure": Source(
         "Eq. 5.25",
         r"p=\frac{3\mu\Omega L^2}{C^2}\,\frac{\varepsilon\sin\theta}{(1+\varepsilon\cos\theta)^3}"
         r"\left(\frac14-\frac{z^2}{L^2}\right)",
+        remark="a parabola along z, ambient at both ends",
     ),
-    "thickness": Source("Eq. 5.19", r"h_{min}=C(1-\varepsilon)"),
+    "force": Source("Eqs. 5.5, 5.6, Fig. 5.2"),
     "drag": Source(
-        "Sheet",
+        _SHEET,
         r"T=\frac{2\pi\mu\Omega R^3L}{C\sqrt{1-\varepsilon^2}}+\tfrac12 eF_o\sin\varphi",
     ),
-    "flow": Source("Sheet", r"Q=\Omega RLC\,\varepsilon"),
-    "coefficients": Source("Eqs. 5.30 and 5.31"),
+    "flow": Source(_SHEET, r"Q=\Omega RLC\,\varepsilon"),
+    "stiffness": Source("Eqs. 5.30, 5.35"),
+    "damping": Source("Eqs. 5.31, 5.35", remark="large at low speed, where the film is thin"),
+    "k": Source("Eqs. 5.34, 5.35"),
+    "c": Source("Eqs. 5.34, 5.35"),
+    "XY": Source("Eq. 5.35", remark=r"$k_{YY}$ and $c_{YY}$ corrected"),
+    "rt": Source("Eqs. 5.30, 5.31, 5.34"),
+    "centre": Source("Eq. 5.37", r"K_{XY}=-K_{YX}=\tfrac{\Omega}{2}C_{XX}"),
+    "half speed": Source("Eq. 5.48", r"\frac{\omega_s}{\Omega_s}\to\tfrac12"),
+    "over ε": Source("Fig. 5.5"),
+    "over σ": Source("Fig. 5.6"),
+    "whirl ratio": Source("Fig. 5.7"),
+    "threshold": Source("Fig. 5.8"),
+    "critical mass": Source("Fig. 5.9"),
+    "flexible threshold": Source("Fig. 5.10"),
 }
 
 

@@ -1,0 +1,86 @@
+"""Where what a page shows comes from: the film's own sources, and equations that hold on any film.
+
+The only place that writes equation numbers of a film into a caption.
+"""
+
+import re
+
+from rotorcalc.films import film_of
+from rotorcalc.films.model import Source
+from ui.computed import Computed
+
+_NUMBERED = re.compile(r"(Eq|Fig)s?\. (.+)")
+
+
+def source(computed: Computed, name: str) -> Source | None:
+    """Return a film's source of a result, None where it names none."""
+    return film_of(computed.machine.bearing).sources.get(name)
+
+
+def cited(words: str, computed: Computed, *names: str, rotor: str = "") -> str:
+    """Return a caption with its sources in a last sentence.
+
+    `names` are results of the film; `rotor` has the numbers of equations that hold on any film, as
+    "Eq. 5.45" or "Eqs. 5.45, 5.46".
+    """
+    found = [one.equation for name in names if (one := source(computed, name))]
+    return " ".join(part for part in (words, *_sentences([*found, rotor])) if part)
+
+
+def remark(computed: Computed, name: str, words: str = "{}.", otherwise: str = "") -> str:
+    """Return what holds of a result on the machine's film alone, put into words; else others."""
+    found = source(computed, name)
+    return capital(words.format(found.remark)) if found and found.remark else otherwise
+
+
+def capital(text: str) -> str:
+    """Return a text that begins with a capital."""
+    return text[:1].upper() + text[1:]
+
+
+def is_stiff_unloaded(computed: Computed) -> bool:
+    """Return whether the film has direct stiffness, beyond rounding, without load."""
+    K = computed.centred.stiffness
+    return bool(abs(K[0, 0] + K[1, 1]) > 1e-9 * abs(K[0, 1] - K[1, 0]))
+
+
+def without_load(computed: Computed) -> str:
+    """Return in words why a machine whirls at any speed."""
+    if not computed.unloaded or is_stiff_unloaded(computed):
+        return "its film feeds a whirl however slow the shaft"
+    centre = source(computed, "centre")
+    return "without load the film has no direct stiffness" + (
+        f" ({centre.equation})" if centre else ""
+    )
+
+
+def whirl_without_load(computed: Computed) -> str:
+    """Return the whirl's frequency in words where the onset is at speed zero."""
+    if film_of(computed.machine.bearing).inner:  # its own frequency, not the running speed, counts
+        return "a share of Ω at any speed"
+    ratio = float(computed.point.whirl_ratio)
+    share = "½" if abs(ratio - 0.5) < 1e-6 else f"{ratio:.3g}"
+    return f"{share} Ω at any speed"
+
+
+def _sentences(places: list[str]) -> list[str]:
+    """Return citations joined: numbers of one kind in one list, words as sentences of their own."""
+    numbers: dict[str, set[str]] = {}
+    words: dict[str, None] = {}
+    for place in filter(None, places):
+        kind = ""
+        for part in place.split(", "):
+            match = _NUMBERED.fullmatch(part)
+            kind, number = match.groups() if match else (kind, part)
+            if kind:
+                numbers.setdefault(kind, set()).add(number)
+            else:
+                words[f"{capital(part)}."] = None
+    listed = (_listed(kind, found) for kind, found in numbers.items())
+    return [*([f"{', '.join(listed)}."] if numbers else []), *words]
+
+
+def _listed(kind: str, numbers: set[str]) -> str:
+    several = len(numbers) > 1 or " to " in next(iter(numbers))
+    ordered = sorted(numbers, key=lambda number: [int(n) for n in re.findall(r"\d+", number)])
+    return f"{kind}{'s' if several else ''}. {', '.join(ordered)}"
