@@ -21,7 +21,7 @@ from rotorcalc.display import Result
 from rotorcalc.machine import Machine
 from rotorcalc.onset.closed_form import covers
 from rotorcalc.onset.many import onset_speeds
-from rotorcalc.variation import address, value_of, varied
+from rotorcalc.variation import address, changed, value_of, varied
 
 # The inputs that affect the onset: what `sensitivities` varies.
 INPUTS = (
@@ -174,13 +174,14 @@ def onset_map(  # noqa: PLR0913 - two axes, each a name and its values
     ValueError
         Where there is no such input, or both are the same.
     """
-    if address(machine, x) == address(machine, y):
+    x_path, y_path = address(machine, x), address(machine, y)
+    if x_path == y_path:
         raise ValueError(f"y = {y!r}: must differ from x")
     xs, ys = real_array("xs", xs), real_array("ys", ys)
     for name, values in (("xs", xs), ("ys", ys)):
         if values.ndim != 1:
             raise ValueError(f"{name}: must be a list, (n,), has the shape {values.shape}")
-    rows = [[_machine_or_none(machine, {x: a, y: b}) for a in xs] for b in ys]
+    rows = [[_machine_or_none(machine, {x_path: a, y_path: b}) for a in xs] for b in ys]
     made = [row_machine for row in rows for row_machine in row if row_machine is not None]
     whole = all(covers(one) for one in made)
     speed = np.empty((len(ys), len(xs)))
@@ -224,7 +225,7 @@ def sensitivities(
     """
     moved = [_moved(machine, field, share) for field in inputs]
     pairs = [
-        (step, [_machine_or_none(machine, {step[0]: value}) for value in step[1:]])
+        (step, [_machine_or_none(machine, {address(machine, step[0]): v}) for v in step[1:]])
         for step in moved
         if step[1] < step[2] < np.inf  # at 0 or ∞ a share moves nothing
     ]
@@ -308,13 +309,11 @@ def solve_onset(
     )
 
 
-def _machine_or_none(machine: Machine, values: Mapping[str, float]) -> Machine | None:
+def _machine_or_none(machine: Machine, values: Mapping[tuple[str, ...], float]) -> Machine | None:
+    """Return a machine with other values at some paths, None where that is no valid machine."""
     try:
-        return varied(machine, values)
+        return changed(machine, values)
     except ValueError:
-        for field in values:
-            # An unknown input is an error, raised here; values of an invalid machine give None.
-            address(machine, field)
         return None
 
 

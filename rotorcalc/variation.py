@@ -68,7 +68,7 @@ def varied(machine: Machine, values: Mapping[str, float]) -> Machine:
     >>> varied(PRESETS["sheet-1e8"].machine, {"radial_clearance": 80e-6}).bearing.radial_clearance
     8e-05
     """
-    return _changed(machine, {address(machine, field): value for field, value in values.items()})
+    return changed(machine, {address(machine, field): value for field, value in values.items()})
 
 
 @functools.lru_cache(maxsize=256)
@@ -106,11 +106,11 @@ def address(machine: Machine, field: str) -> tuple[str, ...]:
     raise ValueError(f"{field[:80]!r}: no input of a machine; known are {names}")
 
 
-def _changed(record: R, changes: Mapping[tuple[str, ...], float]) -> R:
-    """Return a record with the values at some paths changed."""
+def changed(record: R, changes: Mapping[tuple[str, ...], float]) -> R:
+    """Return a record with the values at some paths changed, which `address` gives."""
     # All at once: one change at a time may pass through an invalid record.
     own: dict[str, Any] = {path[0]: value for path, value in changes.items() if len(path) == 1}
     for name in {path[0] for path in changes if len(path) > 1}:
         below = {path[1:]: value for path, value in changes.items() if path[0] == name}
-        own[name] = _changed(getattr(record, name), below)
+        own[name] = changed(getattr(record, name), below)
     return replace(record, **own)
