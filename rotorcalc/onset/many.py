@@ -21,7 +21,7 @@ from rotorcalc.machine import JournalBearing, Machine
 from rotorcalc.numerics import routh
 from rotorcalc.onset import onset_speed
 from rotorcalc.onset.closed_form import closed_onsets, covers
-from rotorcalc.onset.search import search_speeds
+from rotorcalc.onset.search import search_range
 
 # Number of machines from which solving them together is faster than one by one.
 _FLEET = 4
@@ -141,11 +141,10 @@ def _fleet(machines: Sequence[Machine], rotor_terms: Array) -> _Fleet:
 
 def _sure_onsets(machines: Sequence[Machine], rotor_terms: Array) -> Array:
     """Return the onsets of machines with the same film model and number of states."""
-    searches = [search_speeds(machine) for machine in machines]
-    first = np.array([search[0] for search in searches])
-    ratio = np.array([search[1] / search[0] for search in searches])
+    first, last, lengths = np.array([search_range(machine) for machine in machines]).T
+    ratio = (last / first) ** (1.0 / (lengths - 1.0))
     # Shorter searches are continued, each at its own ratio, to a common length.
-    points = max(len(search) for search in searches)
+    points = int(lengths.max())
     speeds: Array = first[:, None] * ratio[:, None] ** np.arange(points, dtype=float)
     fleet = _fleet(machines, rotor_terms)
     doubt = routh.margin_bounds(fleet.polynomials(speeds, np.arange(len(machines))))[1]

@@ -5,6 +5,7 @@ the zero of Hurwitz's last determinant is found: in floats where these are concl
 digits.
 """
 
+import functools
 import math
 from collections.abc import Callable, Iterator
 
@@ -15,8 +16,8 @@ from scipy.optimize import brentq, minimize_scalar
 from rotorcalc import modes
 from rotorcalc.arrays import Array
 from rotorcalc.coefficients import modified_sommerfeld, stiffness_and_damping
-from rotorcalc.films import film_of, film_state
-from rotorcalc.machine import Machine
+from rotorcalc.films import film_coefficients, film_of, film_state
+from rotorcalc.machine import JournalBearing, Machine
 from rotorcalc.numerics import routh
 from rotorcalc.numerics.roots import narrow_root
 from rotorcalc.onset.characteristic import ExactPolynomial, polynomial
@@ -239,7 +240,12 @@ def humps(
 
 
 def search_speeds(machine: Machine, flexible: bool = True) -> Array:
-    """Return speeds in equal ratios that span every possible first onset [rad/s].
+    """Return the speeds of `search_range` [rad/s]."""
+    return np.geomspace(*search_range(machine, flexible))
+
+
+def search_range(machine: Machine, flexible: bool = True) -> tuple[float, float, int]:
+    """Return ends [rad/s] and number of speeds in equal ratios that span every first onset.
 
     Below the σ at which the film can whirl every rotor is stable, so the search begins there; above
     some σ the film no longer changes (`sommerfeld_range`). Without load the film is the centred one
@@ -254,8 +260,7 @@ def search_speeds(machine: Machine, flexible: bool = True) -> Array:
     highest = 2.0 * _beyond_all_onsets(machine, centred, flexible)
     if film_of(machine.bearing).inner:  # modes of the film's own parts, beside the rotor's
         highest *= _INNER
-    points = 1 + math.ceil(_POINTS_PER_DECADE * math.log10(highest / lowest))
-    return np.geomspace(lowest, highest, points)
+    return lowest, highest, 1 + math.ceil(_POINTS_PER_DECADE * math.log10(highest / lowest))
 
 
 def _beyond_all_onsets(machine: Machine, centred: float, flexible: bool) -> float:
@@ -269,9 +274,21 @@ def _beyond_all_onsets(machine: Machine, centred: float, flexible: bool) -> floa
         before, highest = highest, max(highest, _highest_onset(machine, highest, flexible))
         # The film's stiffness rises at most as Ω, and the bound as its root: after a factor of
         # 1.5 all later ones multiply to less than 1.5, and `search_speeds` doubles the bound.
-        if highest <= 1.5 * before:
+        if highest <= 1.5 * before or not _stiffens(machine.bearing):
             break
     return highest
+
+
+@functools.lru_cache(maxsize=256)
+def _stiffens(bearing: JournalBearing) -> bool:
+    """Return whether a film's stiffness goes on rising with speed where the journal is centred.
+
+    That of a circular bore does not: unloaded, it has cross stiffness only (Eq. 5.37).
+    """
+    if film_of(bearing).inner:
+        return True
+    K, C = film_coefficients(bearing, math.inf)
+    return max(float(np.trace(K)), float(whirl_onset(K, C).equivalent_stiffness)) > 0.0
 
 
 def _slowest_rate(machine: Machine, flexible: bool) -> float:
