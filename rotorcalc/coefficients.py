@@ -196,6 +196,7 @@ def equilibrium(machine: Machine, speed: ArrayLike) -> Equilibrium:
     return Equilibrium(
         speed=speed,
         film=film,
+        # Eqs. 5.30 and 5.31, turned to X, Y (Eq. 5.16); σ has given the equilibrium (Eq. 5.8).
         stiffness=_matrices(film.stiffness, units.stiffness),
         damping=_matrices(film.damping, units.damping),
         minimum_film_thickness=film.minimum_thickness * bearing.radial_clearance,
@@ -317,6 +318,7 @@ def film_field(
     # θ counts from the thickest film, Θ = φ + π; the film model takes angles Θ from X.
     opposite = film.attitude_angle + np.pi
     angle = opposite + theta
+    # The thickness does not vary along an aligned bearing: the middle plane gives it.
     middle = model.field(points, angle=angle, zeta=0.0)
     field = model.field(points, angle=angle[:, None], zeta=zeta)
     return PressureField(
@@ -395,6 +397,7 @@ def added_mass(machine: Machine, speed: ArrayLike, *, factor: float = LAMINAR) -
     """
     state = equilibrium(machine, speed)
     bearing = machine.bearing
+    # α_m ρRL³/(12C), independent of viscosity and speed.
     unit = factor * FilmUnits(bearing, machine.viscosity, state.speed).added_mass(
         machine.oil.density
     )

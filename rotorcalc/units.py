@@ -95,6 +95,7 @@ US = Units(
     mass=Unit("lb", 1 / lb),
     force=Unit("lbf", 1 / lbf),
     length=Unit("in", 1 / inch),
+    # A mil is a thousandth of an inch.
     film=Unit("mil", 1 / mil),
     viscosity=Unit("µreyn", 1e6 / _REYN),
     # A difference of 1 °C is 1.8 °F, so a coefficient takes the factor without the offset.

@@ -118,6 +118,7 @@ def thresholds(sweep: Sweep) -> Thresholds:
     rotor, K_eq = sweep.machine.rotor, sweep.equivalent_stiffness
     can_whirl = sweep.whirl_ratio > 0.0
     M_c = sweep.critical_mass
+    # Eq. 5.47, ω_s = √(K_eq/M): with film and shaft in series for the flexible one.
     series = K_eq / (1.0 + K_eq / rotor.shaft_stiffness)  # film and shaft, below Eq. 5.50
     rigid_frequency = modes.undamped_frequency(K_eq, rotor.half_mass)
     frequency = modes.undamped_frequency(series, rotor.half_mass)

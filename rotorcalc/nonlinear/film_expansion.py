@@ -86,6 +86,8 @@ class FilmExpansion:
         lines = np.array([self.along(np.real(Q * np.exp(1j * phase))) for phase in _PHASES])
         second, third = lines[:, 0], lines[:, 1]
         turn = np.exp(-1j * _PHASES)[:, None]
+        # On u = Re{Q e^{jθ}} D²F(u, u) = ½D²F(Q, Q̄) + ½Re{D²F(Q, Q) e^{2jθ}}, and
+        # D³F(u, u, u) has the first harmonic ¾Re{D³F(Q, Q, Q̄) e^{jθ}}.
         return WhirlDerivatives(
             QQ=4.0 * np.mean(turn**2 * second, axis=0),
             QQ_=2.0 * np.mean(second, axis=0),

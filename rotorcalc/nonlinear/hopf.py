@@ -100,6 +100,7 @@ class Hopf:
         float
             a [m]; NaN on the side of the onset where there is no such whirl.
         """
+        # Re λ = (d Re λ/dΩ)(Ω − Ω_s) to first order.
         square = -self.growth_slope * (speed - self.speed) / self.lyapunov
         return self.clearance * math.sqrt(square) if square >= 0.0 else math.nan
 

@@ -90,6 +90,7 @@ def linear_theory(machine: Machine, speed: float) -> LinearMotion:
     # M v̇ = −K q − D q̇ for the coordinates with mass.
     pull = (-K[heavy] @ np.eye(n, m) - D[heavy] @ velocity) / M[heavy, None]
     values, vectors = np.linalg.eig(np.vstack([velocity, pull]))
+    # Eq. 5.38 for the synchronous motion: Z q = m_d u Ω² (1, −j) at the disk.
     Z = K + 1j * speed * D - speed**2 * np.diag(M)
     imbalance = np.zeros(n, dtype=complex)
     rotor = machine.rotor

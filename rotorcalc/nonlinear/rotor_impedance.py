@@ -27,6 +27,7 @@ def impedance(rotor: Rotor, omega: Array) -> tuple[ComplexArray, ComplexArray]:
     s = 1.0 / rotor.shaft_stiffness
     z = disk_impedance(rotor, omega)
     dz = -2.0 * omega * rotor.disk_mass + 1j * rotor.disk_damping
+    # Disk and shaft act in series, the journal's mass beside them; s = 0 for a rigid shaft.
     series = 1.0 + s * z
     Z = z / series - omega**2 * rotor.journal_mass
     return Z, dz / series**2 - 2.0 * omega * rotor.journal_mass

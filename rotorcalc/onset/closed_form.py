@@ -115,6 +115,7 @@ def _numbers(machine: Machine, flexible: bool) -> tuple[float, float, float, flo
     bearing, rotor, F = machine.bearing, machine.rotor, machine.static_load
     # Ω/σ = F_o/s, with s from Eq. 5.8 at 1 rad/s.
     speed_of = 4.0 * F / float(FilmUnits(bearing, machine.viscosity, 1.0).force)
+    # Factors of σ²/p_s² in A and of (σω̄)² in B, see above.
     a = rotor.half_mass * bearing.radial_clearance / F * speed_of**2
     if rotor.is_rigid or not flexible:
         return a, 0.0, 0.0, speed_of
