@@ -91,7 +91,7 @@ def good(name: str, function: Callable) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize(("function", "name", "parameter", "value"), CALLS)
-def test_a_wrong_argument_is_refused_by_name(function, name, parameter, value):
+def test_a_wrong_argument_is_named_in_a_valueerror(function, name, parameter, value):
     with pytest.raises(ValueError) as caught:  # noqa: PT011 - the message is looked at
         function(**good(name, function) | {parameter.name: value})
     message = str(caught.value)

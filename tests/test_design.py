@@ -87,7 +87,7 @@ def test_the_closed_form_is_the_onset_on_the_eigenvalues(machine: Machine, flexi
         assert getattr(onset, name) == pytest.approx(getattr(found, name), rel=1e-9), name
 
 
-def test_a_machine_without_a_closed_form_is_refused_in_words() -> None:
+def test_a_machine_without_a_closed_form_raises_a_valueerror() -> None:
     with pytest.raises(ValueError, match="has midspan damping or another film, so no closed form"):
         closed_form.closed_form_onset(DAMPED)
 
@@ -277,7 +277,7 @@ def test_inputs_without_a_share_of_their_value_are_left_out() -> None:
 
 
 @pytest.mark.parametrize("share", [0.91, 0.95, 0.999])
-def test_inputs_that_make_no_machine_when_moved_are_left_out(share: float) -> None:
+def test_inputs_that_cannot_be_varied_are_left_out(share: float) -> None:
     """A tenth more of the journals' mass, or less of the rotor's, leaves no disk."""
     heavy = replace(SHEET.rotor, journal_mass=share * SHEET.rotor.half_mass)
     found = design.sensitivities(replace(SHEET, rotor=heavy))
@@ -324,7 +324,7 @@ def test_solutions_put_the_onset_at_the_target(
     assert (len(found.solutions) > 0) == (least <= rpm * RPM <= most)
 
 
-def test_an_onset_that_falls_and_rises_is_met_twice() -> None:
+def test_an_onset_that_falls_and_rises_gives_two_solutions() -> None:
     found = design.solve_onset(
         SHEET, vary="radial_clearance", target=7200 * RPM, low=1e-5, high=5e-4
     )

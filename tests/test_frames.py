@@ -31,7 +31,7 @@ def test_a_turn_keeps_trace_determinant_and_the_skew_part(elements, angle):
 
 
 @given(elements, st.floats(-3, 3), st.tuples(st.floats(-1, 1), st.floats(-1, 1)))
-def test_forces_turn_with_the_displacements_that_cause_them(elements, phi, displacement):
+def test_forces_rotate_with_their_displacements(elements, phi, displacement):
     """Eq. 5.16 follows from Eq. 5.11: with X = Q r and F = Q f, F = Q K Qᵀ X where f = K r."""
     K, r = np.reshape(elements, (2, 2)), np.array(displacement)
     Q = np.array([[np.cos(phi), -np.sin(phi)], [np.sin(phi), np.cos(phi)]])  # Eq. 5.11

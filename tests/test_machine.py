@@ -196,7 +196,7 @@ def test_any_real_number_is_kept_as_a_float(value):
 
 @pytest.mark.parametrize("name", ["oil", "bearing", "rotor"])
 @pytest.mark.parametrize("value", [None, {}, "oil", 1.0, Unprintable()])
-def test_a_part_of_the_wrong_kind_is_refused(name, value):
+def test_a_component_of_the_wrong_type_is_refused(name, value):
     kind = type(GOOD[Machine][name]).__name__
     message = error(Machine, **{name: value})
     assert message.startswith(f"{name} = ")
@@ -458,7 +458,7 @@ def test_a_missing_key_is_named(key):
 
 
 @pytest.mark.parametrize("part", ["oil", "bearing", "rotor"])
-def test_a_missing_or_unknown_key_of_a_part_is_named_with_its_part(part):
+def test_a_missing_or_unknown_key_is_named_with_its_record(part):
     defaulted = {"density", "shaft_stiffness", "imbalance"}
     for key in document()[part].keys() - defaulted:
         branch = document()[part]
@@ -527,13 +527,13 @@ def test_a_value_out_of_its_bound_is_named(value):
 
 @pytest.mark.parametrize("part", ["oil", "bearing", "rotor"])
 @pytest.mark.parametrize("value", [None, 1, "x", [], True])
-def test_a_part_that_is_not_an_object_is_named(part, value):
+def test_a_record_that_is_not_an_object_is_named(part, value):
     assert refusal(json.dumps(document(**{part: value}))).startswith(f"{part} = ")
 
 
 @pytest.mark.parametrize("word", ["NaN", "Infinity", "-Infinity"])
 @pytest.mark.parametrize("field", ["mass", "shaft_stiffness", "temperature"])
-def test_words_that_are_no_json_are_refused(word, field):
+def test_nan_and_infinity_are_refused_as_not_json(word, field):
     text = SHEET.to_json()
     value = text.split(f'"{field}": ')[1].split(",")[0].split("\n")[0]
     assert refusal(text.replace(f'"{field}": {value}', f'"{field}": {word}')).startswith(word)

@@ -50,7 +50,7 @@ def test_the_fit_passes_through_both_viscosities(T_1, T_2, mu_1, thinning):
         ((50.0, 60.0), (0.01, 0.02), "temperature_coefficient"),
     ],
 )
-def test_an_impossible_fit_is_refused_in_words(temperatures, viscosities, words):
+def test_an_impossible_fit_raises_a_valueerror(temperatures, viscosities, words):
     with pytest.raises(ValueError, match=words):
         fitted_oil(temperatures=temperatures, viscosities=viscosities)
 

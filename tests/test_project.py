@@ -48,7 +48,7 @@ def test_lock_pins_every_package_and_names_no_source(name: str) -> None:
     assert [pin for pin in pins if not PIN.fullmatch(pin)] == []
 
 
-def test_the_mover_of_charts_was_written_for_the_locked_plotly() -> None:
+def test_move_js_names_the_locked_version_of_plotly() -> None:
     """Moving a drawn chart relies on the inside of Plotly, which may change with any release."""
     mover = (ROOT / "ui/live/move.js").read_text("utf-8")
     (written_for,) = re.findall(r"Python package plotly ([\d.]+\d):", mover)

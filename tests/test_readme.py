@@ -33,7 +33,7 @@ def test_every_file_and_folder_of_the_code_that_is_named_exists() -> None:
             assert (ROOT / name).exists(), name
 
 
-def test_where_things_are_names_every_folder_of_the_code() -> None:
+def test_the_readme_lists_every_folder_of_the_code() -> None:
     named = set(re.findall(r"`([\w/]+/)`", TEXT))
     for root in ("ui", "rotorcalc"):
         for folder in (ROOT / root).iterdir():

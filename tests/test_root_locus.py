@@ -120,7 +120,7 @@ def test_branches_keep_their_kind_beside_far_eigenvalues_that_move_fast():
     assert np.array_equal(branches[:, 0].conj(), branches[:, 3])
 
 
-def test_two_real_eigenvalues_that_meet_continue_as_the_first_mode():
+def test_two_real_eigenvalues_that_meet_continue_as_one_oscillating_mode():
     preset = PRESETS["fig-5-2"]
     locus = locus_of(preset.machine, preset.speed, preset.top_speed)
     assert locus.branches.shape[1] == 3

@@ -38,7 +38,7 @@ def test_columns_are_named_by_quantity_element_and_unit():
         assert name in TABLE
 
 
-def test_matrices_keep_their_places():
+def test_elements_of_a_matrix_keep_their_positions():
     assert TABLE["stiffness_XY [N/m]"].to_numpy() == pytest.approx(SWEEP.stiffness[:, 0, 1])
     assert TABLE["stiffness_YX [N/m]"].to_numpy() == pytest.approx(SWEEP.stiffness[:, 1, 0])
 

@@ -162,7 +162,7 @@ def test_a_websocket_closed_at_once_still_passes_on_its_connection() -> None:
     _run(go)
 
 
-def test_text_is_no_message_of_a_page() -> None:
+def test_a_text_message_closes_the_websocket() -> None:
     async def go() -> None:
         socket = Socket(_WANTED, _said(None))
         one = socket.paced(Turns())

@@ -155,7 +155,7 @@ MONSTERS = {
 
 @settings(max_examples=300, deadline=None)
 @given(text=_machines() | st.text(max_size=60))
-def test_a_file_is_a_machine_or_a_reason_why_not(text: str) -> None:
+def test_a_file_gives_a_machine_or_the_reason_why_it_cannot(text: str) -> None:
     try:
         machine = Machine.from_json(text)
     except ValueError as error:

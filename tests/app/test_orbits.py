@@ -46,7 +46,7 @@ def test_onset_demonstrations_keep_the_machine_and_need_an_onset() -> None:
     assert not at.button(key="orbits_big").disabled
 
 
-def test_a_kick_out_of_the_clearance_is_refused_in_words() -> None:
+def test_a_kick_out_of_the_clearance_raises_a_valueerror() -> None:
     at = visit(ORBITS)
     at.slider(key="orbits_kick").set_value(1.2).run()
     assert not at.exception

@@ -247,7 +247,7 @@ def test_a_fitted_oil_passes_through_its_two_viscosities() -> None:
     assert float(oil.viscosity(100.0)) == pytest.approx(0.005, rel=1e-4)
 
 
-def test_oils_that_make_no_law_are_refused_in_words() -> None:
+def test_oils_without_a_valid_law_raise_a_valueerror() -> None:
     at = visit(HOME)
     open_part(at, "oil_library")
     at.number_input(key="fit_T2").set_value(40.0).run()

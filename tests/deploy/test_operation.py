@@ -49,7 +49,7 @@ async def _visit(address: str) -> list[str]:
         return visitor.texts()
 
 
-def test_a_failure_has_an_id_on_page_and_in_log_and_nothing_of_the_visitor(
+def test_a_failure_has_an_id_on_page_and_in_log_without_visitor_data(
     failing: Replica,
 ) -> None:
     said = " ".join(finished(_visit(failing.address)))
@@ -89,7 +89,7 @@ def test_the_health_check_computes_a_machine(monkeypatch: pytest.MonkeyPatch) ->
         ("ROTORCALC_LOG", "xml", settings.log),
     ],
 )
-def test_a_setting_that_cannot_be_is_refused_by_name(
+def test_an_invalid_setting_is_refused_by_name(
     name: str, word: str, read: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv(name, word)

@@ -23,7 +23,7 @@ def server() -> Iterator[Replica]:
 
 
 @awaited
-async def test_a_preview_has_charts_and_numbers_and_is_not_cached(server: Replica) -> None:
+async def test_a_preview_has_charts_and_numbers_and_is_not_stored(server: Replica) -> None:
     async with Visitor(server.address) as visitor:
         await visitor.open("Stability")
         said = visitor.texts()

@@ -95,7 +95,7 @@ def test_the_onset_lies_on_the_imaginary_axis_at_its_whirl_frequency():
     assert mark["y"] == pytest.approx(shown.onset.whirl_frequency * 30 / np.pi)
 
 
-def test_no_mark_for_an_onset_beyond_the_chart_or_at_no_speed():
+def test_an_onset_outside_the_chart_has_no_mark():
     preset = PRESETS["sheet-1e8"]
     for changes in ({"load": 0.0}, {"load": 20000.0}):
         shown, *_ = shown_of(preset, **changes)
@@ -130,7 +130,7 @@ def test_the_scrubber_begins_at_the_running_speed():
     assert chart["data"][-1]["x"] == pytest.approx(shown.locus.here.eigenvalues.real)
 
 
-def test_a_baseline_behind_leaves_the_frames_their_traces():
+def test_frames_keep_their_traces_over_a_baseline():
     live, *_ = shown_of(PRESETS["sheet-1e8"])
     pinned, *_ = shown_of(PRESETS["sheet-1e7"])
     alone = plane_figure.plane(live.locus, live.onset, SI)

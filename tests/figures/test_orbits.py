@@ -141,7 +141,7 @@ def test_limit_cycles_show_both_branches_and_both_sweeps(eps):
 
 
 @pytest.mark.parametrize("running", [0.9, 3.0])
-def test_the_three_onsets_on_the_growth_over_speed(running):
+def test_the_growth_chart_marks_all_three_onsets(running):
     machine = balanced(ROTORS["rigid"])
     found = onsets(machine)
     speeds = np.linspace(0.8, 1.2, 9) * found.eigenvalues
@@ -177,7 +177,7 @@ def test_the_linear_motion_ends_where_it_leaves_the_bearing(releases):
     assert growth == pytest.approx(found.whirl.real, rel=0.05)
 
 
-def test_a_bad_release_is_refused_in_words():
+def test_a_bad_release_raises_a_valueerror():
     with pytest.raises(ValueError, match="film has no thickness left"):
         release(SHEET, 6000 * RPM, kick=1.2 * C, revolutions=20)
     with pytest.raises(ValueError, match="16 or more"):

@@ -220,7 +220,7 @@ def test_the_tornado_has_the_largest_on_top() -> None:
     assert any("Film temperature T ±9 °F" in row for row in in_us["layout"]["yaxis"]["ticktext"])
 
 
-def test_a_map_keeps_its_ladder_of_colours() -> None:
+def test_a_map_keeps_its_colour_levels() -> None:
     first, second = (
         _map(computed_from(PRESET_VALUES[key]), SI)["data"][0]
         for key in ("sheet-1e8", "friswell-5-5-1")

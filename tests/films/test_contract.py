@@ -152,7 +152,7 @@ def test_arrays_of_points_answer_as_each_alone(bearing):
 
 
 @ALL
-def test_without_load_the_film_has_a_place_and_finite_coefficients(bearing):
+def test_without_load_position_and_coefficients_are_finite(bearing):
     sweep = analyse(machine_on(bearing, load=0.0), np.array([300.0, 600.0]))
     assert np.all(np.isfinite(sweep.journal_position))
     assert np.all(np.isfinite(sweep.stiffness))

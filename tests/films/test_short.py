@@ -111,7 +111,7 @@ def test_force_is_the_integral_of_the_positive_pressure(radius, angle, dx, dy):
 
 
 @given(eccentricities, directions, directions, st.floats(0, 5), directions)
-def test_force_turns_with_position_and_velocity(radius, angle, heading, pace, turn):
+def test_the_force_rotates_with_position_and_velocity(radius, angle, heading, pace, turn):
     force = short.film_force(polar(radius, angle), polar(pace, heading))
     turned = short.film_force(polar(radius, angle + turn), polar(pace, heading + turn))
     cos, sin = math.cos(turn), math.sin(turn)
@@ -210,7 +210,7 @@ def test_traces_are_the_same_in_both_frames():
         )
 
 
-def test_damping_is_symmetric_and_takes_energy_out():
+def test_damping_is_symmetric_and_dissipates_energy():
     eps = np.linspace(0.0, 0.999, 500)
     C = short.film_damping(eps)
     assert np.array_equal(C[:, 0, 1], C[:, 1, 0])

@@ -156,7 +156,7 @@ def test_a_centred_rotor_reaches_twice_its_natural_frequency():
     assert at.speed == pytest.approx(2 * at.whirl_frequency, rel=1e-4)
 
 
-def test_unloaded_there_is_no_support_and_whirl_at_any_speed():
+def test_an_unloaded_rotor_has_no_support_and_whirls_at_any_speed():
     """F_o = 0: the bearing possesses no support stiffness; unstable (below Eq. 5.48)."""
     unloaded = replace(SHEET, load=0.0)
     assert analyse(unloaded, 100.0).equivalent_stiffness == 0

@@ -117,7 +117,7 @@ def test_a_heavy_ring_passes_through_a_speed_as_it_moves_there_at_constant_speed
     assert np.abs(passing).max(axis=0) == pytest.approx(np.abs(orbit).max(axis=0), rel=0.03)
 
 
-def test_the_wall_is_where_the_film_ends():
+def test_the_wall_is_where_the_gap_closes():
     """In the square bore's corner the journal may be farther off than the clearance."""
     machine = machine_on("sprung", "rigid")
     motion = simulate(machine, SPEED, revolutions=1, start=(0.9 * C, 0.9 * C))

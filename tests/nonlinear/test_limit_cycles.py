@@ -108,7 +108,7 @@ def test_between_fold_and_onset_the_history_decides_between_rest_and_whirl(subcr
     assert up[speeds > onset * 1.001] == pytest.approx(down[speeds > onset * 1.001])
 
 
-def test_sweeping_in_time_shows_the_same_hysteresis(subcritical):
+def test_slow_speed_changes_in_time_show_the_same_hysteresis(subcritical):
     machine, _, _ = near_hopf(0.06, 1.0)
     onset, start, seen = subcritical.hopf.speed, None, {}
     for direction, factors in (("up", (0.96, 0.98, 1.03)), ("down", (1.03, 0.98, 0.96, 0.92))):
@@ -257,7 +257,7 @@ def test_every_preset_has_its_cycles(name):
     assert branch.eccentricity_ratio.max() < 1.0
 
 
-def test_machines_without_an_onset_are_refused_in_words():
+def test_machines_without_an_onset_raise_a_valueerror():
     with pytest.raises(ValueError, match="whirls at any speed"):
         hopf(replace(SHEET, load=0.0))
     with pytest.raises(ValueError, match="has no onset"):

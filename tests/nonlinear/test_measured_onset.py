@@ -36,7 +36,7 @@ def test_growth_is_that_of_the_least_damped_mode(seed, factor):
         assert measured == pytest.approx(mode.real, abs=_SEEN * abs(mode))
 
 
-def test_growth_on_a_soft_shaft_is_the_slow_mode_and_not_the_one_that_a_kick_strikes():
+def test_growth_on_a_soft_shaft_is_that_of_the_slow_mode_and_not_of_the_kicked_one():
     machine = varied(PRESETS["sheet-1e7"].machine, {"shaft_stiffness": 3e6})
     speed = 1.1 * onset_speed(machine).speed
     assert measured_growth(machine, speed) == pytest.approx(1.22485, rel=1e-4)
@@ -46,7 +46,7 @@ def test_growth_on_a_soft_shaft_is_the_slow_mode_and_not_the_one_that_a_kick_str
 
 
 @pytest.mark.parametrize("eps", [0.02, 0.99])
-def test_growth_is_measured_from_the_centre_to_the_wall(eps):
+def test_growth_is_measured_at_small_and_large_eccentricity(eps):
     machine, speed, _ = near_hopf(0.5, 0.9)
     load = machine.static_load * (1.0 - eps) if eps < 0.5 else machine.static_load / (1.0 - eps)
     machine = varied(machine, {"load": load})

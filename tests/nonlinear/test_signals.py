@@ -109,7 +109,7 @@ def test_a_run_up_shows_whirl_from_the_onset_on_and_the_imbalance_throughout():
     assert np.all(synchronous[seen.speed < 8800 * RPM] > 1e-3 * C)
 
 
-def test_bad_requests_are_refused_in_words():
+def test_bad_requests_raise_a_valueerror():
     motion = made({1.0: C}, revolutions=3)
     with pytest.raises(ValueError, match="must be 4 or more"):
         spectrum(motion)

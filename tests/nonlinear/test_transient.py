@@ -344,7 +344,7 @@ def test_progress_is_reported_and_its_exception_ends_the_work():
         ({"final_speed": -1.0}, "final_speed = -1.0 rad/s: must be positive"),
     ],
 )
-def test_a_bad_request_is_refused_in_words(changes, words):
+def test_a_bad_request_raises_a_valueerror(changes, words):
     asked = {"speed": 5000 * RPM, "revolutions": 5} | changes
     with pytest.raises(ValueError, match=words):
         simulate(SHEET, asked.pop("speed"), **asked)

@@ -77,7 +77,7 @@ def test_an_error_bound_notices_a_wrong_root():
     assert error_bounds(polynomial, np.array([[-1.0, -2.0, -3.0 + 0j]])).max() < 1e-11
 
 
-def test_a_root_that_is_missed_is_said():
+def test_a_missed_root_raises_an_error():
     with (
         localcontext(prec=60),
         pytest.raises(RuntimeError, match="found 0 of a polynomial's 2 roots"),

@@ -39,7 +39,7 @@ def test_a_smooth_functions_root_is_found_to_rounding_in_one_call(
         (lambda x: np.tanh(1e3 * (x - 1.001)), 1.001),  # too steep for the series
     ],
 )
-def test_where_it_is_not_smooth_its_root_is_found_as_well(function, root) -> None:
+def test_the_root_of_a_function_with_a_kink_is_found_too(function, root) -> None:
     assert narrow_root(function, 0.985, 1.05) == pytest.approx(root, rel=2e-14)
 
 

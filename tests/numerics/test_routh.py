@@ -35,7 +35,7 @@ def test_an_unloaded_rotor_without_damper_is_stable_at_no_speed(stiffness):
     assert np.all(is_unstable(machine.rotor, *stiffness_and_damping(machine, SPEEDS)))
 
 
-def test_with_a_light_journal_the_verdict_still_changes_once():
+def test_with_a_light_journal_stability_still_changes_once():
     """One rate is then a million times the others."""
     machine = with_rotor(journal_mass=1e-4)
     at = 9000 * RPM * np.linspace(0.98, 1.0, 1001)  # its onset lies there

@@ -454,7 +454,7 @@ def test_kharitonovs_polynomials_have_the_four_patterns_of_the_theorem():
 
 @pytest.mark.parametrize("rotor", ROTORS.values(), ids=ROTORS)
 @pytest.mark.parametrize("load", [None, 1.0, 0.0])
-def test_all_ways_find_the_same_onset(monkeypatch, rotor, load):
+def test_all_methods_find_the_same_onset(monkeypatch, rotor, load):
     """The polynomial in floats, and in many digits where rounding leaves it in doubt everywhere."""
     machine = replace(balanced(rotor), load=load)
     onset = onset_speed(machine)
