@@ -8,7 +8,7 @@ import pytest
 import streamlit as st
 from starlette.types import Message
 
-from ui.serving.guard import bounds, paced
+from ui.serving.guard import bounds
 from ui.serving.guard.bounds import Bucket, network
 from ui.serving.guard.paced import Paced
 from ui.serving.guard.strangers import is_own_name, is_own_origin
@@ -96,40 +96,19 @@ def test_a_turn_passes_on_all_waiting_messages_and_later_ones_wait_for_the_next(
 
 
 @pytest.mark.parametrize("flood", [[b"run"] * 20, [bytes(1 << 20)] * 4])
-def test_a_flood_closes_its_websocket_and_stops_all_further_messages(
-    flood: list[bytes], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(paced, "HELD", 0.0)
-
+def test_a_flood_ends_its_page_and_its_websocket_stays_unread(flood: list[bytes]) -> None:
     async def go() -> None:
         socket = Socket(_WANTED, *map(_said, flood))
         one = socket.paced(_taken())
         assert [(await one.receive())["type"] for _ in range(2)][-1] == "websocket.disconnect"
         await one.send({"type": "websocket.send", "bytes": b"a page"})
-        assert socket.sent == []
-        await one.close()
-        (closed,) = socket.sent
-        assert closed["type"] == "websocket.close"
-        assert closed["code"] == 1008
-
-    _run(go)
-
-
-def test_a_flooding_websocket_stays_unread_until_it_is_closed() -> None:
-    async def go() -> None:
-        socket = Socket(_WANTED, *(_said() for _ in range(20)))
-        one = socket.paced(_taken())
-        await one.receive()
-        await one.receive()
         closing = asyncio.create_task(one.close())
-        await asyncio.sleep(0)
-        unread = socket.coming.qsize()
-        assert unread > 10
-        socket.coming.put_nowait(_said())
-        for _ in range(10):
+        for _ in range(3):
+            socket.coming.put_nowait(_said())
+            unread = socket.coming.qsize()
             await asyncio.sleep(0)
-        assert socket.coming.qsize() == unread + 1
-        assert socket.sent == []
+            assert socket.coming.qsize() == unread
+        assert socket.sent == []  # a close neither: uvicorn would read on until its answer
         closing.cancel()
 
     _run(go)

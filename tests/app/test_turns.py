@@ -131,9 +131,9 @@ def test_idle_time_earns_no_credit(clock: list[float]) -> None:
         for _ in range(10):
             (at,) = (name for name, called in asked.items() if called.done())
             got.append(at)
+            asked[at] = line.ask({"early": early, "late": late}[at])
             clock[0] += 1.0
             line.left(at)
-            asked[at] = line.ask({"early": early, "late": late}[at])
         assert got.count("early") == pytest.approx(5, abs=1)
 
     _run(go)
@@ -194,6 +194,9 @@ def test_a_visitors_message_passes_next_during_a_flood(
                 await _settle()
                 assert handed[-1] == at  # nobody else's while a page has its turn
             clock[0] += 0.02
+            one_at_a_time.PAGES.on_leaving("a session that has no turn")
+            await _settle()
+            assert handed[-1] == at
             one_at_a_time.PAGES.on_leaving(at)
             await _settle()
             assert (handed[-1] == "visitor") is (number % 50 == 30)

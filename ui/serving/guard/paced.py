@@ -10,7 +10,7 @@ from ui.serving.guard.refusal import count
 from ui.serving.guard.turns import Page, Turns
 from ui.serving.settings import Limits
 
-HELD = 3.0  # seconds for which a flood's websocket is left open; the server's own end waits for it
+_HELD = 3.0  # seconds for which a flood's websocket is left open; the server's end waits for it
 _MEGABYTE = 1 << 20
 _POLICY_VIOLATION, _UNSUPPORTED = 1008, 1003  # RFC 6455, section 7.4.1
 
@@ -62,15 +62,17 @@ class Paced:
         """Stop reading, give up the turn, and close the websocket where the guard does so.
 
         A flood's is first left open and unread, which costs nothing: its sender can neither go on
-        nor come back. Once closed it is read until the other side agrees.
+        nor come back. Then uvicorn cuts it off, since nothing is said: after a close it would read
+        for ten seconds, or until the sender agrees, all that comes.
         """
         self._reading.cancel()
         self._turns.forget(self._page)
         if self._refusal is None:
             return
         if self._refusal["code"] == _POLICY_VIOLATION:
-            await asyncio.sleep(HELD)
-        await self._send(self._refusal)
+            await asyncio.sleep(_HELD)
+        else:
+            await self._send(self._refusal)
 
     async def _turn(self) -> None:
         """Wait for a message and then for the page's turn, or for the end."""
