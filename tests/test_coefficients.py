@@ -113,7 +113,7 @@ def test_petroffs_torque_without_load():
 
 
 def scaled(machine, length, mass, time):
-    """Return the same machine told in other units; the load keeps its weight out of it."""
+    """Return the same machine in other units; the given load keeps gravity out of it."""
     oil, bearing, rotor = machine.oil, machine.bearing, machine.rotor
     return Machine(
         oil=Oil(

@@ -1,4 +1,4 @@
-"""Imbalance response: equations of motion put together anew, and orbits drawn point by point."""
+"""Imbalance response against independently assembled equations of motion and sampled orbits."""
 
 import math
 from dataclasses import replace

@@ -17,7 +17,7 @@ from ui.serving.settings import Limits
 
 
 class Socket:
-    """A websocket without a network: what comes is put in, what goes out is kept."""
+    """A websocket without a network: incoming messages are queued, outgoing ones recorded."""
 
     def __init__(self, *messages: Message) -> None:
         self.coming: asyncio.Queue[Message] = asyncio.Queue()

@@ -1,4 +1,4 @@
-"""The home page says in words whether the machine is stable, where it ends, and how it whirls."""
+"""The home page states whether the machine is stable, up to which speed, and how it whirls."""
 
 import math
 import re

@@ -1,4 +1,4 @@
-"""Heavy computations: their order, their number at once, what is kept of them, what is said."""
+"""Heavy computations: their order, concurrency, cache and messages."""
 
 import threading
 from concurrent.futures import ThreadPoolExecutor

@@ -54,7 +54,7 @@ def test_dragging_changes_charts_and_numbers_and_release_the_address(app: AppPag
 
 
 def test_a_slider_dragged_back_leaves_the_page_as_it_was(app: AppPage) -> None:
-    """Streamlit sends nothing anew then: the charts and numbers of the preview must be undone."""
+    """Streamlit then sends nothing: the charts and numbers of the preview must be undone."""
     app.open("Stability")
     numbers, pictures = app.metrics(), _picture(app)
     start = _drag(app, "Radial clearance", 0.2)

@@ -64,7 +64,7 @@ class Site:
         return answer
 
     def start(self, name: str) -> None:
-        """Start a replica anew where it was."""
+        """Restart a replica at its address."""
         self.replicas[name] = _replica(name, self.replicas[name].port).wait()
 
 

@@ -8,7 +8,7 @@ from typing import Any, Self
 
 
 class Line:
-    """Passes on what comes to a port of this machine to another port, until told otherwise.
+    """Forwards a port of this machine to another one, until it is cut or silenced.
 
     A connection that was there when the line fell silent never passes on anything again.
     """

@@ -1,4 +1,4 @@
-"""A server without a proxy: who is let in, what every answer says, and what a flood does to it."""
+"""A server without a proxy: refused requests, headers of every answer, and floods."""
 
 import asyncio
 import re

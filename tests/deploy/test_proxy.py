@@ -1,4 +1,4 @@
-"""What nginx lets in, what it turns away, and what it says with each answer."""
+"""Requests that nginx admits and refuses, and the headers of its answers."""
 
 import gzip
 import json

@@ -1,4 +1,4 @@
-"""A browser whose server goes, or whose network does: nothing is lost, and the next action works.
+"""A browser that loses its server or its network: nothing is lost, and the next action works.
 
 Each visitor has done something else last. All of them are there at once, so that a server need not
 be killed for each.
@@ -183,7 +183,7 @@ def back(tab: AppPage) -> None:
 def test_after_a_lost_connection_the_last_action_stands_and_the_next_works(
     goes: str, place: Place, tabs: dict[str, AppPage]
 ) -> None:
-    """A crash, a restart, and a network that is gone for a moment."""
+    """A crash, a restart, and a short failure of the network."""
     there = {}
     for name, tab in tabs.items():
         VISITS[name].last(tab)
@@ -199,7 +199,7 @@ def test_after_a_lost_connection_the_last_action_stands_and_the_next_works(
 
 
 def test_a_value_being_sent_is_not_lost(place: Place, tabs: dict[str, AppPage]) -> None:
-    """It is sent, and the server is gone before it comes; or moved while there is no server."""
+    """Sent to a server that stops before it arrives, or moved while there is no server."""
     sliding, typing = tabs["a slider"], tabs["a typed value"]
     wanted = [float(tab.query()["C"]) + step for tab, step in ((sliding, 2), (typing, 1))]
     place.line.fall_silent()

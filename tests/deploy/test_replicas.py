@@ -1,4 +1,4 @@
-"""Two replicas: visitors stay with theirs, and keep their machine when it goes."""
+"""Two replicas: visitors stay with theirs, and keep their machine when it stops."""
 
 import asyncio
 import re
@@ -37,7 +37,7 @@ def awaited(test: Callable[P, Coroutine[Any, Any, None]]) -> Callable[P, None]:
 
 
 async def _come_back(visitor: Visitor) -> None:
-    """Do as a browser whose connection is gone: try again until there is an answer."""
+    """Act as a browser that has lost its connection: try again until there is an answer."""
     for _ in range(40):
         try:
             await visitor.reconnect()
@@ -131,7 +131,7 @@ async def test_a_rolling_restart_keeps_every_visitors_inputs(site: Site) -> None
 
 @awaited
 async def test_nobody_is_without_a_page_while_one_replica_is_well(site: Site) -> None:
-    """The new replica's first request is a websocket, which does not end; then the other goes."""
+    """The new replica's first request, a websocket, does not end; then the other one stops."""
     site.replicas["1"].stop()
     assert _named(site, "1") == "2"
     site.start("1")

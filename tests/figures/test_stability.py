@@ -1,4 +1,4 @@
-"""The stability page's charts: valid, complete and in words, for every kind of machine."""
+"""The stability page's charts: valid, complete and explained, for every kind of machine."""
 
 import json
 import math

@@ -348,7 +348,7 @@ def test_side_flow_is_what_the_pressure_drives_out_at_both_ends(eps):
 
 @pytest.mark.parametrize("eps", ECCENTRICITIES)
 def test_side_flow_is_what_the_converging_film_loses(eps):
-    """½ΩRL·C·H goes in at θ = 0, where the film is thickest, and out at π."""
+    """½ΩRL·C·H enters at θ = 0, where the film is thickest, and leaves at π."""
     H = short.film_thickness(eps, [0.0, np.pi])
     assert short.side_flow(eps) == pytest.approx((H[0] - H[1]) / 2, rel=16 * EPS)
 

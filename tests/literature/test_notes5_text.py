@@ -1,4 +1,4 @@
-"""What Notes 5 state in words and in equations as printed, and what of it is misprinted.
+"""Statements and printed equations of Notes 5, and their misprints.
 
 L. San Andrés, Notes 5, "Dynamics of a Rigid Rotor-Fluid Film Bearing System". Numbers of equations
 are the notes'. Axes are the notes': X along the load, r along the line of centres, both frames

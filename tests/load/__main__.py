@@ -117,7 +117,7 @@ def _flood(addresses: list[str], asked: argparse.Namespace) -> ExitStack:
 
 
 def _above(measured: dict[str, tuple[float, float]]) -> list[str]:
-    """Return in words what is above its bound."""
+    """Return a text of the measurements above their bounds."""
     return [
         f"{name}: {value:.3g}, above {bound:g}"
         for name, (value, bound) in measured.items()

@@ -182,7 +182,7 @@ class Visitor:
         await self._run(part=part)
 
     async def rerun(self) -> None:
-        """Run the page anew."""
+        """Run the page again."""
         await self._run()
 
     # --- What a visitor sees ------------------------------------------------------------------
@@ -207,7 +207,7 @@ class Visitor:
         return [item | {"value": values[item["name"]]} for group in groups for item in group]
 
     def preview_data(self) -> dict[str, Any]:
-        """Return what the page told its preview: where and how to ask, the last answer."""
+        """Return the page's message to its preview: address, token and last echo."""
         return json.loads(self._components(PREVIEW)[0][0].json)[0]
 
     def tab_rows(self) -> list[tuple[str, list[str]]]:
@@ -267,7 +267,7 @@ class Visitor:
         self._reading = asyncio.create_task(self._read(self._socket))
 
     def _keep(self) -> None:
-        """Do as connection.js: give the next run what the server told it to keep."""
+        """Act as connection.js: send the kept state with the next run."""
         for component, _ in self._components(CONNECTION):
             if (kept := json.loads(component.json)["kept"]) is not None:
                 state = WidgetState(id=component.id, json_value=json.dumps({"kept": kept}))

@@ -12,7 +12,7 @@ from tests.machines import ROTORS, RPM, C, balanced, machines
 
 
 def released(machine, speed, kick, **how):
-    """Return the motion of a journal let go off its rest, as it is sampled without being asked."""
+    """Return the motion of a journal released off its equilibrium, at the default sampling."""
     start = analyse(machine, speed).journal_position + np.asarray(kick) * C
     return simulate(machine, speed, revolutions=20, start=start, **how)
 

@@ -1,4 +1,4 @@
-"""Stability told by the characteristic polynomial: the eigenvalues' own verdict, sooner."""
+"""Stability by the characteristic polynomial: the verdict of the eigenvalues, faster."""
 
 import math
 from dataclasses import replace

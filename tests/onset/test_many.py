@@ -37,7 +37,7 @@ def test_certain_onsets_are_those_of_onset_speed(many):
 
 
 def test_onsets_of_all_kinds_of_machines_are_certain():
-    """And told apart: one with no onset, and one at any speed, which is not."""
+    """Also machines without an onset; an onset at speed 0 is left to the single search."""
     many = [QUIET, *map(balanced, ROTORS.values()), *(p.machine for p in PRESETS.values()), QUIET]
     expected = [onset_speed(machine).speed for machine in many]
     assert sure_onsets(many) == pytest.approx(expected, rel=1e-12)

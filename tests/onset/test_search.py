@@ -67,7 +67,7 @@ def closed_form_onset(machine):
 
 
 def rounding(machine, speed):
-    """Return to how much an onset can be told from coefficients that round to EPS, relative.
+    """Return the relative error of an onset from coefficients with the rounding error EPS.
 
     Growth per Ω rounds to some EPS. Near the centre the film's damping, C ≈ 2πσF_o/(CΩ), outweighs
     the rotor's inertia and the growth passes zero with a slope of 1/(2πσ); on a soft shaft the
@@ -126,7 +126,7 @@ def test_a_film_that_cannot_whirl_has_no_critical_mass():
 
 def test_whirl_ratio_vanishes_at_the_limit_of_stability():
     def square(eps):
-        """Return ω̄² of Eq. 5.46, which goes on below zero."""
+        """Return ω̄² of Eq. 5.46, which continues below zero."""
         k, c = short.stiffness(eps), short.damping(eps)
         k_eq = whirl_onset(k, c).equivalent_stiffness
         return (k_eq - k[0, 0]) * (k_eq - k[1, 1]) - k[0, 1] * k[1, 0]
