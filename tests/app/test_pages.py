@@ -107,7 +107,7 @@ def _no_disk(at: AppTest) -> bool:
     return (
         values["mj"] >= values["mass"] / 2
         and len(said) == 1
-        and re.search("journal_mass.*no disk is left", said[0]) is not None
+        and re.search("Journal mass.*no disk is left", said[0]) is not None
         and not at.exception
     )
 
