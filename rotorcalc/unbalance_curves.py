@@ -202,6 +202,7 @@ def response_curves(
     near = _near(sweep.speed, np.concatenate([disk_peaks.speed, journal_peaks.speed]))
     # Only the added speeds are computed; the sweep's own responses are known.
     there = synchronous_response(machine.rotor, *stiffness_and_damping(machine, near), near)
+    # Sorted, and a speed that is in both lists once.
     speed, order = np.unique(np.concatenate([sweep.speed, near]), return_index=True)
     known = sweep.disk_response, sweep.journal_response
     disk, journal = (_body(np.concatenate(pair)[order]) for pair in zip(known, there, strict=True))
@@ -405,6 +406,7 @@ def _body_on(
     """Return a response at one speed, its lag unwrapped to the same turn as the curve's."""
     lag = phase_lag(response[None, :])[0]
     near = np.array([float(np.interp(speed, speeds, curve.lag[:, i])) for i in range(2)])
+    # The lag is known to whole turns: those that bring it nearest to the curve.
     lag = lag + 2.0 * np.pi * np.rint((near - lag) / (2.0 * np.pi))
     return BodyResponse(amplitude=np.abs(response), lag=lag, ellipse=orbit_ellipse(response))
 

@@ -328,6 +328,7 @@ def _from_first_answer(ask: Callable[[Array], T], values: Array) -> T:
     # All at once first: only a film that refuses some of them is asked one by one.
     with suppress(ValueError):
         return ask(values)
+    # By bisection: a film that gives a result at one value does so at all higher ones.
     refused, answered = 0, len(values) - 1
     while answered - refused > 1:
         middle = (refused + answered) // 2

@@ -10,6 +10,7 @@ from rotorcalc.units import Unit
 
 def digits(value: float) -> str:
     """Return a number to four digits, whole from a thousand to a million."""
+    # 12345 rpm reads more easily than 1.234e+04.
     if 1e3 <= abs(value) < 1e6:
         return f"{value:.0f}"
     return f"{value:.4g}"

@@ -122,6 +122,7 @@ def _works(machine: Machine, motion: Transient) -> Array:
     (first, last), turned = motion.speed[[0, -1]].tolist(), float(angle[-1])
     model = Equations(machine, first, last, turned=turned)
     states = model.initial(_states(machine, motion))
+    # `turn` is the number of samples in a revolution.
     rates, turn = model.motion_and_works(), int(np.sum(angle < 2.0 * np.pi))
     for i in range(0, len(angle) - 1, turn):
         span = slice(i, i + turn + 1)

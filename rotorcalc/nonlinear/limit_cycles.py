@@ -201,6 +201,7 @@ def sweep(branch: Bifurcation, speed: ArrayLike, *, down: bool = False) -> Array
     last = 10.0 * branch.hopf.clearance if down else 0.0
     for i in range(len(speed))[:: -1 if down else 1]:
         sizes, stable = branch.at(float(speed[i]))
+        # Below the onset the equilibrium, of amplitude 0, is stable too.
         held = np.append(sizes[stable], [0.0] if speed[i] < branch.hopf.speed else [])
         if len(held):
             # Of several stable states the one nearest to the last is taken as the one reached.

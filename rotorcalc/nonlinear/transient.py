@@ -84,6 +84,7 @@ class Transient(Result):
     disk_velocity: Array
     speed: Array
     angle: Array
+    # A function, as the velocity of a massless journal is costly and seldom needed.
     _journal_velocity: Callable[[], Array]
     inner: Array | None = None
 
@@ -203,6 +204,7 @@ def start_on_mode(machine: Machine, speed: float, amplitude: float) -> Start:
     # The phase at which the journal's displacement is largest: (x·x) real and positive.
     scale = amplitude * np.exp(-0.5j * np.angle(np.sum(journal**2)))
     inner = np.abs(shape[theory.journal.stop :]).max(initial=0.0)
+    # The amplitude is that of the journal, or of the film's part that moves farthest.
     scale /= max(float(np.linalg.norm((journal * scale / abs(scale)).real)), float(inner))
     return started(machine, speed, (scale * shape).real, (lam * scale * shape).real)
 
@@ -284,11 +286,14 @@ def _stretch(
         before, message = _stretch(model, motion, state, angles[: middle + 1], tolerance)
         if message:
             return before, message
+        # From the last state known to be valid.
         after, message = _stretch(model, motion, before[-1], angles[middle:], tolerance)
         return np.concatenate([before, after[1:]]), message
+    # Two angles are left: the failure lies between them.
     if message:
         return state[None, :], message
     film = film_of(model.machine.bearing)
+    # The film's force is kept finite at the wall, so an integration can pass it without an error.
     good = np.isfinite(states).all(axis=1) & (film.gap(model.journal(states)) > 0.0)
     reached = int(np.argmin(good)) if not good.all() else len(states)
     if reached < len(states):

@@ -74,6 +74,7 @@ def _closed_onset(machine: Machine, flexible: bool) -> float:
     sag = machine.static_sag / b.radial_clearance if flexible else 0.0
     aspect = (b.length / b.radial_clearance) ** 2
 
+    # Solved in ε, independently of `onset.closed_form`, which solves in σ.
     def excess(eps: float) -> float:
         onset = whirl.whirl_onset(short.stiffness(eps), short.damping(eps))
         softened = onset.critical_mass / (1.0 + onset.equivalent_stiffness * sag)
