@@ -1,6 +1,6 @@
 """The shape of a bearing's bore, one record class per kind.
 
-A kind of bearing is a `Geometry`: a frozen record of what shapes its bore besides diameter, length
+A kind of bearing is a `Geometry`: a frozen record of the bore's shape apart from diameter, length
 and clearance. Its word, `kind`, is used in files and links. `models` names the film models that
 apply to it; the first is the default.
 """

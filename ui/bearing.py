@@ -80,7 +80,7 @@ class Field:
         return self.unit(SI).to_si(value) if isinstance(value, float | int) else value
 
     def shown(self, value: Value, units: Units) -> str:
-        """Return a kept value in words, in a visitor's unit."""
+        """Return a kept value as text, in a visitor's unit."""
         if value is None or isinstance(value, str):
             return value or "–"
         return f"{float(self.unit(units).of(self.unit(SI).to_si(value))):.6g}"

@@ -66,9 +66,9 @@ class Input:
         return f"{self.label} {self.symbol}" + ("" if unit == "-" else f" [{unit}]")
 
     def taken(self, sent: object, units: Units) -> float:
-        """Return what a slider sent, in a visitor's unit, as it is kept.
+        """Return the value to keep of a slider's message, which is in a visitor's unit.
 
-        Raises ValueError in words where it is not a number or lies outside the range.
+        Raises ValueError where it is not a number or lies outside the range.
         """
         try:
             reading = math.inf if self.infinite and sent == self.infinite else typed_number(sent)
@@ -80,7 +80,7 @@ class Input:
         return value
 
     def problem(self, value: float | None) -> str:
-        """Return what is wrong with a value, in words, or nothing."""
+        """Return the fault of a value as a text, empty where there is none."""
         if value is None:
             return "" if self.key == "load" else "is missing"
         if self.infinite and value == math.inf:
@@ -272,7 +272,7 @@ def speeds_of(values: Values) -> tuple[float, float]:
 
 
 def input_named(name: str) -> Input:
-    """Return an input by its key, or raise ValueError in words."""
+    """Return an input by its key, or raise ValueError."""
     if name not in INPUTS:
         raise ValueError(f"{quoted(name)} is not an input")
     return INPUTS[name]

@@ -102,7 +102,7 @@ class Session:
         self.begun.discard(work)
 
     def kept(self) -> dict[str, Any]:
-        """Return what the browser keeps, beside the address bar, for a server without this session.
+        """Return the state that the browser keeps for a server without this session.
 
         All of it is text and finite numbers, which JSON can hold.
         """

@@ -1,4 +1,4 @@
-"""The browser's connection: fast reconnection, and what the browser keeps for another server.
+"""The browser's connection: fast reconnection, and the state kept for another server.
 
 A session is lost with its server. Its state beside the address bar is sent to the browser with each
 run of the whole page, and returned with the first run on a server without that session; see
@@ -18,7 +18,7 @@ _component = component("rotorcalc.connection", js=assets.module("connection"), i
 
 
 def show(kept: dict[str, Any] | None) -> object:
-    """Give the browser what to keep, or nothing yet; return what it kept, which is untrusted.
+    """Send the browser the state to keep, if any; return the state it kept, which is untrusted.
 
     None before its connection was lost for the first time.
     """

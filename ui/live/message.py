@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import streamlit as st
 
-# Takes a slider's name, what it sent, which is untrusted, and whether it is still being dragged.
+# Takes a slider's name, its value, which is untrusted, and whether it is still being dragged.
 Move = Callable[[str, object, bool], None]
 
 _ECHO = "live_echo"
