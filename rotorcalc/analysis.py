@@ -134,6 +134,36 @@ class Sweep(Result):
         """Return the free motions at each speed, of a flexible or a rigid shaft."""
         return certain_mode_shapes(self.machine, self.speed, self.dynamics, flexible=flexible)
 
+    def branches(self, *, flexible: bool = True) -> ComplexArray:
+        """Return the eigenvalues, each mode followed over the sweep, of a flexible or rigid shaft.
+
+        Parameters
+        ----------
+        flexible : bool
+            Whether the shaft bends.
+
+        Returns
+        -------
+        complex array, (n, m)
+            λ [1/s], a column a mode, as `modes.follow_branches` orders them; where two could be
+            confused from one speed to the next, by speeds in between.
+
+        Raises
+        ------
+        ValueError
+            Where the speeds are neither one nor a list, (n,).
+        """
+        if self.speed.ndim > 1:
+            raise ValueError(f"speed: must have the shape (n,), has {self.speed.shape}")
+        values = self.flexible_eigenvalues if flexible else self.rigid_eigenvalues
+
+        def more(speed: Array) -> ComplexArray:
+            film = dynamics(self.machine, speed)
+            return certain_eigenvalues(self.machine, speed, film, flexible=flexible)
+
+        rows = values.reshape(self.speed.size, values.shape[-1])
+        return modes.follow_branches(rows, at=self.speed.reshape(-1), more=more)
+
     def _eigenvalues(self, *, flexible: bool) -> ComplexArray:
         return certain_eigenvalues(self.machine, self.speed, self.dynamics, flexible=flexible)
 

@@ -281,9 +281,7 @@ def _sweep(machine: Machine, top_speed: float) -> Sweep:
 
 @lru_cache(maxsize=64)
 def _branches(machine: Machine, top_speed: float, flexible: bool) -> ComplexArray:
-    sweep = _sweep(machine, top_speed)
-    values = sweep.flexible_eigenvalues if flexible else sweep.rigid_eigenvalues
-    return modes.follow_branches(values)
+    return _sweep(machine, top_speed).branches(flexible=flexible)
 
 
 @lru_cache(maxsize=64)
