@@ -19,9 +19,10 @@ from ui.serving import health, log, settings, version
 ENTERED = "81.2345"  # stands for what a visitor entered
 
 # A server like ours whose page fails with a visitor's number in the exception.
-_FAILING = f"""
+_FAILING = """
 import streamlit as st
-raise ValueError("radial_clearance = {ENTERED} m")
+if "C" in st.query_params:
+    raise ValueError(f"radial_clearance = {st.query_params['C']} m")
 """
 
 
@@ -59,7 +60,7 @@ def test_a_failure_has_an_id_on_page_and_in_log_without_visitor_data(
     assert failure["id"] == numbers[0]
     assert failure["level"] == "error"
     assert failure["type"] == "ValueError"
-    assert any("page.py:3" in place for place in failure["places"])
+    assert any("page.py:4" in place for place in failure["places"])
     assert ENTERED not in failing.log.read_text()
     assert "Traceback" not in said
     assert "page.py" not in said

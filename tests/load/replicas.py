@@ -18,10 +18,15 @@ START_TIMEOUT = 60.0  # seconds
 
 
 class Replica:
-    """One server process, from its start until `stop`; `log` is what it wrote."""
+    """One server process in a folder, from its start until `stop`; `log` is what it wrote."""
 
     def __init__(
-        self, *, port: int = 0, script: Path = ROOT / "app.py", **environment: str
+        self,
+        *,
+        port: int = 0,
+        script: Path = ROOT / "app.py",
+        folder: Path = ROOT,
+        **environment: str,
     ) -> None:
         self.port = port or free_port()
         base = environment.get("STREAMLIT_SERVER_BASE_URL_PATH", "")
@@ -32,7 +37,7 @@ class Replica:
         with self.log.open("wb") as out:
             self.process = subprocess.Popen(
                 [sys.executable, "-m", "streamlit", "run", str(script)],
-                cwd=ROOT,
+                cwd=folder,
                 env={**os.environ, **settings, **environment},
                 stdout=out,
                 stderr=subprocess.STDOUT,

@@ -1,16 +1,16 @@
-"""Health check, whether this server computes correctly: python -m ui.serving.health [ADDRESS]
+"""Health check, whether this server is well: python -m ui.serving.health [ADDRESS]
 
-`check` solves the calculation sheet's machine and compares. The app answers with it at /healthz,
-where Streamlit's own /_stcore/health tells only that a web server runs: a process whose core is
-broken, or whose interpreter is held by something, fails here. Run as a program it asks such an
-address, and exits with an error where the answer is not good or not there in five seconds.
+`check` solves the calculation sheet's machine and compares. `pulse.py` does that and looks at the
+other parts, and the app answers at /healthz what is wrong; Streamlit's own /_stcore/health tells
+only that a web server runs. Run as a program this asks such an address, and exits with an error and
+the reason where the answer is not good or not there in five seconds.
 """
 
 import json
 import math
 import os
 import sys
-from urllib.error import URLError
+from urllib.error import HTTPError, URLError
 from urllib.request import urlopen
 
 from rotorcalc import PRESETS, analyse, onset_speed
@@ -50,6 +50,8 @@ def main() -> None:
     try:
         with urlopen(address, timeout=TIMEOUT) as answer:  # noqa: S310 - http, as checked
             good = json.load(answer).get("status") == "good"
+    except HTTPError as error:
+        sys.exit(f"{address}: {error.code} {error.read(1000).decode(errors='replace')}")
     except (URLError, OSError, ValueError) as error:
         sys.exit(f"{address}: {error}")
     sys.exit(0 if good else f"{address}: not good")

@@ -29,6 +29,8 @@ _SESSIONS = (
 )
 # uvicorn's line about each websocket that is refused with a status.
 _REFUSED = "ASGI callable returned without completing handshake."
+# What stands above a failure on a page.
+TITLE = "Something went wrong here"
 # Streamlit's own line about an exception that `failed` reports with its id.
 _TOLD_TWICE = "Uncaught app execution"
 
@@ -89,7 +91,7 @@ def failed(error: Exception) -> bool:
     st.error(
         f"Give this server's operator the number **{number}**, under which its log records what "
         "happened. Your inputs are in the address bar: reload the page to continue.",
-        title="Something went wrong here",
+        title=TITLE,
     )
     return True
 

@@ -4,7 +4,6 @@ import asyncio
 import gc
 import importlib
 import platform
-import time
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 
@@ -18,8 +17,9 @@ from streamlit.url_util import make_url_path
 
 from rotorcalc import __version__
 from ui.jobs import queue
-from ui.serving import guard, health, log, settings, version
+from ui.serving import guard, log, pulse, settings, version
 from ui.serving.own_origin import OwnOrigin
+from ui.serving.pulse import PULSE
 
 _HEADER = b"x-rotorcalc-replica"
 # What the pages import, for the first visitor not to wait for it.
@@ -68,33 +68,39 @@ def middleware() -> list[Middleware]:
     return [*named, *guard.middleware(), Middleware(OwnOrigin)]
 
 
+class StartError(RuntimeError):
+    """The server is not well when it starts, so it does not."""
+
+
 async def answer_health(_: Request) -> JSONResponse:
-    """Answer whether the core computes correctly, and how long it took."""
-    start = time.perf_counter()
-    try:
-        await asyncio.wait_for(asyncio.to_thread(health.check), health.TIMEOUT)
-    except Exception as error:  # noqa: BLE001 - whatever it is, this server is not well
-        log.event("unhealthy", **log.described(error))
-        return JSONResponse({"status": "bad", "why": type(error).__name__}, status_code=503)
-    took = round((time.perf_counter() - start) * 1e3, 1)
+    """Answer what is wrong with this server, or that nothing is."""
+    faults = PULSE.faults()
+    status = {"status": "bad", "why": faults} if faults else {"status": "good"}
     return JSONResponse(
-        {"status": "good", "milliseconds": took, "version": __version__,
-         "commit": version.commit()},
+        status | {"version": __version__, "commit": version.commit()},
+        status_code=503 if faults else 200,
         headers={"Cache-Control": "no-store"},
-    )  # fmt: skip
+    )
 
 
 @asynccontextmanager
 async def life(_: st.App) -> AsyncIterator[None]:
-    """Write the log's first line and its last."""
+    """Start where all is well, and look after it until the end; log the first line and the last."""
     log.begin()
     await asyncio.to_thread(_warm)
+    if faults := await PULSE.look():
+        pulse.tell(f"STATUS=cannot start: {faults}")
+        raise StartError(f"the server cannot start: {faults}")
     log.event(
         "start", version=__version__, commit=version.commit(), replica=settings.replica(),
         python=platform.python_version(), streamlit=st.__version__, live=settings.live(),
         heavy_jobs=settings.heavy_jobs(),
     )  # fmt: skip
+    pulse.tell("READY=1")
+    looking = asyncio.create_task(PULSE.go_on())
     yield
+    pulse.tell("STOPPING=1")
+    looking.cancel()
     for turns in queue.LINES:
         turns.end()
     log.event("stop")
@@ -110,7 +116,6 @@ def _warm() -> None:
         turns.begin()
     for name in _WARM:
         importlib.import_module(name)
-    health.check()
     gc.collect()
     gc.freeze()
     gc.set_threshold(*_COLLECT_AFTER)
