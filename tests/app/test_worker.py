@@ -12,6 +12,7 @@ import pytest
 
 from rotorcalc import TransientError
 from tests.machines import SHEET
+from tests.waiting import until
 from ui.jobs import process, work
 from ui.jobs.process import Worker, WorkerError
 from ui.jobs.queue import Turns
@@ -115,11 +116,12 @@ def test_a_free_process_that_is_lost_is_replaced(
     what: signal.Signals, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     turns = Turns(1)
-    turns.begin()
-    assert turns.inspect() == ""  # it has begun
+    assert turns.run(np.ndim, (3,), None) == 0
+    assert turns.inspect() == ""
     monkeypatch.setattr(process, "_LOOK", 0.2)
     with turns.turn() as lost:
         os.kill(lost._process.pid, what)
+        until(lambda: _state(lost) in "TZ")
     assert "does not answer" in turns.inspect()
     with turns.turn() as new:
         assert new is not lost
@@ -133,6 +135,11 @@ def test_a_worker_ends_with_its_parent_process() -> None:
     worker._process.stdin.close()
     assert worker._process.wait(timeout=10.0) == 0
     worker._process.stdout.close()
+
+
+def _state(worker: Worker) -> str:
+    """Return whether a process runs (R), sleeps (S), is stopped (T) or has ended (Z)."""
+    return Path(f"/proc/{worker._process.pid}/stat").read_text().rsplit(")", 1)[1].split()[0]
 
 
 def lose(what: int) -> None:

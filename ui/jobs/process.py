@@ -17,6 +17,7 @@ import signal
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -37,7 +38,6 @@ _PATIENCE, _PATIENCE_AT_FIRST = 5, 60
 # A number, and in a pickle of its own what to compute: to read that may import much.
 Order = tuple[int, bytes]
 Answer = tuple[Literal["at", "done", "failed", "alive", "ended"], Any]
-_ASK_FOR_A_SIGN = 0  # among the numbers of computations to stop, which begin at one
 
 
 class WorkerError(RuntimeError):
@@ -57,7 +57,8 @@ class Worker:
             env=os.environ | {"PYTHONPATH": str(_ROOT)},
         )  # fmt: skip
         self._answers: SimpleQueue[Answer] = SimpleQueue()
-        self._number = 0
+        self._number = self._asked = 0
+        self._hired = time.monotonic()
         self._patience = _PATIENCE_AT_FIRST
         self.idle = True
         self.ended = False
@@ -92,12 +93,13 @@ class Worker:
         return self._patience == _PATIENCE and self._looks > 1
 
     def answers(self) -> bool:
-        """Return whether the idle process gives a sign of life."""
+        """Return whether the idle process gives a sign of life, or may still begin."""
+        if self._patience == _PATIENCE_AT_FIRST and self._answers.empty():
+            return time.monotonic() - self._hired < _PATIENCE_AT_FIRST * _LOOK
         try:
-            while not self._answers.empty():  # signs that were asked for earlier
-                self._heard()
-            self._send(_ASK_FOR_A_SIGN)
-            self._heard()
+            asked = self._ask_for_a_sign()
+            while self._heard()[1] < asked:  # an answer to an earlier question
+                pass
         except WorkerError:
             return False
         return True
@@ -114,6 +116,12 @@ class Worker:
         while self._receive()[0] == "at":
             pass
         self.idle = True
+
+    def _ask_for_a_sign(self) -> int:
+        """Ask with the next number, which the answer has too."""
+        self._asked += 1
+        self._send(-self._asked)  # a number above zero stops a computation
+        return self._asked
 
     def _send(self, message: Order | int) -> None:
         try:
@@ -135,7 +143,7 @@ class Worker:
                 answer = self._answers.get(timeout=_LOOK)
             except Empty:
                 self._looks += 1
-                self._send(_ASK_FOR_A_SIGN)
+                self._ask_for_a_sign()
                 continue
             self._looks, self._patience = 0, _PATIENCE
             if answer[0] == "ended":
@@ -194,12 +202,12 @@ class _Orders:
             os._exit(0)
 
     def _take(self, message: Order | int) -> None:
-        if message == _ASK_FOR_A_SIGN:
-            self._words.say(("alive", None))
-        elif isinstance(message, int):
+        if not isinstance(message, int):
+            self.queue.put(message)
+        elif message > 0:
             self.stopped = message
         else:
-            self.queue.put(message)
+            self._words.say(("alive", -message))
 
 
 def main(nicer: int) -> None:
@@ -210,7 +218,7 @@ def main(nicer: int) -> None:
     words = _Words(os.fdopen(os.dup(sys.stdout.fileno()), "wb"))
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # whatever prints
     orders = _Orders(sys.stdin.buffer, words)
-    words.say(("alive", None))
+    words.say(("alive", 0))
     threading.Thread(target=orders.listen, daemon=True).start()
     while True:
         words.say(_answer(orders, words, orders.queue.get()))

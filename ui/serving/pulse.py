@@ -10,9 +10,10 @@ import asyncio
 import os
 import socket
 import time
-from collections.abc import Awaitable
+from collections.abc import Awaitable, Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
+from functools import partial
 
 from ui.jobs import queue
 from ui.live import assets
@@ -20,7 +21,8 @@ from ui.serving import health, log, own_visit
 
 _LOOK = 5.0  # seconds between two looks, of some 25 ms of the processor
 _BEAT = 2.0  # seconds between two beats
-_PATIENCE = 10.0  # seconds for a part, after which it is taken for hung
+# Seconds for a part, after which it is taken for hung; at the start there is much to import.
+_PATIENCE, AT_START = 10.0, 30.0
 _TOO_OLD = 30.0  # seconds after the last good look
 # Other faults mend themselves: a process for computations is replaced.
 _VITAL = {"core", "files", "pages"}
@@ -42,16 +44,17 @@ class Pulse:
             return {"server": f"has not looked at itself for {age:.0f} s"}
         return self._found
 
-    async def look(self) -> dict[str, str]:
+    async def look(self, patience: float = _PATIENCE) -> dict[str, str]:
         """Look at each part, and return what is wrong."""
         call = asyncio.get_running_loop().run_in_executor
-        parts: dict[str, Awaitable[str | None]] = {
-            "core": call(self._pool, health.check),
-            "files": call(self._pool, assets.publish),
-            "pages": own_visit.fault_of(),
+        parts: dict[str, Callable[[], Awaitable[str | None]]] = {
+            "core": lambda: call(self._pool, health.check),
+            "files": lambda: call(self._pool, assets.publish),
+            "pages": own_visit.fault_of,
         }
-        parts |= {turns.name: call(self._pool, turns.inspect) for turns in queue.LINES}
-        found = {part: await _fault(of) for part, of in parts.items()}
+        for turns in queue.LINES:
+            parts[turns.name] = partial(call, self._pool, turns.inspect)
+        found = {part: await _fault(of, patience) for part, of in parts.items()}
         before, self._found = self._found, {part: why for part, why in found.items() if why}
         self._looked = time.monotonic()
         if not self._found.keys() & _VITAL:
@@ -90,11 +93,11 @@ def tell(words: str) -> None:
         there.sendto(words.encode(), address)
 
 
-async def _fault(looked: Awaitable[str | None]) -> str:
+async def _fault(look: Callable[[], Awaitable[str | None]], patience: float) -> str:
     """Return what is wrong with a part, or ""."""
     try:
-        return await asyncio.wait_for(looked, _PATIENCE) or ""
+        return await asyncio.wait_for(look(), patience) or ""
     except TimeoutError:
-        return f"no answer in {_PATIENCE:g} s"
+        return f"no answer in {patience:g} s"
     except Exception as error:  # noqa: BLE001 - whatever it is, this part is not well
         return f"{type(error).__name__}: {error}"

@@ -88,7 +88,7 @@ async def life(_: st.App) -> AsyncIterator[None]:
     """Start where all is well, and look after it until the end; log the first line and the last."""
     log.begin()
     await asyncio.to_thread(_warm)
-    if faults := await PULSE.look():
+    if faults := await PULSE.look(pulse.AT_START):
         pulse.tell(f"STATUS=cannot start: {faults}")
         raise StartError(f"the server cannot start: {faults}")
     log.event(
