@@ -12,9 +12,15 @@ _ROOT = Path(__file__).resolve().parents[2]
 
 @cache
 def commit() -> str:
-    """Return the running commit, abbreviated; "" where neither the host nor a checkout gives it."""
-    if named := settings.commit():
-        return named[:12]
+    """Return the running commit, abbreviated; "" where nobody knows it.
+
+    The host names it, or a release's file COMMIT (`deploy/release.py`), or a checkout.
+    """
+    named = settings.commit()
+    if not named and (_ROOT / "COMMIT").exists():
+        named = (_ROOT / "COMMIT").read_text("utf-8")
+    if named:
+        return named.strip()[:12]
     # A checkout is often another user's than the server's, which git would not read by itself.
     safe = f"safe.directory={_ROOT}"
     command = ["git", "-c", safe, "-C", str(_ROOT), "rev-parse", "--short", "HEAD"]
