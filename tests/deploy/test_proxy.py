@@ -122,6 +122,11 @@ def test_no_file_beside_the_served_ones_is_sent(site: Site, path: str) -> None:
         assert b"import streamlit" not in site.get(f"/rotorcalc/{folder}/{path}").body
 
 
+@pytest.mark.parametrize("path", ["static/js/none.js", "app/static/none-0123456789ab.js"])
+def test_a_script_that_is_not_there_is_not_found(site: Site, path: str) -> None:
+    assert site.get(f"/rotorcalc/{path}").status == 404
+
+
 def test_an_upload_that_is_too_large_is_refused(site: Site) -> None:
     connection = HTTPConnection("127.0.0.1", site.port, timeout=30)
     connection.request(

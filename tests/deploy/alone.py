@@ -1,0 +1,80 @@
+"""A server and its visitors, best in a network namespace: python -m tests.deploy.alone [shut|stray]
+
+Where no way leads out, Linux counts every packet for which there is none, whoever sends it, Python
+or not: a connection outside, a datagram, a question to a name server. `shut` says that it is run in
+such a place, `stray` sends one packet there. What Python's own sockets ask is noted anywhere.
+"""
+
+import asyncio
+import fcntl
+import json
+import socket
+import struct
+import sys
+import tempfile
+from contextlib import suppress
+from pathlib import Path
+
+from websockets.asyncio.client import connect
+from websockets.exceptions import InvalidStatus
+
+from tests.deploy import audit
+from tests.load.client import Visitor
+from tests.load.replicas import Replica
+
+_UP, _SET_FLAGS = 0x1, 0x8914  # IFF_UP, SIOCSIFFLAGS of <net/if.h> and <bits/ioctls.h>
+FOREIGN = ("http://evil.example", "http://198.51.100.7", "http://localhost:1", "null")
+
+
+def raise_loopback() -> None:
+    """Make this machine reach itself, which a new namespace does not."""
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as there:
+        fcntl.ioctl(there, _SET_FLAGS, struct.pack("16sh", b"lo", _UP))
+
+
+def packets_without_a_way() -> int:
+    """Return how many packets had no way out of this namespace, of both families."""
+    names, counts = (
+        line.split()[1:]
+        for line in Path("/proc/net/snmp").read_text().splitlines()
+        if line.startswith("Ip:")
+    )
+    four = dict(zip(names, counts, strict=True))
+    six = dict(line.split() for line in Path("/proc/net/snmp6").read_text().splitlines())
+    return int(four["OutNoRoutes"]) + int(six.get("Ip6OutNoRoutes", 0))
+
+
+async def visit(server: Replica) -> None:
+    """Do what visitors do, and what pages of other sites try."""
+    for origin in FOREIGN:
+        with suppress(InvalidStatus):
+            address = f"{server.address.replace('http', 'ws')}/_stcore/stream"
+            async with connect(address, origin=origin, proxy=None):  # type: ignore[arg-type]
+                pass
+    async with Visitor(server.address) as visitor:
+        await visitor.open()
+        await visitor.slide("Radial clearance", 83)
+        for page in ("Orbits", "Notes"):
+            await visitor.open(page)
+
+
+def main(word: str) -> None:
+    """Start a server as `make run` does, visit it, end it, and write what was asked outside."""
+    if word:
+        raise_loopback()
+    with tempfile.TemporaryDirectory() as folder:
+        server = Replica(**audit.environment(Path(folder))).wait()
+        try:
+            asyncio.run(visit(server))
+        finally:
+            server.stop()
+        asked = audit.asked(Path(folder))
+    if word == "stray":
+        with suppress(OSError):
+            socket.create_connection(("198.51.100.7", 80))
+    lost = packets_without_a_way() if word else 0
+    json.dump({"asked": asked, "without a way": lost}, sys.stdout)
+
+
+if __name__ == "__main__":
+    main(" ".join(sys.argv[1:]))

@@ -1,0 +1,47 @@
+"""Nothing is asked outside: proved where nothing can be reached, and every attempt is counted.
+
+That takes a network namespace, which some machines let nobody make. There a server is visited all
+the same, and Python's own sockets are listened to, which is all that can be done.
+"""
+
+import json
+import shutil
+import subprocess
+import sys
+from typing import Any
+
+import pytest
+
+from tests.load.replicas import ROOT
+
+# As its own root in a namespace of users, or as root of this machine.
+_WAYS = (["--map-root-user", "--net"], ["--net"])
+
+
+@pytest.fixture(scope="module")
+def shut() -> list[str]:
+    """The words before a command that shut it in, none where no way of it is allowed."""
+    if (program := shutil.which("unshare")) is None:
+        return []
+    commands = ([program, *way] for way in _WAYS)
+    return next((command for command in commands if _is_allowed(command)), [])
+
+
+def _is_allowed(command: list[str]) -> bool:
+    return subprocess.run([*command, "true"], check=False, capture_output=True).returncode == 0
+
+
+def _visited(shut: list[str], word: str) -> dict[str, Any]:
+    command = [*shut, sys.executable, "-m", "tests.deploy.alone", *([word] if shut else [])]
+    done = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True)
+    return json.loads(done.stdout)
+
+
+def test_a_server_starts_and_is_visited_and_asks_nobody_outside(shut: list[str]) -> None:
+    assert _visited(shut, "shut") == {"asked": [], "without a way": 0}
+
+
+def test_one_packet_outside_would_be_counted(shut: list[str]) -> None:
+    if not shut:
+        pytest.skip("this machine lets nobody make a network namespace (unshare --net)")
+    assert _visited(shut, "stray")["without a way"] >= 1
