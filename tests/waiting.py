@@ -4,7 +4,7 @@ import threading
 import time
 from collections.abc import Callable
 
-PATIENCE = 30.0  # seconds; what is waited for takes milliseconds, but the machine may be busy
+PATIENCE = 60.0  # seconds; what is waited for takes milliseconds, but the machine may be busy
 
 
 def until(holds: Callable[[], object]) -> None:

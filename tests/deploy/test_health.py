@@ -19,6 +19,7 @@ import pytest
 
 from tests.deploy import project
 from tests.deploy.test_replicas import awaited
+from tests.load import client
 from tests.load.client import Visitor
 from tests.load.replicas import ROOT, Replica
 from tests.waiting import until
@@ -30,6 +31,10 @@ from pathlib import Path
 if (Path(__file__).parents[2] / "broken").exists():
     raise ValueError("radial_clearance = 81.2345 m")
 """
+
+
+# What is waited for takes some ten seconds, and more on a busy machine.
+pytestmark = pytest.mark.timeout(300)
 
 
 @pytest.fixture(scope="module")
@@ -109,9 +114,10 @@ async def test_a_lost_process_for_computations_is_named_and_replaced(
 @pytest.mark.parametrize("what", [signal.SIGSTOP, signal.SIGKILL])
 @awaited
 async def test_the_next_visitor_notices_nothing_of_a_lost_process(
-    server: Replica, what: signal.Signals
+    server: Replica, what: signal.Signals, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     until(lambda: _is_good(server))
+    monkeypatch.setattr(client, "TIMEOUT", 120.0)  # it waits for a new process
     for number in _processes(server).values():
         os.kill(number, what)
     async with Visitor(server.address) as visitor:
