@@ -11,6 +11,7 @@ from tests.machines import SHEET
 from tests.waiting import PATIENCE, take, until
 from ui.jobs import queue
 from ui.jobs.cache import Cached, size_of
+from ui.jobs.process import WorkerError
 from ui.jobs.queue import Turns
 
 
@@ -105,6 +106,27 @@ def test_a_free_process_that_does_not_answer_is_replaced_and_named() -> None:
     with turns.turn() as second:
         assert second is not first
         assert turns.inspect() == ""  # at work: not asked
+
+
+def test_a_computation_whose_process_hangs_begins_again_once_in_another() -> None:
+    class Hanging(Here):
+        def run(self, _work, _args, _tell):
+            self.idle = False
+            raise WorkerError("no sign of life")
+
+    hired: list[Here] = []
+
+    def hire() -> Here:
+        hired.append(Hanging() if len(hired) in (0, 2, 3) else Here())
+        return hired[-1]
+
+    turns = Turns(1, hire=hire)
+    assert turns.run(abs, (-2,), None) == 2
+    assert [worker.closed for worker in hired] == [True, False]
+    hired[1].ended = True
+    with pytest.raises(WorkerError):
+        turns.run(abs, (-2,), None)
+    assert len(hired) == 4
 
 
 def test_a_free_process_that_has_ended_is_given_to_nobody() -> None:

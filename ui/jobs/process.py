@@ -32,8 +32,9 @@ _ROOT = Path(__file__).parents[2]
 NICER = 10
 
 _LOOK = 1.0  # seconds that a word is waited for before a sign of life is asked for
-# Looks without a sign, after which a process is taken for hung; the first come while it imports.
-_PATIENCE, _PATIENCE_AT_FIRST = 5, 60
+# Looks without a sign, after which a process is taken for hung: on a busy machine one that stands
+# back waits for seconds. The first come while it imports.
+_PATIENCE, _PATIENCE_AT_FIRST = 10, 60
 
 # A number, and in a pickle of its own what to compute: to read that may import much.
 Order = tuple[int, bytes]
@@ -89,8 +90,8 @@ class Worker:
 
     @property
     def silent(self) -> bool:
-        """Whether the process, at work, has missed more than one look for a sign of life."""
-        return self._patience == _PATIENCE and self._looks > 1
+        """Whether the process, at work, has given no sign of life for half of the patience."""
+        return self._patience == _PATIENCE and self._looks > _PATIENCE / 2
 
     def answers(self) -> bool:
         """Return whether the idle process gives a sign of life, or may still begin."""

@@ -3,7 +3,7 @@
 `/healthz` answers with what the last look has found. systemd, or `deploy/watch.py` in a container,
 is told by sd_notify's protocol when the server is ready and that it lives; where the beat stays
 away it ends the server and starts it anew. A server whose event loop hangs gives no beat. One that
-has computed or drawn nothing well for half a minute gives none either: it may only be busy before.
+has computed or drawn nothing well for 45 s gives none either: it may only be busy before.
 """
 
 import asyncio
@@ -22,8 +22,8 @@ from ui.serving import health, log, own_visit
 _LOOK = 5.0  # seconds between two looks, of some 25 ms of the processor
 _BEAT = 2.0  # seconds between two beats
 # Seconds for a part, after which it is taken for hung; at the start there is much to import.
-_PATIENCE, AT_START = 10.0, 30.0
-_TOO_OLD = 30.0  # seconds after the last good look
+_PATIENCE, AT_START = 15.0, 30.0
+_TOO_OLD = 45.0  # seconds after the last good look
 # Other faults mend themselves: a process for computations is replaced.
 _VITAL = {"core", "files", "pages"}
 
