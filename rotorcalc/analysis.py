@@ -103,11 +103,11 @@ class Sweep(Result):
 
     @cached_property
     def dynamics(self) -> FilmDynamics:
-        """The film with its inner coordinates, which govern free motion [N/m], [N·s/m], [kg].
+        """The film that governs free motion [N/m], [N·s/m], [kg].
 
-        Without inner coordinates it is `stiffness` and `damping`.
+        It is `stiffness` and `damping` unless the film depends on the frequency of the whirl.
         """
-        if film_of(self.machine.bearing).inner:
+        if film_of(self.machine.bearing).frequency_dependent:
             return dynamics(self.machine, self.speed)
         # Without inner coordinates K and C do not depend on frequency: the synchronous ones hold.
         return FilmDynamics(self.stiffness, self.damping, NO_INERTIA)

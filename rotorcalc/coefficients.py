@@ -22,6 +22,7 @@ from rotorcalc.films import (
     film_state,
     reduced,
 )
+from rotorcalc.films.dynamics import Impedance
 from rotorcalc.machine import Machine
 
 # Factors α_m of the film's inertia: 6/5 for a parabolic velocity profile, 1 for a flat one.
@@ -510,7 +511,18 @@ def _dynamics(machine: Machine, speed: Array) -> FilmDynamics:
         stiffness=_matrices(found.stiffness, units.stiffness),
         damping=_matrices(found.damping, units.damping),
         inertia=found.inertia,
+        at=None if found.at is None else _with_dimensions(found.at, units, speed),
     )
+
+
+def _with_dimensions(impedance: Impedance, units: FilmUnits, speed: Array) -> Impedance:
+    """Return a film's impedance over frequency [rad/s], in N/m and N·s/m."""
+
+    def at(frequency: Array) -> tuple[Array, Array]:
+        K, C = impedance(frequency / speed)
+        return _matrices(K, units.stiffness), _matrices(C, units.damping)
+
+    return at
 
 
 def _matrices(coefficients: Array, unit: Array | float) -> Array:

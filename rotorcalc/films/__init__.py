@@ -135,8 +135,8 @@ def film_coefficients(bearing: JournalBearing, sommerfeld: ArrayLike) -> tuple[A
     """
     film = film_of(bearing)
     points = OperatingPoints.at_sommerfeld(bearing, sommerfeld)
-    if film.inner:
-        # `state` has eliminated the inner coordinates at ν = 1; `dynamics` still holds them.
+    if film.frequency_dependent:
+        # `state` is synchronous, ν = 1; `dynamics` may still hold inner coordinates.
         state = film.state(points)
         return state.stiffness, state.damping
     dynamics = film.dynamics(points)

@@ -128,6 +128,9 @@ class Film(Protocol):
         The bearing.
     inner : int
         Number of inner coordinates, n.
+    frequency_dependent : bool
+        Whether the journal's stiffness and damping depend on the frequency of its whirl: with inner
+        coordinates, or where the film is known by its impedance alone.
     can_whirl : bool
         False where the film has no cross-coupling at any load, so that no rotor on it can whirl.
     curve : hashable or None
@@ -150,6 +153,8 @@ class Film(Protocol):
     @property
     def inner(self) -> int: ...  # noqa: D102
     @property
+    def frequency_dependent(self) -> bool: ...  # noqa: D102
+    @property
     def can_whirl(self) -> bool: ...  # noqa: D102
     @property
     def curve(self) -> Hashable: ...  # noqa: D102
@@ -165,7 +170,7 @@ class Film(Protocol):
         ...
 
     def dynamics(self, points: OperatingPoints) -> FilmDynamics:
-        """Return stiffness, damping and inertia, inner coordinates included."""
+        """Return stiffness, damping and inertia, inner coordinates included, or an impedance."""
         ...
 
     def field(self, points: OperatingPoints, *, angle: ArrayLike, zeta: ArrayLike) -> FilmField:

@@ -156,6 +156,11 @@ def started(machine: Machine, speed: float, places: Array, velocities: Array) ->
 def _matrices(machine: Machine, speed: float) -> tuple[Array, Array, Array]:
     """Return M (n,), D and K (n, n) of disk, journal (one for a rigid shaft) and the film's."""
     rotor, film = machine.rotor, dynamics(machine, speed)
+    if film.at is not None:
+        raise ValueError(
+            f"bearing = {machine.bearing.geometry.kind}: its film is known in a whirl of one "
+            "frequency only, which gives no motion in time"
+        )
     first = 0 if rotor.is_rigid else 2  # of the film's coordinates
     n = first + 2 + film.inertia.size
     M, D, K = np.zeros(n), np.zeros((n, n)), np.zeros((n, n))

@@ -13,6 +13,7 @@ from scipy.optimize import linear_sum_assignment
 from rotorcalc import modes
 from rotorcalc.arrays import Array, BoolArray, ComplexArray
 from rotorcalc.films import FilmDynamics
+from rotorcalc.impedance_modes import impedance_modes
 from rotorcalc.machine import Machine
 from rotorcalc.numerics.polynomial_roots import error_bounds, simultaneous_roots
 from rotorcalc.onset.characteristic import ExactPolynomial, polynomial_on
@@ -44,10 +45,10 @@ def certain_eigenvalues(
     Returns
     -------
     complex array, (..., n)
-        λ [1/s], in no particular order; n as in `modes.state_matrix`. Of a film with inner
-        coordinates each is refined as `growth.refined` does, without proof.
+        λ [1/s], in no particular order; n as in `modes.state_matrix`. Of a film that
+        depends on frequency each is refined as `growth.refined` does, without proof.
     """
-    if film.inner:
+    if film.frequency_dependent:
         return refined(machine.rotor, film, flexible)
     values = modes.eigenvalues(machine.rotor, film.stiffness, film.damping, flexible=flexible)
     return _certain(machine, speed, film, values, flexible=flexible)
@@ -60,6 +61,8 @@ def certain_mode_shapes(
 
     The vectors are those of the state matrix.
     """
+    if film.at is not None:
+        return impedance_modes(machine.rotor, film, flexible=flexible)
     shapes = modes.mode_shapes(
         machine.rotor, film.stiffness, film.damping, inertia=film.inertia, flexible=flexible
     )

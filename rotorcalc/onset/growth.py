@@ -1,6 +1,6 @@
-"""The onset of machines whose film has inner coordinates, from the eigenvalues.
+"""The onset of machines whose film depends on the whirl's frequency, from the eigenvalues.
 
-Such a film's coefficients depend on the whirl frequency, so neither Eqs. 5.45 to 5.50 nor a
+With inner coordinates, or a film that is known by its impedance, neither Eqs. 5.45 to 5.50 nor a
 polynomial of fixed degree apply. The fastest growing mode is refined on the machine's impedance.
 """
 
@@ -11,6 +11,7 @@ from rotorcalc import modes
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import dynamics
 from rotorcalc.films import FilmDynamics
+from rotorcalc.impedance_modes import impedance_eigenvalues
 from rotorcalc.machine import Machine, Rotor
 from rotorcalc.numerics.roots import narrow_root
 
@@ -20,6 +21,8 @@ _SAME = 1e-6
 
 def refined(rotor: Rotor, film: FilmDynamics, flexible: bool) -> ComplexArray:
     """Return all λ of a rotor on a film [1/s], (..., n), refined where that finds the same one."""
+    if film.at is not None:
+        return impedance_eigenvalues(rotor, film, flexible=flexible)
     matrices = (rotor, film.stiffness, film.damping)
     known = modes.eigenvalues(*matrices, inertia=film.inertia, flexible=flexible)
     found = modes.refined_eigenvalues(*matrices, inertia=film.inertia, flexible=flexible)
@@ -32,7 +35,8 @@ def refined(rotor: Rotor, film: FilmDynamics, flexible: bool) -> ComplexArray:
 def fastest(machine: Machine, speed: ArrayLike, flexible: bool) -> ComplexArray:
     """Return λ of the mode that grows fastest at speeds (...) [1/s]."""
     values = refined(machine.rotor, dynamics(machine, speed), flexible)
-    return np.take_along_axis(values, np.argmax(values.real, axis=-1)[..., None], axis=-1)[..., 0]
+    place = np.nanargmax(values.real, axis=-1)[..., None]
+    return np.take_along_axis(values, place, axis=-1)[..., 0]
 
 
 def growth(machine: Machine, speed: ArrayLike, flexible: bool) -> Array:
@@ -45,5 +49,15 @@ def growth_crossing(
 ) -> tuple[float, float]:
     """Return speed and whirl frequency where a machine changes between two speeds [rad/s]."""
     low, high = sorted((stable, unstable))
-    root = narrow_root(lambda speed: growth(machine, speed, flexible), low, high)
+
+    def rates(speed: Array) -> Array:
+        return growth(machine, speed, flexible)
+
+    # Where rounding decides an end's sign, the change lies there.
+    if rates(np.array([stable]))[0] >= 0.0:
+        root = stable
+    elif rates(np.array([unstable]))[0] <= 0.0:
+        root = unstable
+    else:
+        root = narrow_root(rates, low, high)
     return root, float(abs(fastest(machine, root, flexible).imag))

@@ -59,7 +59,7 @@ def is_unstable(
     film_model = film_of(machine.bearing)
     if not film_model.can_whirl:
         return np.zeros(speeds.shape, dtype=bool)
-    if film_model.inner:
+    if film_model.frequency_dependent:
         return growth(machine, speeds, flexible) > 0.0
     K, C = stiffness_and_damping(machine, speeds) if film is None else film
     if covers(machine):
@@ -104,7 +104,7 @@ def unstable_ranges(machine: Machine, speed: ArrayLike, *, onset: Onset | None =
     speeds = np.union1d(speeds, searched[within])
 
     def margins(speed: Array) -> Array:
-        if film.inner:
+        if film.frequency_dependent:
             return growth(machine, speed, True)
         return _margins(machine, speed, *stiffness_and_damping(machine, speed))
 

@@ -98,7 +98,7 @@ def sure_onsets(machines: Sequence[Machine]) -> Array:
 def _curve(machine: Machine) -> Hashable:
     """Return the name of the curve over σ that a machine's film follows, None where it has none."""
     film = film_of(machine.bearing)
-    return film.curve if film.can_whirl and film.inner == 0 else None
+    return film.curve if film.can_whirl and not film.frequency_dependent else None
 
 
 @dataclass(frozen=True, eq=False)

@@ -60,7 +60,7 @@ def searched_onset(machine: Machine, flexible: bool = True) -> Onset:
     if not film.can_whirl:
         return _no_onset("film")
     speeds = search_speeds(machine, flexible)
-    if film.inner:
+    if film.frequency_dependent:
         return _onset_by_growth(machine, flexible, speeds)
     return _onset_by_polynomial(machine, flexible, speeds)
 
@@ -112,7 +112,7 @@ def crossing(machine: Machine, stable: float, unstable: float, *, flexible: bool
     float
         A speed between the two [rad/s].
     """
-    if film_of(machine.bearing).inner:
+    if film_of(machine.bearing).frequency_dependent:
         return growth_crossing(machine, flexible, stable, unstable)[0]
     found = _in_floats(machine, flexible, stable, unstable)
     return (found or _in_many_digits(ExactPolynomial(machine, flexible), stable, unstable))[0]

@@ -58,8 +58,8 @@ class Onset:
     method : str
         How it was found: by the "closed form" of `onset.closed_form`; from the characteristic
         "polynomial", in "extended precision" where floats are not conclusive; from the
-        "eigenvalues" where the film has inner coordinates; from the "film" alone where it cannot
-        whirl.
+        "eigenvalues" where the film depends on the whirl's frequency; from the "film" alone where
+        it cannot whirl.
     """
 
     speed: float

@@ -11,8 +11,8 @@ import pytest
 from rotorcalc import Machine
 from rotorcalc.films import film_of
 from rotorcalc.units import SI, US
-from tests.app.session import HOME, NOTES, PAGES, faults, session_of, texts, tours, visit
-from tests.films.models import BEARINGS, Ringed
+from tests.app.session import HOME, NOTES, ORBITS, PAGES, faults, session_of, texts, tours, visit
+from tests.films.models import BEARINGS, MOVING, Ringed
 from tests.machines import SHEET
 from ui.bearing import _TAKEN, bearing_values, fields_of, shape_of
 from ui.computed import Computed
@@ -126,8 +126,11 @@ def test_every_page_shows_every_bearing(path: str, name: str) -> None:
     at = visit(path, **query(name))
     assert not at.warning or path != HOME
     assert machine_of(session_of(at).values).bearing == BEARINGS[name]
+    # Orbits need a force in any motion; without one every tab says so.
+    refusal = ["bearing: its spring's loss is known in a whirl only, not in any motion"]
+    refused = path == ORBITS and name not in MOVING
     for tab in tours(at):
-        assert faults(at) == [], tab
+        assert faults(at) == (refusal if refused else []), tab
 
 
 @pytest.mark.parametrize("path", PAGES)

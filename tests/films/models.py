@@ -1,8 +1,10 @@
 """Films made for the tests: each breaks something that only a short circular bearing keeps.
 
 `Sprung` has no cross-coupling, stiffness in the centre and a square bore; `Preloaded` is the short
-film with a spring, so that it holds the journal without load; `Ringed` is a short film on a ring
-that turns at a share of the speed on a second short film, two inner coordinates, with mass or not.
+film with a spring, so that it holds the journal without load; `Lossy` has that spring lose the
+same energy in each cycle at any frequency, so that it is known by an impedance only; `Ringed` is a
+short film on a ring that turns at a share of the speed on a second short film, two inner
+coordinates, with mass or not.
 """
 
 from collections.abc import Hashable, Mapping
@@ -10,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from typing import Annotated, ClassVar
 
 import numpy as np
-from scipy.optimize import brentq, root
+from scipy.optimize import root
 
 from rotorcalc.films import MODELS, FilmDynamics, FilmField, FilmState, FilmUnits
 from rotorcalc.films.dynamics import NO_INERTIA, reduced
@@ -46,6 +48,14 @@ class Preloaded(Geometry):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Lossy(Preloaded):
+    """The same, and the spring has a loss factor: its stiffness in a whirl is k(1 + jη)."""
+
+    kind: ClassVar[str] = "lossy"
+    loss: Annotated[float, Bound("-", at_least=0.0)] = 0.2
+
+
+@dataclass(frozen=True, kw_only=True)
 class Ringed(Geometry):
     """A ring that turns at a share of the speed between two short films."""
 
@@ -63,6 +73,7 @@ class _TestFilm:
 
     bearing: JournalBearing
     inner: int = field(default=0, init=False)
+    frequency_dependent: bool = field(default=False, init=False)
     can_whirl: bool = field(default=True, init=False)
     sommerfeld_range: tuple[float, float] = field(default=(0.03, 1e3), init=False)
 
@@ -161,16 +172,14 @@ class PreloadedFilm(_TestFilm):
         return radial - self.bearing.geometry.spring * eps, tangential
 
     def _eccentricity(self, sigma):
-        """Solve for ε by itself, one point after the other: slow, and plain to see."""
-
-        def excess(eps, wanted):
-            return float(np.hypot(*self._forces(eps))) - wanted
-
-        flat = [
-            0.0 if load == 0.0 else brentq(excess, 0.0, 1.0 - 1e-9, args=(load,), xtol=1e-16)
-            for load in (0.25 / np.ravel(sigma)).tolist()
-        ]
-        return np.reshape(flat, np.shape(sigma))
+        """Solve for ε by halving: the force on the journal is the load."""
+        load = 0.25 / np.asarray(sigma, float)
+        low, high = np.zeros(load.shape), np.where(load > 0.0, 1.0 - 1e-9, 0.0)
+        for _ in range(54):
+            middle = 0.5 * (low + high)
+            over = np.hypot(*self._forces(middle)) > load
+            low, high = np.where(over, low, middle), np.where(over, middle, high)
+        return high
 
     def state(self, points):
         eps = self._eccentricity(points.sommerfeld)
@@ -206,10 +215,40 @@ class PreloadedFilm(_TestFilm):
 
 
 @dataclass(frozen=True)
+class LossyFilm(PreloadedFilm):
+    """The same with structural damping, which has a meaning in a whirl only."""
+
+    frequency_dependent: bool = field(default=True, init=False)
+
+    @property
+    def _lost(self):
+        shape = self.bearing.geometry
+        return shape.spring * shape.loss * np.eye(2)
+
+    def state(self, points):
+        found = super().state(points)
+        return replace(found, damping=found.damping + self._lost)
+
+    def dynamics(self, points):
+        synchronous = self.state(points)
+        film = synchronous.damping - self._lost
+
+        def at(whirl_ratio):
+            nu = np.asarray(whirl_ratio)[..., None, None]
+            return synchronous.stiffness + 0.0 * nu, film + self._lost / nu
+
+        return FilmDynamics(synchronous.stiffness, synchronous.damping, NO_INERTIA, at)
+
+    def motion(self):
+        raise ValueError("bearing: its spring's loss is known in a whirl only, not in any motion")
+
+
+@dataclass(frozen=True)
 class RingedFilm(_TestFilm):
     """Two short films in series, the ring between them with or without mass."""
 
     inner: int = field(default=2, init=False)
+    frequency_dependent: bool = field(default=True, init=False)
 
     @property
     def _numbers(self):
@@ -357,6 +396,7 @@ def _in_series(inside, outside):
 
 MODELS["sprung", "short"] = SprungFilm
 MODELS["preloaded", "short"] = PreloadedFilm
+MODELS["lossy", "short"] = LossyFilm
 MODELS["ringed", "short"] = RingedFilm
 
 # By name, what every contract test runs over; the short bearing first.
@@ -365,9 +405,13 @@ BEARINGS = {
     "short": _PLAIN,
     "sprung": replace(_PLAIN, geometry=Sprung()),
     "preloaded": replace(_PLAIN, geometry=Preloaded()),
+    "lossy": replace(_PLAIN, geometry=Lossy()),
     "ringed": replace(_PLAIN, geometry=Ringed()),
     "ringed, heavy": replace(_PLAIN, geometry=Ringed(ring_mass=1.5)),
 }
+
+# Those whose film has a force on a journal in any motion.
+MOVING = [name for name in BEARINGS if name != "lossy"]
 
 
 def points(bearing, sigma, *, viscosity=0.0127, speed=600.0):

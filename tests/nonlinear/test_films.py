@@ -15,10 +15,10 @@ from rotorcalc.nonlinear.linear_motion import linear_motion, linear_theory
 from rotorcalc.nonlinear.measured_onset import measured_growth
 from rotorcalc.nonlinear.release import release
 from rotorcalc.nonlinear.transient import last_state, start_on_mode
-from tests.films.models import BEARINGS
+from tests.films.models import BEARINGS, MOVING
 from tests.machines import ROTORS, SHEET, C
 
-ALL = pytest.mark.parametrize("name", BEARINGS)
+ALL = pytest.mark.parametrize("name", MOVING)
 KINDS = pytest.mark.parametrize("kind", ["rigid", "massless journals", "journal mass, damped"])
 SPEED = 500.0
 

@@ -11,10 +11,10 @@ from rotorcalc import analyse, modes, onset_speed
 from rotorcalc.coefficients import dynamics
 from rotorcalc.onset.judge import is_unstable, unstable_ranges
 from rotorcalc.onset.many import onset_speeds
-from tests.films.models import BEARINGS
+from tests.films.models import BEARINGS, MOVING
 from tests.machines import ROTORS, SHEET
 
-WHIRLING = [name for name in BEARINGS if name != "sprung"]
+WHIRLING = [name for name in MOVING if name != "sprung"]
 
 
 def machine_of(bearing, rotor, load=None):

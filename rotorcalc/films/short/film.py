@@ -86,6 +86,7 @@ class ShortFilm:
     bearing: JournalBearing
 
     inner: int = field(default=0, init=False)
+    frequency_dependent: bool = field(default=False, init=False)
     can_whirl: bool = field(default=True, init=False)
     curve: Hashable = field(default="short", init=False)
     sommerfeld_range: tuple[float, float] = field(
