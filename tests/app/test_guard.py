@@ -8,11 +8,11 @@ import pytest
 import streamlit as st
 from starlette.types import Message
 
-from ui.serving.guard import bounds
+from ui.serving.guard import bounds, turns
 from ui.serving.guard.bounds import Bucket, network
 from ui.serving.guard.paced import Paced
 from ui.serving.guard.strangers import is_own_name, is_own_origin
-from ui.serving.guard.turns import Page, Sharer, Turns
+from ui.serving.guard.turns import Page, Share, Turns
 from ui.serving.settings import Limits
 
 
@@ -31,16 +31,22 @@ class Socket:
     async def send(self, message: Message) -> None:
         self.sent.append(message)
 
-    def paced(self, turns: Turns) -> Paced:
-        page = Page(address=Sharer(), session="page")
-        return Paced(self.receive, self.send, turns=turns, page=page, limits=Limits(waiting=5))
+    def paced(self, line: Turns) -> Paced:
+        page = Page(Share(), session="page")
+        return Paced(self.receive, self.send, turns=line, page=page, limits=Limits(waiting=5))
+
+
+@pytest.fixture(autouse=True)
+def _patience(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let no turn end by itself."""
+    monkeypatch.setattr(turns, "LONGEST", 1e6)
 
 
 def _taken() -> Turns:
-    """Return turns of which another page has one."""
-    turns = Turns()
-    turns.ask(Page(address=Sharer(), session="other"))
-    return turns
+    """Return turns of which another page has one, until it leaves."""
+    line = Turns()
+    line.ask(Page(Share(), session="other"))
+    return line
 
 
 def _said(data: bytes | None = b"run") -> Message:
@@ -71,26 +77,20 @@ def test_a_bucket_admits_its_burst_and_then_its_rate(clock: list[float]) -> None
     assert [bucket.take() for _ in range(4)] == [True, True, True, False]
 
 
-def test_a_turn_passes_on_all_waiting_messages_and_later_ones_wait_for_the_next() -> None:
+def test_each_message_waits_for_a_turn_of_its_own() -> None:
     async def go() -> None:
         socket = Socket(_WANTED, *(_said(bytes([i])) for i in range(3)))
-        turns, other = Turns(), Page(address=Sharer(), session="other")
-        turns.ask(other)
-        paced = socket.paced(turns)
-        assert await paced.receive() == _WANTED
-        first = asyncio.create_task(paced.receive())
-        await asyncio.sleep(0)
-        assert not first.done()
-        turns.left("other")
-        handed = [await first, await paced.receive(), await paced.receive()]
-        assert [message["bytes"][0] for message in handed] == [0, 1, 2]
-        socket.coming.put_nowait(_said())
-        fourth = asyncio.create_task(paced.receive())
-        await asyncio.sleep(0)
-        assert not fourth.done()
-        turns.left("page")
-        assert await fourth == _said()
-        await paced.close()
+        line = _taken()
+        one = socket.paced(line)
+        assert await one.receive() == _WANTED
+        for number, before in enumerate(("other", "page", "page")):
+            message = asyncio.create_task(one.receive())
+            for _ in range(10):
+                await asyncio.sleep(0)
+            assert not message.done()
+            line.left(before)
+            assert (await message)["bytes"][0] == number
+        await one.close()
 
     _run(go)
 
@@ -117,8 +117,8 @@ def test_a_flood_ends_its_page_and_its_websocket_stays_unread(flood: list[bytes]
 def test_a_closed_page_is_noticed_before_its_waiting_messages() -> None:
     async def go() -> None:
         socket = Socket(_WANTED, *(_said() for _ in range(4)))
-        turns = _taken()
-        one = socket.paced(turns)
+        line = _taken()
+        one = socket.paced(line)
         assert await one.receive() == _WANTED
         waiting = asyncio.create_task(one.receive())
         await asyncio.sleep(0)
@@ -126,8 +126,8 @@ def test_a_closed_page_is_noticed_before_its_waiting_messages() -> None:
         assert await waiting == _GONE
         assert await one.receive() == _GONE
         await one.close()
-        turns.left("other")
-        assert turns.ask(Page(address=Sharer())).done()  # it waits no more
+        line.left("other")
+        assert line.ask(Page(Share())).done()  # it waits no more
 
     _run(go)
 

@@ -14,7 +14,7 @@ from tests.waiting import PATIENCE
 from ui.serving import one_at_a_time
 from ui.serving.guard import turns
 from ui.serving.guard.bounds import Bounds
-from ui.serving.guard.turns import Page, Sharer, Turns
+from ui.serving.guard.turns import Page, Share, Turns
 from ui.serving.settings import Limits
 
 _SCOPE = {"type": "websocket", "client": ("192.0.2.1", 1), "headers": []}
@@ -23,13 +23,15 @@ _WANTED = {"type": "websocket.connect"}
 
 @pytest.fixture
 def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    """Return a clock that stands still, by which no turn ends by itself."""
     now = [0.0]
     monkeypatch.setattr(turns.time, "monotonic", lambda: now[0])
+    monkeypatch.setattr(turns, "LONGEST", 1e6)
     return now
 
 
-def _page(session: str, address: Sharer | None = None) -> Page:
-    return Page(address=address or Sharer(), session=session)
+def _page(session: str, address: Share | None = None) -> Page:
+    return Page(address or Share(), session=session)
 
 
 def _said(name: str) -> dict[str, Any]:
@@ -40,7 +42,7 @@ def _run(work: Callable[[], Coroutine[Any, Any, None]]) -> None:
     asyncio.run(asyncio.wait_for(work(), PATIENCE))
 
 
-def test_one_page_has_its_turn_at_a_time() -> None:
+def test_one_page_has_its_turn_at_a_time(clock: list[float]) -> None:
     async def go() -> None:
         line = Turns()
         first, second = line.ask(_page("first")), line.ask(_page("second"))
@@ -66,9 +68,10 @@ def test_an_idle_server_gives_every_turn_at_once(clock: list[float]) -> None:
 
 
 def test_an_occasional_request_goes_before_continuous_ones(clock: list[float]) -> None:
-    async def go(address: Sharer | None) -> None:
+    async def go(address: Share | None) -> None:
         line = Turns()
         seldom = _page("seldom", address)
+        clock[0] += 1.0
         crowd = [_page(str(i), address) for i in range(20)]
         asked = {page.session: line.ask(page) for page in crowd}
         for number in range(200):
@@ -84,13 +87,14 @@ def test_an_occasional_request_goes_before_continuous_ones(clock: list[float]) -
             asked[at] = line.ask(crowd[int(at)])
 
     _run(lambda: go(None))
-    _run(lambda: go(Sharer()))
+    _run(lambda: go(Share()))
 
 
 def test_new_pages_wait_behind_established_ones(clock: list[float]) -> None:
     async def go() -> None:
-        line, address = Turns(), Sharer()
+        line, address = Turns(), Share()
         visitor = _page("visitor", address)
+        clock[0] += 1.0
         line.ask(_page("busy", address))
         new = [line.ask(_page(f"new {i}", address)) for i in range(20)]
         called = line.ask(visitor)
@@ -103,7 +107,7 @@ def test_new_pages_wait_behind_established_ones(clock: list[float]) -> None:
 
 def test_many_pages_of_one_address_share_as_much_as_one_of_another(clock: list[float]) -> None:
     async def go() -> None:
-        line, crowded = Turns(), Sharer()
+        line, crowded = Turns(), Share()
         pages = {str(i): _page(str(i), crowded) for i in range(20)} | {"alone": _page("alone")}
         asked = {name: line.ask(page) for name, page in pages.items()}
         given = dict.fromkeys(pages, 0)
@@ -150,7 +154,7 @@ def test_a_turn_ends_after_the_longest_time(monkeypatch: pytest.MonkeyPatch) -> 
     _run(go)
 
 
-def test_a_closed_page_gives_up_its_turn_and_its_place_in_line() -> None:
+def test_a_closed_page_gives_up_its_turn_and_its_place_in_line(clock: list[float]) -> None:
     async def go() -> None:
         line = Turns()
         first, second, third = (_page(name) for name in ("first", "second", "third"))
@@ -179,10 +183,11 @@ def test_a_visitors_message_passes_next_during_a_flood(
         bounds = Bounds(_streamlit(handed), Limits())
         names = ["visitor", *(f"hostile {i}" for i in range(20))]
         sockets = {name: Socket(_WANTED, _said(name)) for name in names}
-        tasks = [
-            asyncio.create_task(bounds(_SCOPE, socket.receive, socket.send))
-            for socket in sockets.values()
-        ]
+        tasks = []
+        for socket in sockets.values():
+            clock[0] += 0.02
+            tasks.append(asyncio.create_task(bounds(_SCOPE, socket.receive, socket.send)))
+            await _settle()
         for number in range(300):
             await _settle()
             at = handed[-1]

@@ -46,6 +46,7 @@ def main() -> None:
     parser.add_argument("--soak", type=int, default=0, help="actions; the memory is looked at")
     parser.add_argument("--hostile", type=int, default=0, help="flooding sessions on each server")
     parser.add_argument("--addresses", type=int, default=0, help="addresses that these come from")
+    parser.add_argument("--rate", type=float, default=0.0, help="their messages a second, 0: all")
     asked = parser.parse_args()
     with ExitStack() as stack:
         own = [] if asked.address else [Replica() for _ in range(asked.replicas)]
@@ -111,8 +112,8 @@ def _flood(addresses: list[str], asked: argparse.Namespace) -> ExitStack:
     """Let hostile sessions flood each server until the stack is left."""
     stack = ExitStack()
     for address in addresses if asked.hostile else []:
-        hostile = flooded(address, sessions=asked.hostile, addresses=asked.addresses)
-        stack.enter_context(hostile)
+        hostile = {"sessions": asked.hostile, "addresses": asked.addresses, "rate": asked.rate}
+        stack.enter_context(flooded(address, **hostile))
     return stack
 
 

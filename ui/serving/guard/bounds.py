@@ -21,7 +21,7 @@ from ui.serving import one_at_a_time
 from ui.serving.guard.browsers import UPLOADS
 from ui.serving.guard.paced import Paced
 from ui.serving.guard.refusal import below_base, header, refuse
-from ui.serving.guard.turns import Page, Sharer, Turns
+from ui.serving.guard.turns import Page, Share, Turns
 from ui.serving.settings import Limits
 
 _MEGABYTE = 1 << 20
@@ -54,7 +54,7 @@ class Address:
     """What comes from one address."""
 
     openings: Bucket
-    share: Sharer = field(default_factory=Sharer)
+    share: Share = field(default_factory=Share)
     sockets: int = 0
 
 
@@ -84,7 +84,7 @@ class Bounds:
             await refuse(scope, receive, send, status=429, why=why, **{"Retry-After": "10"})
             return
         self._listen()
-        page = Page(address=address.share)
+        page = Page(address.share)
         paced = Paced(receive, send, turns=self._turns, page=page, limits=limits)
         self._sockets += 1
         address.sockets += 1

@@ -18,8 +18,9 @@ _POLICY_VIOLATION, _UNSUPPORTED = 1008, 1003  # RFC 6455, section 7.4.1
 class Paced:
     """A page's websocket.
 
-    In a turn all is handed on that waits when it begins: Streamlit makes one run of it. It is read
-    all the time: that it has been closed would else be seen only after all that came before.
+    Each message has a turn of its own: of two that came together Streamlit would begin a run of the
+    first too. It is read all the time: that it has been closed would else be seen only after all
+    that came before.
     """
 
     def __init__(
@@ -33,7 +34,6 @@ class Paced:
         self._end: Message | None = None
         self._refusal: Message | None = None  # where the guard closes the websocket itself
         self._begun = False
-        self._due = 0  # messages of this turn that are still to be handed on
         self._reading = asyncio.create_task(self._read())
 
     async def receive(self) -> Message:
@@ -42,11 +42,9 @@ class Paced:
             self._begun = True
             await self._came.wait()
             return self._next()
-        if self._due == 0:
-            await self._turn()
+        await self._turn()
         if self._end is not None:
             return self._end
-        self._due -= 1
         message = self._next()
         self._bytes -= len(message["bytes"])
         return message
@@ -80,7 +78,6 @@ class Paced:
         if self._end is None:
             called = self._turns.ask(self._page)
             await asyncio.wait({called, self._reading}, return_when=asyncio.FIRST_COMPLETED)
-        self._due = len(self._waiting)
 
     def _next(self) -> Message:
         message = self._waiting.popleft()
