@@ -97,14 +97,16 @@ def validity(sweep: Sweep) -> tuple[Check, ...]:
                "surface asperities touch through the film"),
         _below("Smallest film over clearance, h/C", film / C, 0.1, 0.03,
                "so thin a film is heated and deforms the bearing, which the model neglects"),
-        _above("Imbalance orbit over clearance", swing, 0.1, np.maximum(film / C, 0.1),
+        _above("Imbalance orbit over clearance", swing, np.minimum(0.1, film / C), film / C,
                "linear coefficients hold for small orbits; at the limit it touches the wall"),
         _above("Static sag over clearance, Γ/C", machine.static_sag / C * everywhere, 1.0, 10.0,
                "so flexible a shaft is inclined in its bearings, which the model takes as aligned"),
     )  # fmt: skip
 
 
-def _above(name: str, value: Array, caution: float, limit: Array | float, reason: str) -> Check:
+def _above(
+    name: str, value: Array, caution: Array | float, limit: Array | float, reason: str
+) -> Check:
     level = _level(value > caution, value > limit)
     low, high = np.full_like(value, caution), np.full_like(value, limit)
     return Check(name, value, low, high, level, reason)

@@ -56,6 +56,19 @@ def test_an_orbit_that_reaches_the_wall_is_outside():
     assert judged(still)["Imbalance orbit over clearance"].value == 0.0
 
 
+def test_an_orbit_larger_than_a_thin_film_is_outside():
+    heavy = replace(SHEET.machine, load=1e6)
+    still = analyse(heavy, SHEET.speed)
+    film = float(still.minimum_film_thickness) / heavy.bearing.radial_clearance
+    assert film < 0.09
+    whirling = judged(heavy)["Imbalance orbit over clearance"]
+    size = float(whirling.value) / heavy.rotor.imbalance  # linear in the imbalance
+    for share, worst in ((0.9, "good"), (1.1, "outside")):
+        rotor = replace(heavy.rotor, imbalance=share * film / size)
+        check = judged(replace(heavy, rotor=rotor))["Imbalance orbit over clearance"]
+        assert (check.worst, float(check.limit)) == (worst, pytest.approx(film))
+
+
 def test_a_fast_thin_oil_leaves_the_laminar_range():
     thin = replace(SHEET.machine, temperature=150.0)
     assert judged(thin, speed=3000.0)["Reynolds number of the film"].worst == "outside"
