@@ -187,10 +187,9 @@ class Sweep(Result):
         """
         if self.speed.ndim > 1:
             raise ValueError(f"speed: must have the shape (n,) for a table, has {self.speed.shape}")
-        rows = self.speed.size
         # Each speed's eigenvalues come in an order of their own; a column of the table is one mode.
-        branches = modes.follow_branches(self.flexible_eigenvalues.reshape(rows, -1))
-        return dataframe(columns(self, rows=rows) | eigenvalue_columns(branches))
+        modes_followed = eigenvalue_columns(self.branches())
+        return dataframe(columns(self, rows=self.speed.size) | modes_followed)
 
 
 @checked

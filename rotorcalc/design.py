@@ -206,7 +206,8 @@ def sensitivities(
     machine : Machine
         The machine.
     share : float
-        Share of its value by which each input is varied, down and up [-]. A temperature is varied
+        Share of its value by which each input is varied, down and up [-], between 0 and 1. A
+        temperature is varied
         by `TEMPERATURE_STEP` instead.
     inputs : iterable of str
         The inputs. One at zero or infinity is left out; so is one for which a varied value is not
@@ -221,8 +222,12 @@ def sensitivities(
     Raises
     ------
     ValueError
-        Where there is no such input.
+        Where there is no such input, or the share is not between 0 and 1.
     """
+    if not 0.0 < share < 1.0:
+        raise ValueError(
+            f"share = {share:g}: must be between 0 and 1; 0.10 varies each input by a tenth"
+        )
     moved = [_moved(machine, field, share) for field in inputs]
     pairs = [
         (step, [_machine_or_none(machine, {address(machine, step[0]): v}) for v in step[1:]])

@@ -126,6 +126,9 @@ class JournalBearing(Record):
                 f"model {' or '.join(map(repr, self.geometry.models))}"
             )
         self._check_clearance()
+        if self.film == self.geometry.models[0]:
+            # The default by its name is the default: equal bearings are equal records.
+            object.__setattr__(self, "film", None)
 
     def _check_clearance(self) -> None:
         C, most = self.radial_clearance, _WIDEST * self.radius

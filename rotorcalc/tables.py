@@ -4,6 +4,7 @@ Vectors and matrices take one column per element, phasors an amplitude and a pha
 measured. Units are those of the record's docstring.
 """
 
+import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, cast
 
@@ -52,8 +53,13 @@ def columns(result: Result, *, rows: int) -> dict[str, Array]:
         f"{name} [{end}]": column
         for field, unit in units(type(result)).items()
         if (value := _numbers(getattr(result, field))) is not None
-        for name, end, column in _elements(field, unit, value.reshape(rows, -1))
+        for name, end, column in _elements(field, unit, _in_rows(value, rows))
     }
+
+
+def _in_rows(value: Array, rows: int) -> Array:
+    # Without any row the number of elements is not to be had from the size.
+    return value.reshape(rows, -1 if rows else math.prod(value.shape[1:]))
 
 
 def eigenvalue_columns(branches: ComplexArray) -> dict[str, Array]:

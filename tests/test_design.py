@@ -407,3 +407,9 @@ def test_an_input_that_cannot_be_solved_for_is_named(wrong: dict[str, float], me
     asked = {"vary": "radial_clearance", "target": 700.0, "low": 1e-5, "high": 1e-4} | wrong
     with pytest.raises(ValueError, match=message):
         design.solve_onset(SHEET, **asked)
+
+
+@pytest.mark.parametrize("share", [1.5, 1.0, 0.0, -0.1, math.nan, math.inf])
+def test_a_share_that_leaves_nothing_of_an_input_is_refused(share):
+    with pytest.raises(ValueError, match=r"share = .*: must be between 0 and 1"):
+        design.sensitivities(SHEET, share=share)

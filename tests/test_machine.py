@@ -583,3 +583,10 @@ def test_a_file_that_is_not_text_is_refused(value):
 @given(st.text() | st.binary())
 def test_any_text_is_refused_with_a_valueerror(text):
     assert refusal(text)
+
+
+def test_the_default_film_by_its_name_is_the_default():
+    named = replace(SHEET.bearing, film="short")
+    assert named == SHEET.bearing
+    assert hash(named) == hash(SHEET.bearing)
+    assert named.model == "short"

@@ -85,3 +85,9 @@ def test_where_pandas_is_missing_the_error_says_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(ImportError, match="needs pandas: pip install pandas"):
         dataframe({})
+
+
+def test_no_speeds_have_no_row_and_the_same_columns():
+    table = rc.analyse(SHEET, []).to_dataframe()
+    assert table.shape == (0, TABLE.shape[1])
+    assert list(table.columns) == list(TABLE.columns)

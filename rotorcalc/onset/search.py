@@ -8,6 +8,7 @@ digits.
 import functools
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 import numpy as np
 from numpy.polynomial.polynomial import polyval
@@ -30,7 +31,8 @@ _POINTS_PER_DECADE = 30
 _BLOCK, _EXACT_BLOCK = 64, 4
 # Whirl ratio assumed where synchronous coefficients allow no whirl but inner coordinates may.
 _HALF = 0.5
-# Factor on the range of the search for inner coordinates, and extensions for a stiffening film.
+# Factor on the range of the search for inner coordinates: no bound is known for the modes of the
+# film's own parts, whose stiffness and mass may be anything. And extensions for a stiffening film.
 _INNER, _RISES = 10.0, 60
 # Relative distance from an onset at which floats must prove stability below and instability above
 # it; otherwise the onset is computed in sixty digits.
@@ -61,7 +63,8 @@ def searched_onset(machine: Machine, flexible: bool = True) -> Onset:
         return _no_onset("film")
     speeds = search_speeds(machine, flexible)
     if film.frequency_dependent:
-        return _onset_by_growth(machine, flexible, speeds)
+        found = _onset_by_growth(machine, flexible, speeds)
+        return replace(found, searched_to=float(speeds[-1]))
     return _onset_by_polynomial(machine, flexible, speeds)
 
 
@@ -250,6 +253,10 @@ def search_range(machine: Machine, flexible: bool = True) -> tuple[float, float,
     Below the σ at which the film can whirl every rotor is stable, so the search begins there; above
     some σ the film no longer changes (`sommerfeld_range`). Without load the film is the centred one
     at every speed, and the search begins far below every rate of the rotor.
+
+    For a film with inner coordinates the upper end is not proved: it is ten times twice the bound
+    on the rotor's own modes on the synchronous film (`_highest_onset`). An onset above the last of
+    these speeds is not found.
     """
     unit = float(modified_sommerfeld(machine, 1.0))
     # σ is proportional to speed: `unit` is σ at 1 rad/s.

@@ -6,6 +6,7 @@ threshold one mode whirls undamped, at the whirl ratio ω̄ = ω_s/Ω_s times th
 Source: San Andrés, Notes 5, Eqs. 5.41 to 5.50.
 """
 
+import math
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
@@ -60,12 +61,16 @@ class Onset:
         "polynomial", in "extended precision" where floats are not conclusive; from the
         "eigenvalues" where the film depends on the whirl's frequency; from the "film" alone where
         it cannot whirl.
+    searched_to : float
+        An onset above this speed would not have been found [rad/s]; infinite where the method
+        proves that there is none. The "eigenvalues" do not.
     """
 
     speed: float
     whirl_frequency: float
     eccentricity_ratio: float
     method: Method
+    searched_to: float = math.inf
 
 
 def whirl_onset(k: ArrayLike, c: ArrayLike) -> WhirlOnset:

@@ -572,3 +572,17 @@ def test_a_film_thinner_than_the_arithmetic_is_refused(sigma):
         film_state(BEARING, sigma)
     with pytest.raises(ValueError, match=r"sommerfeld = .*too small"):
         film_coefficients(BEARING, sigma)
+
+
+@pytest.mark.parametrize(
+    ("position", "velocity", "message"),
+    [
+        ([1, 2, 3], [1, 2], r"position: must have the shape \(\.\.\., 2\), has \(3,\)"),
+        (0.1, [1, 2], r"position: must have the shape"),
+        ([0.1, 0.2], 0.2, r"velocity: must have the shape"),
+        (np.zeros((2, 2)), np.zeros((3, 2)), r"velocity: has the leading shape \(3,\)"),
+    ],
+)
+def test_positions_and_velocities_of_a_wrong_shape_are_refused(position, velocity, message):
+    with pytest.raises(ValueError, match=message):
+        short.film_force(position, velocity)

@@ -128,3 +128,11 @@ def test_a_sweep_has_the_inner_coordinates_eigenvalues(bearing):
         for value in values[np.abs(values) < 1e6 * speed]:
             assert np.abs(expected - value).min() <= 1e-5 * abs(value)
     assert sweep.rigid_eigenvalues.shape == (2, sweep.flexible_eigenvalues.shape[1] - 2)
+
+
+@pytest.mark.parametrize("name", BEARINGS)
+def test_an_onset_by_eigenvalues_says_how_far_it_was_searched(name):
+    """Every other way excludes an onset above what it searches."""
+    onset = onset_speed(machine_of(name, "massless journals"))
+    assert math.isfinite(onset.searched_to) == (onset.method == "eigenvalues")
+    assert onset.searched_to > onset.speed or math.isinf(onset.speed)

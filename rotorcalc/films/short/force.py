@@ -31,15 +31,23 @@ def film_force(position: ArrayLike, velocity: ArrayLike) -> Array:
     Raises
     ------
     ValueError
-        Where the position lies outside the clearance circle or the velocity is not finite.
+        Where the position lies outside the clearance circle, the velocity is not finite, or
+        their shapes do not end with 2 or do not broadcast.
 
     Notes
     -----
     Source: Eq. 5.25 integrated over its positive half, 0 < z' < π, for any velocity; its value at
     rest is Eq. 5.5 and its derivatives are Eqs. 5.30 and 5.31.
     """
-    x, y = np.moveaxis(real_array("position", position), -1, 0)
-    dx, dy = np.moveaxis(real_array("velocity", velocity), -1, 0)
+    x, y = np.moveaxis(real_array("position", position, ends=(2,)), -1, 0)
+    dx, dy = np.moveaxis(real_array("velocity", velocity, ends=(2,)), -1, 0)
+    try:
+        x, y, dx, dy = np.broadcast_arrays(x, y, dx, dy)
+    except ValueError as error:
+        raise ValueError(
+            f"velocity: has the leading shape {dx.shape}, which does not fit the positions' "
+            f"{x.shape}; give one for each position"
+        ) from error
     kappa2 = 1.0 - x**2 - y**2
     if not np.all(kappa2 > 0.0):
         raise ValueError("position: must lie inside the clearance circle, x² + y² < 1")
