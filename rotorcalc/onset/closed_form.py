@@ -37,6 +37,8 @@ _ANY_BEARING = JournalBearing(diameter=1.0, length=1.0, radial_clearance=0.01)
 # Modified Sommerfeld numbers that bracket a root. Below them no film can whirl; above them it is
 # nearly centred, where both curves grow as σ². Forty per decade, refined by a root finder.
 _SIGMA = np.geomspace(1e-3, 1e3, 241)
+# Ω/σ [rad/s] up to which squares of speeds over masses and stiffnesses stay finite.
+_LARGEST = 1e140
 # Only the relative step ends the search, as σ spans many decades.
 _ROOT: Any = {"xatol": 0.0, "xrtol": 1e-15, "fatol": 0.0, "frtol": 0.0}
 
@@ -72,7 +74,8 @@ def closed_form_onset(machine: Machine, *, flexible: bool = True) -> Onset:
     Raises
     ------
     ValueError
-        Where the machine has midspan damping.
+        Where the machine has midspan damping, or a load so small or large that floating-point
+        numbers do not hold the squares of its speeds.
     """
     if not covers(machine):
         raise ValueError("machine: has midspan damping or another film, so no closed form")
@@ -115,6 +118,11 @@ def _numbers(machine: Machine, flexible: bool) -> tuple[float, float, float, flo
     bearing, rotor, F = machine.bearing, machine.rotor, machine.static_load
     # Ω/σ = F_o/s, with s from Eq. 5.8 at 1 rad/s.
     speed_of = 4.0 * F / float(FilmUnits(bearing, machine.viscosity, 1.0).force)
+    if not 1.0 / _LARGEST < speed_of < _LARGEST:
+        raise ValueError(
+            f"static load = {F:g} N: gives speeds of about {speed_of:.3g} rad/s, whose squares "
+            "floating-point numbers do not hold"
+        )
     # Factors of σ²/p_s² in A and of (σω̄)² in B, see above.
     a = rotor.half_mass * bearing.radial_clearance / F * speed_of**2
     if rotor.is_rigid or not flexible:

@@ -93,7 +93,13 @@ def _certain(
     polynomial = polynomial_on(_at(film, doubt), machine.rotor, flexible)
     near = simultaneous_roots(polynomial, values[doubt])
     found = values.copy()
-    found[doubt] = [exact.roots(*row) for row in zip(speed[doubt].tolist(), near, strict=True)]
+    try:
+        found[doubt] = [exact.roots(*row) for row in zip(speed[doubt].tolist(), near, strict=True)]
+    except RuntimeError as error:
+        raise ValueError(
+            f"static load = {machine.static_load:g} N: the film is so stiff that sixty digits do "
+            "not resolve the eigenvalues"
+        ) from error
     return found
 
 

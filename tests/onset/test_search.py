@@ -9,7 +9,15 @@ from hypothesis import HealthCheck, assume, example, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import brentq, minimize_scalar
 
-from rotorcalc import JournalBearing, Machine, Onset, modes, onset_speed
+from rotorcalc import (
+    JournalBearing,
+    Machine,
+    Onset,
+    analyse,
+    modes,
+    onset_speed,
+    unstable_ranges,
+)
 from rotorcalc.coefficients import equilibrium, modified_sommerfeld
 from rotorcalc.films import short
 from rotorcalc.numerics import routh
@@ -556,3 +564,17 @@ def test_onset_of_the_sheets_rotors_in_rpm():
     """To the digits that DESIGN prints; tests/literature has the rest of the sheet."""
     assert onset_speed(SHEET).speed / RPM == pytest.approx(8919.3, abs=0.05)
     assert onset_speed(SHEET, flexible=False).speed / RPM == pytest.approx(10651.9, abs=0.05)
+
+
+@pytest.mark.parametrize("load", [1e300, 1e-300])
+def test_a_load_beyond_floating_point_is_refused_in_words(load):
+    machine = replace(SHEET, load=load)
+    for asked in (onset_speed, lambda m: unstable_ranges(m, np.array([10.0, 1000.0]))):
+        with pytest.raises(ValueError, match="static load = 1e"):
+            asked(machine)
+
+
+def test_eigenvalues_beyond_sixty_digits_are_refused_in_words():
+    sweep = analyse(replace(SHEET, load=1e30), 600.0)
+    with pytest.raises(ValueError, match=r"static load = 1e\+30 N"):
+        sweep.flexible_eigenvalues  # noqa: B018 - computed on first use
