@@ -6,6 +6,7 @@ eigenvalues of a matrix have that of the largest.
 """
 
 import cmath
+import math
 from decimal import Decimal, getcontext
 from typing import TypeAlias
 
@@ -21,6 +22,10 @@ _STEPS, _AT_ROUNDING = 60, 4 * float(np.finfo(float).eps)
 _TURN = 0.01
 # Newton's steps in many digits at most, and the digits that rounding errors may take.
 _EXACT_STEPS, _GUARD = 100, 20
+# Steps after which a root may be one of a pair so close that its place is lost in rounding.
+_PATIENCE = 20
+# Angle by which starting values on a circle are turned, so that no two circles' are in line.
+_ASKEW = 0.7
 # Real and imaginary part in many digits.
 _Complex: TypeAlias = tuple[Decimal, Decimal]
 # Angle from the real axis within which an approximate root may be real.
@@ -98,21 +103,47 @@ def exact_roots(polynomial: NDArray[np.object_], start: ComplexArray) -> Complex
     RuntimeError
         Where Newton's method does not converge, or finds a root twice.
     """
-    upper = start[start.imag > _BESIDE * np.abs(start)]
-    # Whether a root beside the real axis is real, and on which side it is, is yet to be seen.
-    beside = start[np.abs(start.imag) <= _BESIDE * np.abs(start)]
+    if polynomial[0] != 0 and (len(np.unique(start)) < len(start) or not np.all(start)):
+        # What is zero, or the same twice, has been lost beside roots many orders larger.
+        upper, beside = start[:0], _newton_polygon(polynomial)
+    else:
+        upper = start[start.imag > _BESIDE * np.abs(start)]
+        # Whether a root beside the real axis is real, and on which side it is, is yet to be seen.
+        beside = start[np.abs(start.imag) <= _BESIDE * np.abs(start)]
     near = [(Decimal(z.real), Decimal(z.imag)) for z in [*upper.tolist(), *beside.tolist()]]
     falling: list[Decimal] = polynomial[::-1].tolist()
     moving = set(range(len(near)))
-    for _ in range(_EXACT_STEPS):
+    for count in range(_EXACT_STEPS):
         for i in tuple(moving):
             images = [(x, -y) for x, y in near[: len(upper)]]
             near[i], settled = _step(falling, near[i], near[:i] + near[i + 1 :] + images)
+            if not settled and count >= _PATIENCE:
+                near[i], settled = _hidden(falling, near[i])
             if settled:
                 moving.remove(i)
         if not moving:
             return _rounded(near, len(start))
     raise RuntimeError(f"roots of a polynomial not found within {_EXACT_STEPS} steps")
+
+
+def _newton_polygon(polynomial: NDArray[np.object_]) -> ComplexArray:
+    """Return starting values of the right sizes for the roots of a polynomial, however unequal.
+
+    Notes
+    -----
+    Source: D. A. Bini, Numerical computation of polynomial zeros by means of Aberth's method,
+    Numer. Algorithms 13 (1996): the radii are the slopes of the convex hull of log |a_k| over k.
+    """
+    points = [(k, float(abs(a).ln())) for k, a in enumerate(polynomial) if a != 0]
+    found: list[complex] = []
+    k, here = points[0]
+    while k < points[-1][0]:
+        slope, last = max(((there - here) / (j - k), j) for j, there in points if j > k)
+        count = last - k
+        angles = (2 * math.pi * i / count + _ASKEW * (k + 1) for i in range(count))
+        found += [cmath.rect(math.exp(-slope), angle) for angle in angles]
+        k, here = next(point for point in points if point[0] == last)
+    return np.array(found)
 
 
 def _step(polynomial: list[Decimal], z: _Complex, others: list[_Complex]) -> tuple[_Complex, bool]:
@@ -133,6 +164,25 @@ def _step(polynomial: list[Decimal], z: _Complex, others: list[_Complex]) -> tup
     x, y = x - p, y - q
     small = Decimal(10) ** (_GUARD - getcontext().prec) * max(abs(x), abs(y))
     return (x, y if abs(y) > small else Decimal(0)), max(abs(p), abs(q)) <= small
+
+
+def _hidden(polynomial: list[Decimal], z: _Complex) -> tuple[_Complex, bool]:
+    """Return an approximate root, and whether its real part is known though its place is not.
+
+    Where the value is lost in the rounding of its terms, as about a double root, a step's rounding
+    error is the square root of theirs. Within that of the real axis a root is real; within that of
+    the imaginary axis nothing is known.
+    """
+    x, y = z
+    modulus = (x * x + y * y).sqrt()
+    u = v = size = Decimal(0)
+    for coefficient in polynomial:
+        u, v = u * x - v * y + coefficient, u * y + v * x
+        size = size * modulus + abs(coefficient)
+    digits = getcontext().prec
+    error = Decimal(10) ** (1 - digits // 2) * modulus
+    lost = max(abs(u), abs(v)) <= Decimal(10) ** (3 - digits) * size
+    return (x, y if abs(y) > error else Decimal(0)), lost and abs(x) > error
 
 
 def _rounded(roots: list[_Complex], n: int) -> ComplexArray:

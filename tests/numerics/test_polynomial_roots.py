@@ -83,3 +83,29 @@ def test_a_missed_root_raises_an_error():
         pytest.raises(RuntimeError, match="found 0 of a polynomial's 2 roots"),
     ):
         exact_roots(from_roots([-1 + 2j], []), np.array([-1 - 8j, -1 - 9j]))
+
+
+@pytest.mark.parametrize("apart", [0.0, 1e-30, 1e-27])
+def test_a_pair_closer_than_rounding_is_found_as_one(apart):
+    """Two planes of a heavily damped disk hardly differ, and leave such a pair far out."""
+    pairs, reals = [-2e-5 + 3j], [-6.5e7, -0.16, -0.2]
+    with localcontext(prec=60):
+        polynomial = from_roots(pairs, [*reals, -6.5e7])
+        polynomial[0] *= 1 + Decimal(apart)
+        near = np.array([-2e-5 + 3j, -2e-5 - 3j, -0.16, -0.2, -6.5e7 + 1.5j, -6.5e7 - 1.7j])
+        found = exact_roots(polynomial, near)
+    expected = all_of(pairs, [*reals, -6.5e7])
+    assert np.max(np.min(np.abs(found[:, None] / expected - 1.0), axis=0)) < 1e-14
+    assert np.count_nonzero(np.abs(found / -6.5e7 - 1.0) < 1e-14) == 2
+
+
+def test_starting_values_that_are_zero_or_the_same_twice_lose_no_root():
+    """As eigenvalues are where others of the same matrix are 1e20 times as large."""
+    pairs, reals = [-5e-6 + 493j, -8e-14 + 588j, -2e-5 + 493j], [-2.6e21, -2.7e21]
+    with localcontext(prec=60):
+        polynomial = from_roots(pairs, reals)
+        near = np.array([0, 0, -2.6e21 - 1e14j, -2.6e21 + 1e14j, 493j, -493j, 588j, -588j])
+        found = sorted_roots(exact_roots(polynomial, near))
+    expected = sorted_roots(all_of(pairs, reals))
+    assert found.real == pytest.approx(expected.real, rel=1e-14, abs=0)
+    assert found.imag == pytest.approx(expected.imag, rel=1e-14, abs=0)
