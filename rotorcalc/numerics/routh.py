@@ -54,7 +54,9 @@ def margin_bounds(polynomial: Array) -> tuple[Array, Array]:
 
 def surely_crossed(polynomial: Array) -> BoolArray:
     """Return whether a first pair of roots is past the imaginary axis despite rounding errors."""
-    return np.all(determinant(_bounds(polynomial)) < 0.0, axis=-1)
+    # Of the polynomial itself too: where a second pair is close behind, the sign changes again.
+    past = np.all(determinant(_bounds(polynomial)) < 0.0, axis=-1)
+    return past & (determinant(polynomial) < 0.0)
 
 
 def exact_determinant(polynomial: NDArray[np.object_]) -> Any:

@@ -12,7 +12,9 @@ from scipy.optimize import brentq, minimize_scalar
 from rotorcalc import (
     JournalBearing,
     Machine,
+    Oil,
     Onset,
+    Rotor,
     analyse,
     modes,
     onset_speed,
@@ -578,3 +580,32 @@ def test_eigenvalues_beyond_sixty_digits_are_refused_in_words():
     sweep = analyse(replace(SHEET, load=1e30), 600.0)
     with pytest.raises(ValueError, match=r"static load = 1e\+30 N"):
         sweep.flexible_eigenvalues  # noqa: B018 - computed on first use
+
+
+def test_an_onset_where_a_second_pair_of_roots_follows_the_first_at_once():
+    """Rounding of the polynomial there hides in which order they cross the axis."""
+    machine = Machine(
+        oil=Oil(
+            reference_viscosity=0.9406279229216675,
+            reference_temperature=150.0,
+            temperature_coefficient=0.06289446736405928,
+        ),
+        bearing=JournalBearing(
+            diameter=0.019440564576405736,
+            length=0.5328234976185604,
+            radial_clearance=4.4246814833480985e-05,
+        ),
+        rotor=Rotor(
+            mass=1e5,
+            shaft_stiffness=1423480.190828669,
+            disk_damping=2.8827132132078632,
+            journal_mass=4e4,
+        ),
+        temperature=4.929691390822444,
+        load=24105.655105507532,
+    )
+    onset = onset_speed(machine)
+    assert onset.whirl_frequency / onset.speed == pytest.approx(0.5, rel=1e-6)  # σ ≫ 1
+    below, above = onset.speed * np.array([1 - 1e-5, 1 + 1e-5])
+    assert np.max(analyse(machine, below).flexible_eigenvalues.real) < 0.0
+    assert np.max(analyse(machine, above).flexible_eigenvalues.real) > 0.0
