@@ -7,6 +7,7 @@ has computed or drawn nothing well for 45 s gives none either: it may only be bu
 """
 
 import asyncio
+import importlib
 import os
 import socket
 import time
@@ -16,8 +17,7 @@ from contextlib import suppress
 from functools import partial
 
 from ui.jobs import queue
-from ui.live import assets
-from ui.serving import health, log, own_visit
+from ui.serving import health, log, own_visit, settings
 
 _LOOK = 5.0  # seconds between two looks, of some 25 ms of the processor
 _BEAT = 2.0  # seconds between two beats
@@ -49,7 +49,7 @@ class Pulse:
         call = asyncio.get_running_loop().run_in_executor
         parts: dict[str, Callable[[], Awaitable[str | None]]] = {
             "core": lambda: call(self._pool, health.check),
-            "files": lambda: call(self._pool, assets.publish),
+            "files": lambda: call(self._pool, _publish),
             "pages": own_visit.fault_of,
         }
         for turns in queue.LINES:
@@ -91,6 +91,12 @@ def tell(words: str) -> None:
     with suppress(OSError), socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM) as there:
         there.setblocking(False)  # a missed beat is no harm, a hung server is
         there.sendto(words.encode(), address)
+
+
+def _publish() -> None:
+    """Put the live components' scripts where Streamlit serves them, where there are any."""
+    if settings.live() != "off":
+        importlib.import_module("ui.live.assets").publish()
 
 
 async def _fault(look: Callable[[], Awaitable[str | None]], patience: float) -> str:
