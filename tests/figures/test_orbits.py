@@ -21,7 +21,7 @@ from tests.figures.charts import (
     curves_in_window,
     notes,
 )
-from tests.films.models import BEARINGS
+from tests.films.models import BEARINGS, MOVING
 from tests.machines import ROTORS, RPM, SHEET, C, balanced, near_hopf, with_rotor
 
 OF_A_RELEASE = [
@@ -54,7 +54,7 @@ def test_every_chart_of_a_release_is_a_plotly_figure(releases, draw, name, units
     assert any(trace.get("marker", {}).get("color") == HERE for trace in chart["data"])
 
 
-@pytest.mark.parametrize("name", BEARINGS)
+@pytest.mark.parametrize("name", MOVING)
 def test_the_clearance_is_drawn_as_the_film_has_its_wall(name):
     film = film_of(BEARINGS[name])
     let_go = release(

@@ -317,7 +317,7 @@ def test_a_vanishing_journal_mass_gives_the_massless_onset(stiffness):
 @given(machines(damped=True, journals=True), st.booleans())
 def test_a_vanishing_damping_gives_the_undamped_onset(machine, flexible):
     undamped = with_rotor(machine, disk_damping=0.0)
-    slight = with_rotor(machine, disk_damping=1e-12 * machine.rotor.disk_damping)
+    slight = with_rotor(machine, disk_damping=1e-14 * machine.rotor.disk_damping)
     limit = onset_speed(undamped, flexible=flexible).speed
     assert onset_speed(slight, flexible=flexible).speed == pytest.approx(
         limit, rel=1e-6 + rounding(machine, limit)
