@@ -77,11 +77,12 @@ def reduced(dynamics: FilmDynamics, frequency: ArrayLike) -> tuple[Array, Array]
     K, C : array, (..., 2, 2)
         Stiffness [N/m] and damping [N·s/m] in X, Y.
     """
+    frequencies = real_array("frequency", frequency)
     if dynamics.at is not None:
-        return dynamics.at(real_array("frequency", frequency))
+        return dynamics.at(frequencies)
     if dynamics.inner == 0:
         return dynamics.stiffness, dynamics.damping
-    omega = real_array("frequency", frequency)[..., None, None]
+    omega = frequencies[..., None, None]
     # Zeros in front: the film has no inertia at the journal itself, the rotor's is not its part.
     mass = np.diag(np.concatenate([np.zeros(2), dynamics.inertia]))
     Z: ComplexArray = dynamics.stiffness + 1j * omega * dynamics.damping - omega**2 * mass
