@@ -72,7 +72,7 @@ def _orders(values: ComplexArray, points: Array, more: More | None) -> NDArray[n
     # Before the first row the branches are taken as constant.
     before, spans = np.concatenate([values[:1], values[:-2]]), np.diff(points, prepend=points[0])
     distance = _relative_distance(before[: n - 1], values[:-1], values[1:], _ratios(spans))
-    follows = ~_in_order(distance)
+    follows = np.any(_rivals(distance), axis=(1, 2))
     moved = False
     for i in range(n - 1):
         # Where the row before was reordered, so is what its values are extrapolated from.
@@ -108,20 +108,17 @@ def _order(triple: _Triple, points: _Points, more: More | None, depth: int) -> N
 
 def _is_clear(distance: Array, here: ComplexArray, there: ComplexArray) -> bool:
     """Return whether every branch is far nearer its own value than another's, distance (m, m)."""
-    own = np.diagonal(distance)
-    nearer = _CLEAR * np.maximum(own[:, None], own[None, :]) >= distance
     # Two that meet on the real axis or leave it are one another's images: either may be either.
     met = (here[:, None] == here.conj()) & (there.imag == 0.0)
     left = (there[:, None] == there.conj()) & (here.imag == 0.0)
-    np.fill_diagonal(nearer, False)
-    return not np.any(nearer & ~met & ~left)
+    return not np.any(_rivals(distance) & ~met & ~left)
 
 
-def _in_order(distance: Array) -> BoolArray:
-    """Return where every branch is clearly nearest to the value in its own place, (n,)."""
-    own = np.diagonal(distance, axis1=1, axis2=2)[:, :, None]
-    others = distance + np.where(np.eye(distance.shape[-1], dtype=bool), np.inf, 0.0)
-    return np.all(_CLEAR * np.maximum(own, own.swapaxes(1, 2)) < others, axis=(1, 2))
+def _rivals(distance: Array) -> BoolArray:
+    """Return which values a branch is not far farther from than from its own, (..., m, m)."""
+    own = np.diagonal(distance, axis1=-2, axis2=-1)[..., None]
+    far = _CLEAR * np.maximum(own, own.swapaxes(-1, -2)) < distance
+    return ~far & ~np.eye(distance.shape[-1], dtype=bool)
 
 
 def _relative_distance(
