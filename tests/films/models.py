@@ -69,7 +69,10 @@ class Ringed(Geometry):
 
 @dataclass(frozen=True)
 class _TestFilm:
-    """What the three have in common: nothing is known of pressure, flow or drag."""
+    """What these films have in common: nothing is known of pressure, flow or drag.
+
+    Without inner coordinates a film is its state's stiffness and damping, and a force.
+    """
 
     bearing: JournalBearing
     inner: int = field(default=0, init=False)
@@ -96,6 +99,13 @@ class _TestFilm:
             angle=angle, zeta=zeta, thickness=unknown, pressure=unknown,
             cavitated=np.zeros(angle.shape, dtype=bool),
         )  # fmt: skip
+
+    def dynamics(self, points):
+        state = self.state(points)
+        return FilmDynamics(state.stiffness, state.damping, NO_INERTIA)
+
+    def motion(self):
+        return FilmMotion(self._force, self._velocity)
 
     def added_mass(self, points):  # noqa: ARG002 - the seam's
         raise ValueError("bearing: its film's added mass is not known")
@@ -137,13 +147,6 @@ class SprungFilm(_TestFilm):
         return self.state_at(
             points, vector(x, 0.0 * x), np.broadcast_to(K, shape), np.broadcast_to(C, shape)
         )
-
-    def dynamics(self, points):
-        state = self.state(points)
-        return FilmDynamics(state.stiffness, state.damping, NO_INERTIA)
-
-    def motion(self):
-        return FilmMotion(self._force, self._velocity)
 
     def _force(self, x, y, dx, dy):
         (k_x, k_y), c = np.diag(self._matrices[0]).tolist(), self.bearing.geometry.damping
@@ -190,13 +193,6 @@ class PreloadedFilm(_TestFilm):
         position = vector(eps * np.cos(phi), eps * np.sin(phi))
         found = self.state_at(points, position, K, rotate(radial_damping(eps), phi))
         return replace(found, attitude_angle=phi)
-
-    def dynamics(self, points):
-        state = self.state(points)
-        return FilmDynamics(state.stiffness, state.damping, NO_INERTIA)
-
-    def motion(self):
-        return FilmMotion(self._force, self._velocity)
 
     def _force(self, x, y, dx, dy):
         spring = self.bearing.geometry.spring
