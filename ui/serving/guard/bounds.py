@@ -37,16 +37,13 @@ class Bucket:
 
     def take(self) -> bool:
         """Take a token if there is one."""
-        self._fill()
+        now = time.monotonic()
+        self._tokens = min(self._burst, self._tokens + (now - self._at) * self._rate)
+        self._at = now
         if self._tokens < 1:
             return False
         self._tokens -= 1
         return True
-
-    def _fill(self) -> None:
-        now = time.monotonic()
-        self._tokens = min(self._burst, self._tokens + (now - self._at) * self._rate)
-        self._at = now
 
 
 @dataclass
