@@ -251,10 +251,13 @@ def test_a_link_to_another_page_contains_the_machine(tabs: dict[str, AppPage]) -
 
 @pytest.fixture
 def clocked(desk: BrowserContext, place: Place) -> Iterator[AppPage]:
-    """A tab whose clock a test puts forward."""
+    """A tab whose clock stands still but when a test puts it forward."""
     tab = AppPage(desk.new_page(), place.address)
     tab.page.clock.install()
     tab.open("Equilibrium", C="70")
+    # The clock still goes on by itself: it is stopped at a time that no machine reaches meanwhile.
+    now = tab.page.evaluate("Date.now()") / 1e3
+    tab.page.clock.pause_at(datetime.fromtimestamp(now + 300, UTC))
     yield tab
     tab.page.close()
 
@@ -282,10 +285,8 @@ def test_after_a_long_break_it_is_back_within_two_seconds(
     clocked.page.on(worst, lambda asked: looks.append(asked.url))  # type: ignore[call-overload]
     while not any("host-config" in url for url in looks):
         pass_time(clocked, 0.25)
-    # Two seconds of the browser's clock, however long a busy machine takes over them.
-    now = clocked.page.evaluate("Date.now()") / 1e3
-    clocked.page.clock.pause_at(datetime.fromtimestamp(now + 0.2, UTC))
     place.line.mend()
+    # Two seconds of the browser's clock, however long a busy machine takes over them.
     assert pass_time(clocked, 2, pause=1000, until=f"{_STATE} === 'CONNECTED'")
     clocked.page.clock.resume()
     back(clocked)
