@@ -1,6 +1,7 @@
 """Links: every page opens cold, and the address bar carries the whole machine everywhere."""
 
 import itertools
+from urllib.parse import parse_qsl, urlsplit
 
 import pytest
 from playwright.sync_api import expect
@@ -80,6 +81,16 @@ def test_moved_value_goes_into_the_address_bar_and_to_every_page(app: AppPage) -
             app.go(name)
         assert app.query() == {"C": "61"}
         assert app.slider("Radial clearance").get_attribute("aria-valuetext") == "61"
+
+
+def test_a_link_to_another_page_contains_the_machine(app: AppPage) -> None:
+    """Without the session, which another server does not have."""
+    app.open("Machine", C="70", D="160")
+    app.press("Radial clearance", "ArrowRight")
+    link = app.page.get_by_test_id("stMain").get_by_role("link", name="Response", exact=True)
+    address = urlsplit(link.evaluate("link => link.href"))
+    assert address.path == "/Response"
+    assert dict(parse_qsl(address.query)) == app.query() == {"C": "71", "D": "160"}
 
 
 def test_the_browsers_reload_keeps_the_machine(app: AppPage) -> None:

@@ -7,7 +7,6 @@ be killed for each.
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from urllib.parse import parse_qsl, urlsplit
 
 import pytest
 from playwright.sync_api import BrowserContext, expect
@@ -234,16 +233,6 @@ def test_a_running_computation_restarts_and_the_page_says_so(
     expect(tab.page.locator(".live-chart")).to_be_visible()
     kick(tab)
     expect(said).to_be_hidden()
-
-
-def test_a_link_to_another_page_contains_the_machine(tabs: dict[str, AppPage]) -> None:
-    tab = tabs["a slider"]
-    slide(tab)
-    link = tab.page.get_by_test_id("stMain").get_by_role("link", name="Response", exact=True)
-    address = urlsplit(link.evaluate("link => link.href"))
-    assert address.path == "/Response"
-    assert dict(parse_qsl(address.query)) == tab.query()
-    assert tab.query().keys() == {"C", "D"}
 
 
 # --- Long breaks: the browser's clock is put forward ------------------------------------------
