@@ -13,11 +13,13 @@ from rotorcalc.arrays import Array, ComplexArray, IntArray
 from rotorcalc.films.dynamics import FilmDynamics, reduced
 from rotorcalc.machine import Rotor
 
-# Successive substitutions at most, and the relative change of λ that ends them. Each one shrinks
-# the error by the factor with which the coefficients change over frequency, less than a half.
+# Steps at most, and the difference of |λ| and ω, as a share of |λ|, that ends them.
 _STEPS, _SETTLED = 60, 1e-13
-# What has changed by more than this in the last step has not converged.
+# A mode that still differs by more than this has not converged.
 _UNSETTLED = 1e-9
+# Slope of |λ| − ω over ω: −1 where the coefficients do not depend on the frequency, and between
+# these bounds where they do. A step by another slope could leave the mode.
+_SLOPES = (-1.5, -0.5)
 
 
 @checked
@@ -42,15 +44,18 @@ def impedance_eigenvalues(
         does not converge.
     """
     values = modes.eigenvalues(rotor, film.stiffness, film.damping, flexible=flexible)
-    change = np.array(np.inf)
+    frequency = np.abs(values)
+    step = difference = np.zeros_like(frequency)
     for _ in range(_STEPS):
-        found = modes.eigenvalues(rotor, *_at_own_frequencies(film, values), flexible=flexible)
-        following = _own(found, _nearest(found, values))
-        change = np.abs(following - values) / np.abs(values)
-        values = following
-        if np.all(change <= _SETTLED):
+        found = modes.eigenvalues(rotor, *_at_frequencies(film, frequency), flexible=flexible)
+        values = _own(found, _nearest(found, values))
+        before, difference = difference, np.abs(values) - frequency
+        if np.all(np.abs(difference) <= _SETTLED * np.abs(values)):
             break
-    return np.where(change <= _UNSETTLED, values, complex(np.nan, np.nan))
+        step = -difference / _slope(difference - before, step)
+        frequency = frequency + step
+    settled = np.abs(difference) <= _UNSETTLED * np.abs(values)
+    return np.where(settled, values, complex(np.nan, np.nan))
 
 
 @checked
@@ -68,7 +73,7 @@ def impedance_modes(rotor: Rotor, film: FilmDynamics, *, flexible: bool = True) 
         λ as `impedance_eigenvalues` gives it, each with the shape of its own coefficients.
     """
     values = impedance_eigenvalues(rotor, film, flexible=flexible)
-    shapes = modes.mode_shapes(rotor, *_at_own_frequencies(film, values), flexible=flexible)
+    shapes = modes.mode_shapes(rotor, *_at_frequencies(film, np.abs(values)), flexible=flexible)
     place = _nearest(shapes.eigenvalues, values)
     vectors: ComplexArray = np.take_along_axis(shapes.vectors, place[..., None, :], axis=-1)[..., 0]
     return modes.ModeShapes(
@@ -79,9 +84,15 @@ def impedance_modes(rotor: Rotor, film: FilmDynamics, *, flexible: bool = True) 
     )
 
 
-def _at_own_frequencies(film: FilmDynamics, values: ComplexArray) -> tuple[Array, Array]:
-    """Return K and C at |λ| of the modes λ (..., n), shape (n, ..., 2, 2): the modes first."""
-    return reduced(film, np.abs(np.moveaxis(values, -1, 0)))
+def _slope(change: Array, step: Array) -> Array:
+    """Return the secant's slope after a step, and that of coefficients that are constant before."""
+    secant = np.divide(change, step, out=np.full_like(change, -1.0), where=step != 0)
+    return np.clip(secant, *_SLOPES)
+
+
+def _at_frequencies(film: FilmDynamics, frequency: Array) -> tuple[Array, Array]:
+    """Return K and C at the frequency of each mode (..., n), shape (n, ..., 2, 2): modes first."""
+    return reduced(film, np.moveaxis(frequency, -1, 0))
 
 
 def _nearest(found: ComplexArray, values: ComplexArray) -> IntArray:
