@@ -35,6 +35,12 @@ def refined(rotor: Rotor, film: FilmDynamics, flexible: bool) -> ComplexArray:
 def fastest(machine: Machine, speed: ArrayLike, flexible: bool) -> ComplexArray:
     """Return λ of the mode that grows fastest at speeds (...) [1/s]."""
     values = refined(machine.rotor, dynamics(machine, speed), flexible)
+    if np.any(unsettled := np.all(np.isnan(values.real), axis=-1)):
+        first = np.broadcast_to(speed, unsettled.shape)[unsettled][0]
+        raise ValueError(
+            f"speed = {first:g} rad/s: on this film no mode was found whose frequency is that of "
+            "its own stiffness and damping; compute the onset at other loads or speeds"
+        )
     place = np.nanargmax(values.real, axis=-1)[..., None]
     return np.take_along_axis(values, place, axis=-1)[..., 0]
 

@@ -1,5 +1,6 @@
 """A film that is known by its impedance alone: onset, eigenvalues and response, against Nyquist."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -9,6 +10,7 @@ from rotorcalc import analyse, onset_speed, simulate
 from rotorcalc.coefficients import dynamics
 from rotorcalc.films import film_of, reduced
 from rotorcalc.nonlinear.linear_motion import linear_theory
+from rotorcalc.onset import growth
 from rotorcalc.onset.judge import is_unstable, unstable_ranges
 from tests.films.models import BEARINGS, Lossy, Preloaded
 from tests.machines import ROTORS, SHEET
@@ -116,3 +118,10 @@ def test_the_response_is_that_of_the_synchronous_impedance():
 def test_a_motion_in_time_is_refused_in_words(asked):
     with pytest.raises(ValueError, match=r"^bearing.* in a whirl .*only"):
         asked(machine_of())
+
+
+def test_where_no_mode_settles_the_onset_is_refused_in_words(monkeypatch):
+    nothing = complex(math.nan, math.nan)
+    monkeypatch.setattr(growth, "impedance_eigenvalues", lambda *_, **__: np.full((2, 4), nothing))
+    with pytest.raises(ValueError, match=r"speed = 100 rad/s: on this film no mode"):
+        growth.fastest(machine_of(), np.array([100.0, 200.0]), True)

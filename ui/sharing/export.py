@@ -28,8 +28,8 @@ ROSS_NOTE = (
     "turning from x to y; X here points down along the load, Y at +90° in the sense of rotation. "
     "So x = Y and y = −X, a rotation by −90°: $k_{xx} = K_{YY}$, $k_{xy} = −K_{YX}$, "
     "$k_{yx} = −K_{XY}$, $k_{yy} = K_{XX}$, and c likewise. Signs are the same in both, "
-    "Kᵢⱼ = −∂Fᵢ/∂Xⱼ. Between the speeds ROSS lays "
-    "splines; a phase counts there from x, here from X."
+    "Kᵢⱼ = −∂Fᵢ/∂Xⱼ. Between the speeds ROSS "
+    "interpolates by PCHIP, monotonic cubics. A phase counts there from x, here from X."
 )
 
 # ROSS looks for inches, pounds and revolutions a minute in every text of the sheet and converts
