@@ -7,24 +7,20 @@ another is under way.
 
 import asyncio
 import time
-from collections import Counter
 from contextlib import suppress
 from dataclasses import dataclass, field
 from ipaddress import IPv6Address, ip_address, ip_network
-from typing import cast
 
 from starlette.types import ASGIApp, Receive, Scope, Send
-from streamlit import runtime
-from streamlit.runtime.memory_uploaded_file_manager import MemoryUploadedFileManager
 
 from ui.serving import one_at_a_time
 from ui.serving.guard.browsers import UPLOADS
 from ui.serving.guard.paced import Paced
-from ui.serving.guard.refusal import below_base, header, refuse
+from ui.serving.guard.refusal import below_base, refuse
 from ui.serving.guard.turns import Page, Share, Turns
+from ui.serving.guard.uploads import Uploads
 from ui.serving.settings import Limits
 
-_MEGABYTE = 1 << 20
 _ADDRESSES = 4096  # remembered, beside those that have a websocket open
 
 
@@ -62,7 +58,7 @@ class Bounds:
         self._app, self._limits = app, limits
         self._addresses: dict[str, Address] = {}
         self._sockets = 0
-        self._arriving: Counter[str] = Counter()  # bytes of files on their way, by session
+        self._uploads = Uploads(app, limits)
         self._turns = Turns()
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -70,7 +66,7 @@ class Bounds:
         if scope["type"] == "websocket":
             await self._socket(scope, receive, send)
         elif scope["type"] == "http" and below_base(scope).startswith(UPLOADS):
-            await self._upload(scope, receive, send)
+            await self._uploads(scope, receive, send)
         else:
             await self._app(scope, receive, send)
 
@@ -127,33 +123,6 @@ class Bounds:
             gone = (name for name, address in self._addresses.items() if not address.sockets)
             self._addresses.pop(next(gone, ""), None)
 
-    async def _upload(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["method"] != "PUT":
-            await self._app(scope, receive, send)
-            return
-        session = below_base(scope).removeprefix(UPLOADS).split("/")[0]
-        length = header(scope, "content-length")
-        if length is None or not length.isdecimal():
-            why = "A file comes with its length"
-            await refuse(scope, receive, send, status=411, why=why)
-        elif why := self._no_room(session, int(length)):
-            await refuse(scope, receive, send, status=413, why=why)
-        else:
-            self._arriving[session] += int(length)
-            try:
-                await self._app(scope, receive, send)
-            finally:
-                self._arriving -= Counter({session: int(length)})
-
-    def _no_room(self, session: str, size: int) -> str:
-        """Return why a file is not taken, "" where it is."""
-        limits, stored = self._limits, _stored()
-        if stored[session] + self._arriving[session] + size > limits.upload_session * _MEGABYTE:
-            return "This page holds too many files: reload it"
-        if stored.total() + self._arriving.total() + size > limits.upload * _MEGABYTE:
-            return "This server holds too many files"
-        return ""
-
 
 def network(address: str) -> str:
     """Return under what an address is counted: itself, of IPv6 the 64 bits that a house has."""
@@ -165,12 +134,3 @@ def network(address: str) -> str:
         return address
     mapped = known.ipv4_mapped
     return str(mapped or ip_network((known, 64), strict=False))
-
-
-def _stored() -> Counter[str]:
-    """Return how many bytes of files Streamlit keeps, by session."""
-    manager = cast("MemoryUploadedFileManager", runtime.get_instance().uploaded_file_mgr)
-    kept = manager.file_storage.items()
-    return Counter(
-        {session: sum(len(file.data) for file in files.values()) for session, files in kept}
-    )
