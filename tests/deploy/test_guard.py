@@ -218,7 +218,9 @@ def test_a_browsers_secret_is_kept_from_scripts_and_other_sites(server: Server) 
 # --- What there is room for -------------------------------------------------------------------
 
 
-def _upload(server: Server, visitor: Visitor, number: int, size: int = 1_000_000) -> int:
+def _upload(
+    server: Server, visitor: Visitor, number: int, size: int = 1_000_000, *, chunked: bool = False
+) -> int:
     xsrf = "2|0|0|0"
     for value in server.get("_stcore/health").headers.get_all("Set-Cookie"):
         if value.startswith("_streamlit_xsrf="):
@@ -228,10 +230,14 @@ def _upload(server: Server, visitor: Visitor, number: int, size: int = 1_000_000
         b'--x\r\nContent-Disposition: form-data; name="file"; filename="machine.json"\r\n'
         b"Content-Type: application/json\r\n\r\n" + bytes(size) + b"\r\n--x--\r\n"
     )
+    measured: dict[str, str] = {}
+    if chunked:  # of a million bytes, by a request that names a length of five
+        body = b"%x\r\n%b\r\n0\r\n\r\n" % (len(body), body)
+        measured = {"Transfer_Encoding": "chunked", "Content_Length": "5"}
     return server.get(
         f"_stcore/upload_file/{visitor.session_id}/{number}", "PUT", body,
         Content_Type="multipart/form-data; boundary=x", X_Xsrftoken=xsrf,
-        Cookie="; ".join(f"{key}={value}" for key, value in cookies.items()),
+        Cookie="; ".join(f"{key}={value}" for key, value in cookies.items()), **measured,
     ).status  # fmt: skip
 
 
@@ -240,6 +246,8 @@ async def test_uploaded_files_are_bounded_in_bytes_per_page_and_in_all(server: S
     async with Visitor(server.address) as one, Visitor(server.address) as other:
         await one.open()
         await other.open()
+        at_once = (asyncio.to_thread(_upload, server, one, i, chunked=True) for i in range(12))
+        assert set(await asyncio.gather(*at_once)) == {400}
         assert [_upload(server, one, i) for i in range(4)] == [204, 204, 413, 413]
         assert [_upload(server, other, i) for i in range(3)] == [204, 413, 413]
         assert _upload(server, one, 9, size=100) == 204

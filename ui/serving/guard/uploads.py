@@ -1,16 +1,25 @@
-"""Files that visitors send, taken as long as there is room."""
+"""Files that visitors send, taken as long as there is room.
 
+A file is counted with its id, its name and its record, from when it is announced: many small ones
+fill a server too, and of many at once each would find room.
+"""
+
+import asyncio
 from collections import Counter
+from sys import getsizeof
 from typing import cast
 
 from starlette.types import ASGIApp, Receive, Scope, Send
 from streamlit import runtime
 from streamlit.runtime.memory_uploaded_file_manager import MemoryUploadedFileManager
+from streamlit.runtime.uploaded_file_manager import UploadedFileRec
 
 from ui.serving.guard.browsers import UPLOADS
 from ui.serving.guard.refusal import below_base, header, refuse
 from ui.serving.settings import Limits
 
+SLOWEST = 30.0  # seconds for a whole file; a machine's is a kilobyte
+RECORD = 1024  # bytes that a file takes beside its content and its words, amply
 _MEGABYTE = 1 << 20
 
 
@@ -25,20 +34,27 @@ class Uploads:
         """Answer as the app does, where there is room."""
         if scope["method"] != "PUT":
             await self._app(scope, receive, send)
-            return
-        session = below_base(scope).removeprefix(UPLOADS).split("/")[0]
-        length = header(scope, "content-length")
-        if length is None or not length.isdecimal():
-            why = "A file comes with its length"
-            await refuse(scope, receive, send, status=411, why=why)
-        elif why := self._no_room(session, int(length)):
-            await refuse(scope, receive, send, status=413, why=why)
+        elif refusal := _unmeasured(scope):
+            status, why = refusal
+            await refuse(scope, receive, send, status=status, why=why)
         else:
-            self._arriving[session] += int(length)
-            try:
+            await self._take(scope, receive, send)
+
+    async def _take(self, scope: Scope, receive: Receive, send: Send) -> None:
+        path = below_base(scope)
+        session, size = path.removeprefix(UPLOADS).split("/")[0], _size(scope, path)
+        if why := self._no_room(session, size):
+            await refuse(scope, receive, send, status=413, why=why)
+            return
+        self._arriving[session] += size
+        try:
+            async with asyncio.timeout(SLOWEST):
                 await self._app(scope, receive, send)
-            finally:
-                self._arriving -= Counter({session: int(length)})
+        except TimeoutError:  # its room is another's
+            why = f"A file comes within {SLOWEST:g} s"
+            await refuse(scope, receive, send, status=408, why=why, Connection="close")
+        finally:
+            self._arriving -= Counter({session: size})
 
     def _no_room(self, session: str, size: int) -> str:
         """Return why a file is not taken, "" where it is."""
@@ -50,10 +66,28 @@ class Uploads:
         return ""
 
 
+def _unmeasured(scope: Scope) -> tuple[int, str] | None:
+    """Return status and reason where a request does not tell its length, or tells it twice."""
+    # A body in chunks ends where it likes, whatever length is named beside it (RFC 9112, 6.3).
+    if header(scope, "transfer-encoding") is not None:
+        return 400, "A file comes whole, not in chunks"
+    if not (header(scope, "content-length") or "").isdecimal():
+        return 411, "A file comes with its length"
+    return None
+
+
+def _size(scope: Scope, path: str) -> int:
+    """Return what a file on its way will take [bytes]; its path holds its id."""
+    return int(header(scope, "content-length") or 0) + getsizeof(path) + RECORD
+
+
 def _stored() -> Counter[str]:
-    """Return how many bytes of files Streamlit keeps, by session."""
+    """Return how many bytes Streamlit keeps for files, by session."""
     manager = cast("MemoryUploadedFileManager", runtime.get_instance().uploaded_file_mgr)
     kept = manager.file_storage.items()
-    return Counter(
-        {session: sum(len(file.data) for file in files.values()) for session, files in kept}
-    )
+    return Counter({session: sum(map(_taken, files.values())) for session, files in kept})
+
+
+def _taken(file: UploadedFileRec) -> int:
+    # Four bytes a letter where one of them needs four: the length of a name is not its size.
+    return sum(map(getsizeof, (file.file_id, file.name, file.type, file.data))) + RECORD
