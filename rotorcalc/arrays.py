@@ -1,6 +1,7 @@
 """Array types of the package's signatures, conversion of input to them, and error texts."""
 
 import reprlib
+from dataclasses import is_dataclass
 from typing import Any, TypeAlias, cast
 
 import numpy as np
@@ -53,6 +54,8 @@ def _numbers(name: str, values: ArrayLike, kinds: str, ends: tuple[int, ...]) ->
 
 def shown(value: object) -> str:
     """Return a short text of any value for an error message."""
+    if is_dataclass(value) and not isinstance(value, type):
+        return f"a {type(value).__name__}"  # its own text fills lines
     try:
         return reprlib.repr(value)
     except ValueError:  # Python refuses to write out integers of thousands of digits

@@ -91,8 +91,8 @@ class Sensitivity:
     onset_high: float
 
 
-@dataclass(frozen=True)
-class Sensitivities:
+@dataclass(frozen=True, repr=False)
+class Sensitivities(Result):
     """How the onset depends on each input.
 
     Attributes
@@ -207,8 +207,7 @@ def sensitivities(
         The machine.
     share : float
         Share of its value by which each input is varied, down and up [-], between 0 and 1. A
-        temperature is varied
-        by `TEMPERATURE_STEP` instead.
+        temperature is varied by `TEMPERATURE_STEP` instead.
     inputs : iterable of str
         The inputs. One at zero or infinity is left out; so is one for which a varied value is not
         a valid machine, such as a journal mass near half the rotor's.

@@ -71,7 +71,7 @@ class Oil(Record):
         Raises
         ------
         ValueError
-            Where a temperature is not finite.
+            Where a temperature is not finite, or below absolute zero.
 
         Examples
         --------
@@ -84,6 +84,10 @@ class Oil(Record):
         T = real_array("temperature", temperature)
         if not np.all(np.isfinite(T)):
             raise ValueError(f"temperature = {shown(temperature)} °C: must be finite")
+        if np.any(-zero_Celsius > T):
+            raise ValueError(
+                f"temperature = {shown(temperature)} °C: below absolute zero, {-zero_Celsius} °C"
+            )
         rise = T - self.reference_temperature
         return self.reference_viscosity * np.exp(-self.temperature_coefficient * rise)
 

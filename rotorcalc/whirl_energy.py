@@ -184,16 +184,16 @@ def film_limit(bearing: JournalBearing) -> FilmCurves:
     film = film_of(bearing)
     if not film.can_whirl:
         raise ValueError(f"bearing = {bearing.geometry.kind}: its film feeds a whirl at no load")
-    # Each pass narrows the bracket a thousandfold in ln σ.
     # A heavily loaded film cannot whirl, a lightly loaded one can: the limit lies between.
     low, high = film.sommerfeld_range
-    # Until the bracket is a few hundred roundings wide.
+    # Each pass narrows the bracket a thousandfold in ln σ, to a few hundred roundings in the end.
     while high > low * (1.0 + 1e-13):
         sigma = np.geomspace(low, high, 1000)
         whirls = film_curves(bearing, sigma).onset.whirl_ratio > 0.0
-        if whirls[0]:
+        if whirls[0] or not whirls.any():
+            loads = "every load" if whirls[0] else "no load"
             raise ValueError(
-                f"bearing = {bearing.geometry.kind}: its film feeds a whirl at every load"
+                f"bearing = {bearing.geometry.kind}: its film feeds a whirl at {loads}"
             )
         first = int(np.argmax(whirls))
         low, high = float(sigma[first - 1]), float(sigma[first])

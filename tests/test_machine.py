@@ -105,7 +105,7 @@ def test_a_clearance_of_a_tenth_of_the_radius_is_accepted():
     assert bearing.radial_clearance == 0.01
 
 
-@pytest.mark.parametrize("temperature", ["50", math.nan, None, [20.0, math.inf], True, {}])
+@pytest.mark.parametrize("temperature", ["50", math.nan, None, [20.0, math.inf], True, {}, -1e5])
 def test_viscosity_at_an_invalid_temperature_is_refused(temperature):
     with pytest.raises(ValueError, match=r"^temperature = "):
         SHEET.oil.viscosity(temperature)

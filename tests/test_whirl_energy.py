@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -205,3 +206,14 @@ def test_a_film_whose_whirl_has_no_end_is_refused() -> None:
         whirl_energy.film_limit(BEARINGS["sprung"])
     assert np.any(film_curves(BEARINGS["preloaded"], np.array([1.0, 10.0])).onset.whirl_ratio)
     assert float(whirl_energy.film_limit(BEARINGS["preloaded"]).onset.whirl_ratio) == 0.0
+
+
+def test_a_film_that_feeds_no_whirl_though_it_could_is_refused(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def calm(_: JournalBearing, sigma: Array) -> SimpleNamespace:
+        return SimpleNamespace(onset=SimpleNamespace(whirl_ratio=np.zeros_like(sigma)))
+
+    monkeypatch.setattr(whirl_energy, "film_curves", calm)
+    with pytest.raises(ValueError, match="feeds a whirl at no load"):
+        whirl_energy.film_limit(SHEET.bearing)

@@ -87,6 +87,7 @@ class Hopf:
             return None
         return self.lyapunov > 0.0
 
+    @checked
     def amplitude(self, speed: float) -> float:
         """Return the whirl's amplitude near the onset by the normal form, a = C√(−Re λ/ℓ).
 
@@ -161,7 +162,14 @@ def whirl_shape(machine: Machine, speed: float, frequency: float) -> ComplexArra
     -------
     complex array, (2,)
         Phasors q of the journal's X and Y [-], the largest displacement 1, reached at the phase 0.
+
+    Raises
+    ------
+    ValueError
+        Where the frequency is not finite.
     """
+    if not math.isfinite(frequency):
+        raise ValueError(f"frequency = {frequency} rad/s: must be finite")
     return _whirl(machine, speed, frequency).shape
 
 

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, ComplexArray
-from rotorcalc.coefficients import equilibrium
+from rotorcalc.coefficients import equilibrium, rising_speed
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.collocation import Balance, Cycle, harmonics
@@ -83,6 +83,7 @@ class Bifurcation(Result):
             self.amplitude[turns + 1] - slope / (2.0 * bend),
         )
 
+    @checked
     def at(self, speed: float) -> tuple[Array, BoolArray]:
         """Return the cycles at a speed, interpolated between those found.
 
@@ -194,8 +195,13 @@ def sweep(branch: Bifurcation, speed: ArrayLike, *, down: bool = False) -> Array
     array, (n,)
         Largest distance of the journal from rest [m], 0 at rest; NaN above the onset where the
         branch has no stable cycle.
+
+    Raises
+    ------
+    ValueError
+        Where the speeds are not a row that rises.
     """
-    speed = np.asarray(speed, dtype=float)
+    speed = rising_speed(speed)
     reached = np.full(len(speed), np.nan)
     # From above the sweep begins on the largest cycle: any start beyond the wall selects it.
     last = 10.0 * branch.hopf.clearance if down else 0.0
@@ -226,7 +232,14 @@ def start_on_cycle(machine: Machine, branch: Bifurcation, place: int) -> Start:
     -------
     Start
         The state where the path of that cycle begins.
+
+    Raises
+    ------
+    ValueError
+        Where the branch has no such cycle.
     """
+    if not 0 <= place < len(branch.paths):
+        raise ValueError(f"place = {place}: must be 0 to {len(branch.paths) - 1}")
     path, omega = branch.paths[place], float(branch.whirl_frequency[place])
     m = len(path)
     frequency = omega * harmonics(m)

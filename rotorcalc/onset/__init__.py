@@ -37,9 +37,9 @@ def onset_speed(machine: Machine, flexible: bool = True) -> Onset:
     Returns
     -------
     Onset
-        Speed, whirl frequency and eccentricity ratio at the onset, and how it was found. Without
-        load the direct stiffness vanishes (Eq. 5.37), and the onset is at speed 0: the machine
-        whirls at any speed.
+        Speed, whirl frequency and eccentricity ratio at the onset, and how it was found. In a plain
+        bore without load the direct stiffness vanishes (Eq. 5.37), and the onset is at speed 0: the
+        machine whirls at any speed.
 
     Raises
     ------

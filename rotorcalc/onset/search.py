@@ -16,7 +16,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 from rotorcalc import modes
 from rotorcalc.arrays import Array
-from rotorcalc.coefficients import modified_sommerfeld, stiffness_and_damping
+from rotorcalc.coefficients import equilibrium, modified_sommerfeld, stiffness_and_damping
 from rotorcalc.films import film_coefficients, film_of, film_state
 from rotorcalc.machine import JournalBearing, Machine
 from rotorcalc.numerics import routh
@@ -131,8 +131,10 @@ def _onset_at(
     machine: Machine, speed: float, whirl_frequency: float, *, method: Method, flexible: bool
 ) -> Onset:
     # At speed 0, where it is without load, the journal sits in the centre.
-    sigma = modified_sommerfeld(machine, speed) if speed > 0.0 else math.inf
-    eps = film_state(machine.bearing, sigma).eccentricity_ratio
+    if speed > 0.0:
+        eps = equilibrium(machine, speed).film.eccentricity_ratio
+    else:
+        eps = film_state(machine.bearing, math.inf).eccentricity_ratio
     if math.isnan(whirl_frequency):
         whirl_frequency = _frequency_nearest_the_axis(machine, speed, flexible)
     return Onset(

@@ -226,3 +226,9 @@ def test_any_force_has_its_derivatives(place, u):
     assert np.array(found) / [[size**2], [size**3]] == pytest.approx(
         np.array(expected) / [[size**2], [size**3]], rel=1e-6, abs=1e-6
     )
+
+
+@pytest.mark.parametrize("frequency", [math.inf, math.nan])
+def test_a_whirl_without_a_frequency_is_refused(frequency):
+    with pytest.raises(ValueError, match=r"frequency = (inf|nan) rad/s: must be finite"):
+        hopf_module.whirl_shape(SHEET, 900.0, frequency)

@@ -18,8 +18,8 @@ from rotorcalc import (
     hopf,
     simulate,
 )
-from rotorcalc.nonlinear import limit_cycles, transient
-from rotorcalc.nonlinear.limit_cycles import sweep
+from rotorcalc.nonlinear import transient
+from rotorcalc.nonlinear.limit_cycles import start_on_cycle, sweep
 from tests.films.models import Preloaded
 from tests.machines import RIGID, ROTORS, SHEET, C, balanced, log_uniform, machines, near_hopf
 
@@ -51,7 +51,7 @@ def test_a_motion_started_on_a_cycle_stays_on_it(kind):
     branch = bifurcation(machine, highest=1.2)
     place = int(np.flatnonzero(branch.stable)[4])
     speed, path = branch.speed[place], branch.paths[place]
-    start = limit_cycles.start_on_cycle(machine, branch, place)
+    start = start_on_cycle(machine, branch, place)
     turns = 4.0 * speed / branch.whirl_frequency[place]
     motion = simulate(machine, speed, revolutions=math.ceil(turns), start=start)
     distance = np.hypot(*(motion.journal[:, None] - path[None]).transpose(2, 0, 1)).min(axis=1)
@@ -68,7 +68,7 @@ def test_an_unstable_cycle_separates_decaying_motions_from_growing_ones():
     machine, speed, rest = near_hopf(0.06, 0.99)
     branch = bifurcation(machine)
     place = int(np.argmin(np.abs(np.where(branch.stable, np.inf, branch.speed) - 0.985 * speed)))
-    start = limit_cycles.start_on_cycle(machine, branch, place)
+    start = start_on_cycle(machine, branch, place)
     outcome = []
     for share in (0.9, 1.1):
         scaled = transient.Start(
@@ -172,7 +172,7 @@ def test_another_film_has_its_branch():
     assert branch.stable[0] == (not branch.hopf.subcritical)
     place = int(np.flatnonzero(branch.stable)[-1])
     speed, path = branch.speed[place], branch.paths[place]
-    start = limit_cycles.start_on_cycle(machine, branch, place)
+    start = start_on_cycle(machine, branch, place)
     balanced = replace(machine, rotor=replace(machine.rotor, imbalance=0.0))
     motion = simulate(balanced, speed, revolutions=6, start=start)
     distance = np.hypot(*(motion.journal[:, None] - path[None]).transpose(2, 0, 1)).min(axis=1)
@@ -264,3 +264,25 @@ def test_machines_without_an_onset_raise_a_valueerror():
         bifurcation(replace(SHEET, rotor=replace(SHEET.rotor, disk_damping=1e5)))
     with pytest.raises(ValueError, match="either side of 1"):
         bifurcation(SHEET, lowest=1.2)
+
+
+@pytest.mark.parametrize(
+    ("asked", "words"),
+    [
+        (lambda branch: sweep(branch, 900.0), "two or more rising speeds"),
+        (lambda branch: sweep(branch, [[800.0, 900.0]]), "two or more rising speeds"),
+        (lambda branch: sweep(branch, [900.0, 800.0]), r"speed\[1\] = 800 rad/s: must be greater"),
+        (lambda branch: sweep(branch, ["900", "950"]), "speed"),
+        (lambda branch: branch.at("900"), "speed = '900'"),
+        (lambda branch: branch.hopf.amplitude("900"), "speed = '900'"),
+        (
+            lambda branch: start_on_cycle(SHEET, branch, 9999),
+            "place = 9999: must be 0 to",
+        ),
+        (lambda branch: start_on_cycle(SHEET, branch, -1), "place = -1: must be 0 to"),
+        (lambda branch: start_on_cycle(branch, branch, 0), "machine = a Bifurcation"),
+    ],
+)
+def test_what_no_branch_answers_is_refused_in_words(subcritical, asked, words):
+    with pytest.raises(ValueError, match=words):
+        asked(subcritical)
