@@ -14,7 +14,7 @@ import rotorcalc
 from tests.deploy.test_replicas import finished
 from tests.load.client import Visitor
 from tests.load.replicas import ROOT, Replica
-from ui.serving import health, log, settings, version
+from ui.serving import health, settings, version
 
 ENTERED = "81.2345"  # stands for what a visitor entered
 
@@ -26,15 +26,29 @@ if "C" in st.query_params:
 """
 
 
-@pytest.fixture
-def failing(tmp_path: Path) -> Iterator[Replica]:
-    page = tmp_path / "page.py"
+@pytest.fixture(scope="module")
+def script(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The app, but for its page."""
+    folder = tmp_path_factory.mktemp("failing")
+    page, app = folder / "page.py", folder / "app.py"
     page.write_text(_FAILING)
     text = (ROOT / "app.py").read_text()
-    script = tmp_path / "app.py"
     assert text.count("__file__") == 1
-    script.write_text(text.replace("__file__", f"{str(page)!r}"))
+    app.write_text(text.replace("__file__", f"{str(page)!r}"))
+    return app
+
+
+@pytest.fixture(scope="module")
+def failing(script: Path) -> Iterator[Replica]:
     replica = Replica(script=script, PYTHONPATH=str(ROOT), ROTORCALC_LOG="json")
+    yield replica.wait()
+    replica.stop()
+
+
+@pytest.fixture(scope="module")
+def failing_in_text(script: Path) -> Iterator[Replica]:
+    """The same, with the log that a server writes by default."""
+    replica = Replica(script=script, PYTHONPATH=str(ROOT))
     yield replica.wait()
     replica.stop()
 
@@ -123,13 +137,13 @@ def test_the_commit_of_another_users_checkout_is_known(
         version.commit.cache_clear()
 
 
-def test_a_plain_log_names_the_failure_by_its_id_too(
-    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+def test_a_log_as_text_has_the_same_id_and_no_visitor_data_either(
+    failing_in_text: Replica,
 ) -> None:
-    monkeypatch.setenv("ROTORCALC_LOG", "text")
-    said: list[str] = []
-    monkeypatch.setattr(log.st, "error", lambda words, **_: said.append(words))
-    assert log.failed(ValueError(ENTERED))
-    (number,) = re.findall(r"\*\*([0-9a-f]{8})\*\*", said[0])
-    assert f"id={number}" in caplog.text
-    assert ENTERED not in caplog.text
+    said = " ".join(finished(_visit(failing_in_text.address)))
+    (number,) = re.findall(r"\*\*([0-9a-f]{8})\*\*", said)
+    written = failing_in_text.log.read_text()
+    assert f"failed id={number} type=ValueError places=" in written
+    assert "page.py:4" in written
+    assert ENTERED not in written
+    assert "Traceback" not in written

@@ -1,4 +1,4 @@
-"""The server's log: one line of JSON per event, and never a visitor's input.
+"""The server's log: one line per event, as text or JSON, and never a visitor's input.
 
 An exception's message can hold a visitor's numbers, so of an exception only its type and its places
 in the code are written. What failed for a visitor has an id, which the visitor's page shows too.
@@ -7,6 +7,7 @@ in the code are written. What failed for a visitor has an id, which the visitor'
 import json
 import logging
 import secrets
+from collections.abc import Mapping
 from datetime import UTC, datetime
 from typing import Any
 
@@ -36,7 +37,7 @@ _TOLD_TWICE = "Uncaught app execution"
 
 
 class Record(logging.LogRecord):
-    """A record whose message is a line of JSON, without an exception's own message."""
+    """A record of an exception's type and places, without its message."""
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
@@ -45,26 +46,39 @@ class Record(logging.LogRecord):
         self.exc_info = None
 
     def getMessage(self) -> str:
+        """Return the record as text."""
+        return _text(super().getMessage(), self.fields)
+
+
+class JsonRecord(Record):
+    """A record whose message is a line of JSON."""
+
+    def getMessage(self) -> str:
         """Return the record as a line of JSON."""
         fields = {
             "time": datetime.fromtimestamp(self.created, UTC).isoformat(timespec="milliseconds"),
             "level": self.levelname.lower(),
             "logger": self.name,
-            "event": super().getMessage(),
+            "event": logging.LogRecord.getMessage(self),
         }
         return json.dumps(fields | self.fields | getattr(self, "more", {}), ensure_ascii=False)
 
 
 def begin() -> None:
-    """Log no visits, and let every logger write JSON where the host wants it."""
+    """Log no visits and no exception's message, and write JSON where the host wants it."""
     for name in _VISITS:
         logging.getLogger(name).setLevel(logging.WARNING)
     for name in _SESSIONS:
         logging.getLogger(name).setLevel(logging.ERROR)
     logging.getLogger("uvicorn.error").addFilter(lambda record: record.msg != _REFUSED)
-    if settings.log() == "text":
-        return
-    logging.setLogRecordFactory(Record)
+    error_log = logging.getLogger("streamlit.error_util")
+    error_log.addFilter(lambda record: record.msg != _TOLD_TWICE)
+    logging.setLogRecordFactory(Record if settings.log() == "text" else JsonRecord)
+    if settings.log() == "json":
+        _write_json()
+
+
+def _write_json() -> None:
     config.set_option("logger.messageFormat", "%(message)s")
     streamlit.logger.get_logger(_LOGGER.name)  # with the handler that Streamlit's loggers have
     streamlit.logger.update_formatter()
@@ -73,14 +87,12 @@ def begin() -> None:
         own = getattr(logger, "streamlit_console_handler", None)
         logger.handlers = [] if own is None else [own]
         logger.propagate = False
-    error_log = logging.getLogger("streamlit.error_util")
-    error_log.addFilter(lambda record: record.msg != _TOLD_TWICE)
 
 
 def event(name: str, *, level: int = logging.INFO, **fields: object) -> None:
     """Write an event with its fields, in either form of the log."""
     if settings.log() == "text":
-        name = " ".join([name, *(f"{key}={value}" for key, value in fields.items())])
+        name = _text(name, fields)
     _LOGGER.log(level, name, extra={"more": fields})
 
 
@@ -99,3 +111,7 @@ def failed(error: Exception) -> bool:
 def described(error: BaseException) -> dict[str, Any]:
     """Return an exception's type and stack, outermost frame first."""
     return {"type": type(error).__name__, "places": places(error)}
+
+
+def _text(name: str, fields: Mapping[str, object]) -> str:
+    return " ".join([name, *(f"{key}={value}" for key, value in fields.items())])
