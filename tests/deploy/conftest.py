@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 from deploy import publish
+from tests.deploy import documented
 from tests.load.client import Visitor
 from tests.load.replicas import ROOT, Replica, free_port
 
@@ -19,13 +20,20 @@ HOST = "rotor.example.org"
 BASE = "rotorcalc"
 NAMES = ("1", "2")
 
-# What a distribution's own nginx.conf holds around ours.
+# A proxy before nginx that holds the certificate, as another address of this machine.
+OUTER = "127.0.0.10"
+
+# What Debian's own nginx.conf holds around ours, with one worker.
 _AROUND = """
 daemon off;
 {user}
+worker_processes 1;
 pid {folder}/nginx.pid;
 error_log {folder}/error.log;
-events {{ worker_connections 1024; }}
+include {folder}/etc/nginx/modules-enabled/*.conf;
+events {{
+    worker_connections 768;
+}}
 http {{
     include {types};
     client_body_temp_path {folder}/body;
@@ -33,7 +41,7 @@ http {{
     fastcgi_temp_path {folder}/fastcgi;
     uwsgi_temp_path {folder}/uwsgi;
     scgi_temp_path {folder}/scgi;
-    include {folder}/rotorcalc.conf;
+    include {folder}/etc/nginx/conf.d/*.conf;
 }}
 """
 
@@ -53,9 +61,11 @@ class Site:
     def visitor(self, **cookies: str) -> Visitor:
         return Visitor(self.address, port=self.port, cookies=cookies)
 
-    def get(self, path: str, *, timeout: float = 30.0, **headers: str) -> HTTPResponse:
+    def get(
+        self, path: str, *, timeout: float = 30.0, source: str = "127.0.0.1", **headers: str
+    ) -> HTTPResponse:
         """Ask for a path below the app's; underscores in a header's name stand for hyphens."""
-        connection = HTTPConnection("127.0.0.1", self.port, timeout=timeout)
+        connection = HTTPConnection("127.0.0.1", self.port, timeout, source_address=(source, 0))
         named = {key.replace("_", "-"): value for key, value in headers.items()}
         connection.request("GET", path, headers={"Host": HOST} | named)
         answer = connection.getresponse()
@@ -103,7 +113,7 @@ def site(nginx: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Site
     replicas = {name: _replica(name, free_port()) for name in NAMES}
     site = Site(free_port(), folder, replicas)
     _configure(site, nginx)
-    command = [str(nginx), "-p", str(folder), "-c", str(folder / "nginx.conf")]
+    command = [str(nginx), "-p", str(folder), "-c", str(folder / "etc/nginx/nginx.conf")]
     subprocess.run([*command, "-t", "-q"], check=True)
     server = subprocess.Popen(command)
     try:
@@ -130,8 +140,6 @@ def _replica(name: str, port: int) -> Replica:
 
 def _configure(site: Site, nginx: Path) -> None:
     """Write the project's configuration with this machine's ports and folders in it."""
-    beside = nginx.parents[2] / "etc/nginx/mime.types"  # where a package was unpacked
-    types = beside if beside.exists() else "/etc/nginx/mime.types"
     ours = (ROOT / "deploy/nginx.conf").read_text()
     changes = {
         "listen 80": f"listen 127.0.0.1:{site.port}",
@@ -143,11 +151,24 @@ def _configure(site: Site, nginx: Path) -> None:
     for old, new in changes.items():
         assert old in ours
         ours = ours.replace(old, new)
-    (site.folder / "rotorcalc.conf").write_text(ours)
+    write_around(site.folder, nginx)
+    (site.folder / "etc/nginx/conf.d/rotorcalc.conf").write_text(ours)
+    steps = documented.block("On Debian, with systemd").splitlines(keepends=True)
+    documented.carry_out("".join(line for line in steps if "worker_" in line), site.folder)
+    outer = documented.block("On Debian, with systemd", "nginx").replace("192.0.2.10", OUTER)
+    (site.folder / "etc/nginx/conf.d/outer.conf").write_text(outer)
+
+
+def write_around(folder: Path, nginx: Path) -> None:
+    """Write what a distribution has in /etc/nginx, below a folder."""
+    beside = nginx.parents[2] / "etc/nginx/mime.types"  # where a package was unpacked
+    types = beside if beside.exists() else "/etc/nginx/mime.types"
+    for name in ("modules-enabled", "conf.d", "sites-enabled"):
+        (folder / "etc/nginx" / name).mkdir(parents=True)
     # Started by root, nginx would read the test's folder as another user, who may not.
     user = "user root;" if os.geteuid() == 0 else ""
-    (site.folder / "nginx.conf").write_text(
-        _AROUND.format(folder=site.folder, types=types, user=user)
+    (folder / "etc/nginx/nginx.conf").write_text(
+        _AROUND.format(folder=folder, types=types, user=user)
     )
 
 

@@ -1,11 +1,12 @@
 """Requests that nginx admits and refuses, and the headers of its answers."""
 
+import asyncio
 import gzip
 import json
 import re
 import subprocess
 import sys
-from contextlib import closing
+from contextlib import AsyncExitStack, closing
 from http.client import HTTPConnection
 from urllib.request import urlopen
 
@@ -13,15 +14,17 @@ import pytest
 from playwright.sync_api import Browser
 from starlette.requests import Request
 from streamlit.web.server.starlette.starlette_routes import create_host_config_routes
+from websockets.asyncio.client import connect
 from websockets.exceptions import InvalidStatus
 
 from tests.browser.app_page import AppPage
 from tests.browser.conftest import CHROMIUM_ARGS, browser_type_launch_args, chromium
-from tests.deploy.conftest import HOST, Site
-from tests.deploy.test_replicas import finished
+from tests.deploy.conftest import HOST, OUTER, Site
+from tests.deploy.test_replicas import awaited, finished
 from tests.load.client import Visitor
 from tests.load.replicas import ROOT
 from ui.serving import own_origin
+from ui.serving.guard import browsers
 
 __all__ = ["browser_type_launch_args", "chromium"]
 
@@ -136,6 +139,58 @@ def test_an_upload_that_is_too_large_is_refused(site: Site) -> None:
     )
     assert connection.getresponse().status == 413
     connection.close()
+
+
+def test_every_request_to_a_replica_is_bounded_in_number_and_time() -> None:
+    text = (ROOT / "deploy/nginx.conf").read_text()
+    passed = [
+        (where, body)
+        for where, body in re.findall(r"location ([^{]+) \{(.*?)\n    \}", text, re.DOTALL)
+        if "proxy_pass" in body
+    ]
+    assert len(passed) == 5
+    for where, body in passed:
+        assert "limit_req zone=" in body, where
+        waits = [int(seconds) for seconds in re.findall(r"read_timeout (\d+)s;", body)]
+        assert where.endswith("/stream") or all(wait <= 5 for wait in waits), where
+
+
+def test_a_trusted_proxys_visitors_keep_their_addresses_and_their_scheme(site: Site) -> None:
+    said = {"X_Forwarded_For": "192.0.2.55", "X_Forwarded_Proto": "https"}
+    secure = {}
+    for source in (OUTER, "127.0.0.1"):
+        cookies = site.get("/rotorcalc/", source=source, **said).headers.get_all("Set-Cookie")
+        (cookie,) = (value for value in cookies if browsers.COOKIE in value)
+        secure[source] = "Secure" in cookie
+    assert secure == {OUTER: True, "127.0.0.1": False}
+    log = (site.folder / "access.log").read_text()
+    assert '"address":"192.0.2.55"' in log
+    assert f'"address":"{OUTER}"' not in log
+
+
+@awaited
+async def test_one_address_with_all_its_pages_leaves_room_for_another(site: Site) -> None:
+    """A websocket takes two of nginx's connections, and here there is one worker."""
+    async with AsyncExitStack() as stack:
+        address = f"ws://{HOST}:{site.port}/rotorcalc/_stcore/stream"
+
+        def socket(source: str) -> connect:
+            return connect(
+                address, host="127.0.0.1", port=site.port, local_addr=(source, 0), proxy=None,
+                origin=f"http://{HOST}:{site.port}", open_timeout=60, compression=None,
+                subprotocols=["streamlit", "-"],
+            )  # type: ignore[arg-type] # fmt: skip
+
+        for _ in range(40):
+            await asyncio.gather(
+                *(stack.enter_async_context(socket("127.0.0.20")) for _ in range(10))
+            )
+        with pytest.raises(InvalidStatus) as refused:
+            await stack.enter_async_context(socket("127.0.0.20"))
+        assert refused.value.response.status_code == 429
+        await stack.enter_async_context(socket("127.0.0.21"))
+        answer = await asyncio.to_thread(site.get, "/rotorcalc/", source="127.0.0.21")
+        assert answer.status == 200
 
 
 def test_the_sub_path_is_found_without_its_slash_and_from_the_root(site: Site) -> None:
