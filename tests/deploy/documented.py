@@ -16,6 +16,6 @@ def block(title: str, language: str = "sh") -> str:
 
 
 def carry_out(commands: str, folder: Path, **environment: str) -> None:
-    """Run commands whose /etc and /srv are in a folder."""
-    below = re.sub(r"(?<![\w./])/(etc|srv)/", rf"{folder}/\1/", commands)
+    """Run commands whose /etc, /srv and /var are in a folder."""
+    below = re.sub(r"(?<![\w./])/(etc|srv|var)/", rf"{folder}/\1/", commands)
     subprocess.run(["sh", "-euc", below], cwd=folder, env=os.environ | environment, check=True)  # noqa: S607 - the system's shell

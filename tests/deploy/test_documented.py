@@ -20,6 +20,7 @@ def host(tmp_path: Path, nginx: Path) -> Path:
     """The folder of a machine on which nothing is set up yet, but a clone."""
     write_around(tmp_path, nginx)
     (tmp_path / "etc/systemd/system").mkdir(parents=True)
+    (tmp_path / "var/log/nginx").mkdir(parents=True)
     source = tmp_path / "srv/rotorcalc/source/deploy"
     shutil.copytree(ROOT / "deploy", source)
     text = (source / "nginx.conf").read_text().replace("/var/log/nginx", str(tmp_path))
@@ -73,4 +74,9 @@ def test_the_steps_in_containers_leave_the_clone_alone_and_the_image_is_named(ho
     documented.carry_out(run, host, HOST_NAME=NAME)
     assert _names(host / "etc/nginx/conf.d/default.conf") == ["_", NAME]
     assert _connections(host) >= 2 * 2 * 400 + 500
-    assert "HOST_NAME: ${HOST_NAME}" in (source / "compose.yaml").read_text()
+    for log in ("rotorcalc", "rotorcalc-error"):  # the engine's, which are bounded
+        assert (host / f"var/log/nginx/{log}.log").readlink().parent == Path("/dev")
+    compose = (source / "compose.yaml").read_text()
+    assert "HOST_NAME: ${HOST_NAME}" in compose
+    services = compose.split("\nservices:\n")[1].split("\nnetworks:\n")[0]
+    assert len(re.findall("^  \\w+:$", services, re.MULTILINE)) == services.count("*log") == 3

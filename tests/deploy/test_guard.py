@@ -143,6 +143,15 @@ def test_health_and_metrics_are_for_this_machine(server: Server) -> None:
     assert server.get("_stcore/health", X_Forwarded_For="192.0.2.1").status == 200
 
 
+@pytest.mark.parametrize("path", ["oauth2callback", "auth/login", "auth/logout"])
+def test_where_no_login_is_set_up_its_paths_are_not_found(server: Server, path: str) -> None:
+    """Streamlit would write an error for each request."""
+    for _ in range(3):
+        assert server.get(f"{path}?error={MARK}").status == 404
+    assert "redirect_uri" not in server.log.read_text()
+    assert MARK not in server.log.read_text()
+
+
 # --- What every answer says -------------------------------------------------------------------
 
 

@@ -6,7 +6,11 @@ in the code are written. What failed for a visitor has an id, which the visitor'
 
 import json
 import logging
+import math
 import secrets
+import threading
+import time
+from collections import Counter
 from collections.abc import Mapping
 from datetime import UTC, datetime
 from typing import Any
@@ -30,10 +34,35 @@ _SESSIONS = (
 )
 # uvicorn's line about each websocket that is refused with a status.
 _REFUSED = "ASGI callable returned without completing handshake."
+_EVERY = 10.0  # seconds between two lines about one thing
 # What stands above a failure on a page.
 TITLE = "Something went wrong here"
 # Streamlit's own line about an exception that `failed` reports with its id.
 _TOLD_TWICE = "Uncaught app execution"
+
+
+class Rarely:
+    """Counts events, of which one of a kind is written in ten seconds: a flood fills no disk."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()  # each page runs in a thread of its own
+        self._counted: Counter[str] = Counter()
+        self._written: dict[str, tuple[float, str]] = {}
+
+    def count(self, kind: str) -> tuple[str, int]:
+        """Return the id of the line that tells of an event, and what it is to tell.
+
+        That is how many there were since the line before, or 0 where the line is written already.
+        """
+        with self._lock:
+            self._counted[kind] += 1
+            now = time.monotonic()
+            at, number = self._written.get(kind, (-math.inf, ""))
+            if now - at < _EVERY:
+                return number, 0
+            number = secrets.token_hex(4)
+            self._written[kind] = now, number
+            return number, self._counted.pop(kind)
 
 
 class Record(logging.LogRecord):
@@ -62,6 +91,9 @@ class JsonRecord(Record):
             "event": logging.LogRecord.getMessage(self),
         }
         return json.dumps(fields | self.fields | getattr(self, "more", {}), ensure_ascii=False)
+
+
+_FAILURES = Rarely()
 
 
 def begin() -> None:
@@ -97,9 +129,14 @@ def event(name: str, *, level: int = logging.INFO, **fields: object) -> None:
 
 
 def failed(error: Exception) -> bool:
-    """Report an exception of a page's script in the log and to the visitor, under one id."""
-    number = secrets.token_hex(4)
-    event("failed", level=logging.ERROR, id=number, **described(error))
+    """Report an exception of a page's script in the log and to the visitor, under one id.
+
+    Failures of one type at one place have the same id for ten seconds.
+    """
+    what = described(error)
+    number, times = _FAILURES.count(" ".join([what["type"], *what["places"][-1:]]))
+    if times:
+        event("failed", level=logging.ERROR, id=number, times=times, **what)
     st.error(
         f"Give this server's operator the number **{number}**, under which its log records what "
         "happened. Your inputs are in the address bar: reload the page to continue.",

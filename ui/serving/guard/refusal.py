@@ -1,8 +1,5 @@
 """How a request is turned away: with a status and a sentence, before a websocket is one."""
 
-import time
-from collections import Counter
-
 from starlette.datastructures import Headers
 from starlette.responses import PlainTextResponse
 from starlette.types import Receive, Scope, Send
@@ -12,9 +9,7 @@ from streamlit.url_util import make_url_path
 
 from ui.serving import log
 
-_EVERY = 10.0  # seconds between two lines of the log for one reason
-_counted: Counter[str] = Counter()
-_written: dict[str, float] = {}
+_REFUSALS = log.Rarely()
 
 
 async def refuse(
@@ -30,12 +25,10 @@ async def refuse(
 
 
 def count(why: str) -> None:
-    """Count a refusal, and write now and then how many there were: a flood fills no disk."""
-    _counted[why] += 1
-    now = time.monotonic()
-    if now - _written.get(why, -_EVERY) >= _EVERY:
-        _written[why] = now
-        log.event("refused", why=why, times=_counted.pop(why))
+    """Count a refusal, and write now and then how many there were."""
+    _, times = _REFUSALS.count(why)
+    if times:
+        log.event("refused", why=why, times=times)
 
 
 def header(scope: Scope, name: str) -> str | None:

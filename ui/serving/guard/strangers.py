@@ -10,6 +10,7 @@ from urllib.parse import urlsplit
 
 from starlette.types import ASGIApp, Receive, Scope, Send
 from streamlit import config
+from streamlit.auth_util import get_secrets_auth_section
 from streamlit.web.server.starlette.starlette_websocket import is_host_allowed
 
 from ui.serving.guard.refusal import below_base, header, refuse
@@ -20,6 +21,8 @@ _PORTS = {"http": ":80", "https": ":443"}
 _HOSTS_OWN = (
     "healthz", "_stcore/metrics", "_stcore/script-health-check", "_stcore/agent",
 )  # fmt: skip
+# Streamlit's login, which writes an error for each request where none is set up.
+_LOGIN = ("oauth2callback", "auth/")
 # Asked by whoever runs the server, and by pages.
 _HEALTH = "_stcore/health"
 
@@ -70,6 +73,8 @@ def _refusal(scope: Scope) -> tuple[int, str] | None:
     direct = _is_loopback(host) and _is_loopback_address(scope)
     if path.startswith(_HOSTS_OWN) and not direct:
         return 404, "Not Found"
+    if path.startswith(_LOGIN) and not get_secrets_auth_section():
+        return 404, "No login is set up"
     if not is_own_name(host) and not (direct and path.startswith((*_HOSTS_OWN, _HEALTH))):
         return 421, "This server has another name: see STREAMLIT_SERVER_ALLOWED_HOSTS"
     if origin is not None and not is_own_origin(origin, host):
