@@ -6,6 +6,7 @@ import time
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ import pytest
 from rotorcalc import TransientError
 from tests.machines import SHEET
 from tests.waiting import until
-from ui.jobs import process, work
+from ui.jobs import process, queue, work
 from ui.jobs.process import Worker, WorkerError
 from ui.jobs.queue import Turns
 from ui.serving.log import described
@@ -121,6 +122,21 @@ def test_a_free_process_that_is_lost_is_replaced(
     with turns.turn() as new:
         assert new is not lost
         assert new.answers()
+    turns.end()
+
+
+def test_a_process_lost_at_work_is_told_for_a_while_after_it_is_replaced(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A server looks at itself more rarely than a process takes to be replaced."""
+    now = [100.0]
+    monkeypatch.setattr(queue, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    turns = Turns(1)
+    assert turns.inspect() == ""
+    assert turns.run(end_once, (str(tmp_path),), None) == 1
+    for later, told in ((10.0, True), (10.0, False)):
+        now[0] += later
+        assert ("does not answer" in turns.inspect()) is told
     turns.end()
 
 

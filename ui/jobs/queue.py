@@ -7,7 +7,9 @@ A process that has ended or hangs is replaced: a free one when the server next l
 at work as soon as its signs of life stay away, and its computation begins again, once.
 """
 
+import math
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from functools import partial
@@ -25,6 +27,9 @@ from ui.serving import log, settings
 LONGEST_LINE = 30
 
 _LOOK = 0.25  # seconds between two looks at the line
+# Seconds for which it is told that a process at work was lost: the server looks at itself every
+# five seconds, and it is replaced within a moment.
+_TOLD = 15.0
 
 BUSY = "Many visitors ask for long computations just now. Try again in a minute."
 
@@ -52,6 +57,7 @@ class Turns:
         # The last one used first: its caches are warm. Several threads take and give at once.
         self._idle: LifoQueue[Worker] = LifoQueue()
         self._at_work: list[Worker] = []
+        self._lost_at = -math.inf  # when a process at work was last replaced
 
     def run(self, work: Callable[..., Any], args: tuple[Any, ...], tell: Progress | None) -> Any:
         """Return `work(*args)` of a process, in its turn.
@@ -62,6 +68,7 @@ class Turns:
         try:
             return self._run(work, args, tell)
         except WorkerError as error:
+            self._lost_at = time.monotonic()
             log.event("replaced", what=self.name, why=str(error))
         return self._run(work, args, tell)
 
@@ -100,8 +107,10 @@ class Turns:
     def inspect(self) -> str:
         """Return what is wrong with the processes, or ""; replace free ones that do not answer."""
         silent = any(worker.silent for worker in tuple(self._at_work))
-        replaced = self._replace_free()
-        return f"a process for {self.name} does not answer" if silent or replaced else ""
+        lost = time.monotonic() - self._lost_at < _TOLD
+        if self._replace_free() or silent or lost:
+            return f"a process for {self.name} does not answer"
+        return ""
 
     def _replace_free(self) -> int:
         """Replace the free processes that do not answer, and return how many there were."""
