@@ -67,7 +67,7 @@ def release(ports: list[str], root: Path, new: Path, restart: Callable[[str], bo
             for other in ports[: done + 1]:
                 restart(other)
             raise ReleaseError(f"{port} does not start on {new.name}: {before.name} is put back")
-    _forget_all_but(root, new, before)
+    _forget_all_but(root, {new, before or new})
 
 
 def base_path(settings: Path) -> str:
@@ -107,8 +107,8 @@ def _set_current(root: Path, to: Path) -> None:
     link.replace(root / "current")
 
 
-def _forget_all_but(root: Path, *kept: Path | None) -> None:
-    """Remove the releases, and their packages, that neither run nor are the last that did."""
+def _forget_all_but(root: Path, kept: set[Path]) -> None:
+    """Remove what belongs to no release but the one that runs and the last that did."""
     for folder in (root / "releases").iterdir():
         if folder not in kept:
             shutil.rmtree(folder)
@@ -117,6 +117,11 @@ def _forget_all_but(root: Path, *kept: Path | None) -> None:
         if made.stem not in used:
             made.unlink()
             shutil.rmtree(made.with_suffix(""))
+    # A release writes its files for browsers anew, after its COMMIT, also where they are the same.
+    begun = min((folder / "COMMIT").stat().st_mtime_ns for folder in kept)
+    for path in (root / "www").rglob("*"):
+        if path.is_file() and path.stat().st_mtime_ns < begun:
+            path.unlink()
 
 
 def _systemd(port: str) -> bool:

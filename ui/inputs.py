@@ -58,7 +58,7 @@ class Input:
         # As above.
         if units is SI:
             return reading
-        return _tidy(float(self.unit(SI).of(self.unit(units).to_si(reading))))
+        return tidy(float(self.unit(SI).of(self.unit(units).to_si(reading))))
 
     def name(self, units: Units) -> str:
         """Return label, symbol and unit, as beside a slider."""
@@ -199,8 +199,8 @@ def number(values: Values, key: str) -> float:
     return value
 
 
-def _tidy(value: float) -> float:
-    """Return a value without the rounding that a change of unit adds in its last digits."""
+def tidy(value: float) -> float:
+    """Return a value without the rounding that a change of unit leaves in its last digits."""
     return float(f"{value:.14g}")
 
 
@@ -210,7 +210,7 @@ def values_of(machine: Machine, speed: float, top_speed: float) -> Values:
     values: Values = {}
     for key, item in INPUTS.items():
         value = speeds[item.field] if item.field in speeds else _at(machine, item.field)
-        values[key] = None if value is None else _tidy(float(item.unit(SI).of(value)))
+        values[key] = None if value is None else tidy(float(item.unit(SI).of(value)))
     return values | bearing_values(machine.bearing)
 
 

@@ -6,10 +6,12 @@ from typing import Any
 
 import pytest
 import streamlit as st
-from starlette.types import Message
+from starlette.types import Message, Receive, Scope, Send
+from streamlit.proto.ForwardMsg_pb2 import ForwardMsg
 
-from ui.serving.guard import bounds, turns
+from ui.serving.guard import bounds, browsers, turns
 from ui.serving.guard.bounds import Bucket, network
+from ui.serving.guard.browsers import OwnBrowser
 from ui.serving.guard.paced import Paced
 from ui.serving.guard.strangers import is_own_name, is_own_origin
 from ui.serving.guard.turns import Page, Share, Turns
@@ -150,6 +152,52 @@ def test_a_text_message_closes_the_websocket() -> None:
         assert socket.sent[0]["code"] == 1003
 
     _run(go)
+
+
+def test_the_browser_of_an_open_page_is_known_however_many_come_after(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A page's browser may send files; of closed pages the last few are remembered."""
+    known = {f"{i}" * 43: f"session {i}" for i in range(6)}
+
+    async def app(scope: Scope, _: Receive, send: Send) -> None:
+        begins = ForwardMsg()
+        begins.new_session.initialize.session_id = known[_secret_of(scope)]
+        await send({"type": "websocket.send", "bytes": begins.SerializeToString()})
+        if _secret_of(scope) == "0" * 43:
+            await leaves.wait()
+
+    async def go() -> list[bool]:
+        first = asyncio.create_task(one(_page("0" * 43), _never, _unheard))
+        await asyncio.sleep(0)
+        for secret in list(known)[1:]:
+            await one(_page(secret), _never, _unheard)
+        found = [one._owns(secret, session) for secret, session in known.items()]
+        leaves.set()
+        await first
+        assert not one._open
+        return found
+
+    monkeypatch.setattr(browsers, "_KEPT", 2)
+    leaves, one = asyncio.Event(), OwnBrowser(app)
+    assert asyncio.run(go()) == [True, False, False, True, True, True]
+
+
+def _page(secret: str) -> Scope:
+    cookie = f"{browsers.COOKIE}={secret}".encode()
+    return {"type": "websocket", "path": "/_stcore/stream", "headers": [(b"cookie", cookie)]}
+
+
+def _secret_of(scope: Scope) -> str:
+    return dict(scope["headers"])[b"cookie"].decode().partition("=")[2]
+
+
+async def _never() -> Message:
+    raise AssertionError("nothing comes")
+
+
+async def _unheard(_: Message) -> None:
+    pass
 
 
 def test_ipv6_addresses_of_one_network_count_as_one() -> None:

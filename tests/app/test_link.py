@@ -11,14 +11,14 @@ from rotorcalc import PRESETS
 from rotorcalc.units import SYSTEMS, US
 from tests.films.models import BEARINGS
 from ui.bearing import KIND, Values, bearing_values, fields_of
-from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, Input, machine_of
+from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, Input, machine_of, tidy
 from ui.sharing import address
 
 
 def _number(item: Input) -> st.SearchStrategy[float | None]:
     """Draw what a slider, a typed field or a file can give."""
-    numbers: st.SearchStrategy[float | None] = st.floats(item.low, item.high).filter(
-        lambda value: not item.problem(value)
+    numbers: st.SearchStrategy[float | None] = (
+        st.floats(item.low, item.high).map(tidy).filter(lambda value: not item.problem(value))
     )
     if item.infinite:
         numbers |= st.just(math.inf)
@@ -32,7 +32,7 @@ def _values(draw: st.DrawFn, preset: str) -> Values:
         key: value if draw(st.booleans()) else PRESET_VALUES[preset][key]
         for key, value in drawn.items()
     }
-    values["mj"] = min(values["mj"], 0.49 * values["mass"])
+    values["mj"] = min(values["mj"], tidy(0.49 * values["mass"]))
     bearing = bearing_values(BEARINGS[draw(st.sampled_from(sorted(BEARINGS)))])
     for key in fields_of(bearing[KIND]):
         bearing[key] = draw(st.floats(1e-3, 1e3) | st.just(bearing[key]))
@@ -91,6 +91,10 @@ def test_a_link_keeps_a_reading_in_other_units_without_rounding(
     word = address.write(DEFAULT_PRESET, values, "SI").get(key, "0")
     mantissa = word.split("e")[0].replace(".", "").strip("-0")
     assert len(mantissa) <= 14
+
+
+def test_a_link_with_a_rounded_reading_is_read_as_the_reading() -> None:
+    assert address.read({"C": "88.899999999999991"}).values["C"] == 88.9
 
 
 def test_three_and_a_half_mil_are_88_9_micrometres_in_a_link() -> None:

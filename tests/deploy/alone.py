@@ -59,7 +59,7 @@ async def visit(server: Replica) -> None:
 
 
 def main(word: str) -> None:
-    """Start a server as `make run` does, visit it, end it, and write what was asked outside."""
+    """Start a server, visit it, end it, and write what was asked outside."""
     if word:
         raise_loopback()
     with tempfile.TemporaryDirectory() as folder:

@@ -157,8 +157,9 @@ def _answers(host: Host, port: str) -> bool:
 def test_only_the_last_two_releases_are_kept(host: Host) -> None:
     """Replicas are not started here, only laid out."""
     (first,) = (host.root / "releases").iterdir()
+    script = host.checkout / "ui/live/slider.js"
     for number in (1, 2):
-        (host.checkout / "LICENSE").write_text(str(number))
+        script.write_text(f"{script.read_text()}// {number}\n")
         host.commit(f"Release {number}")
         release.release([], host.root, host.laid_out(), lambda _: True)
     kept = {path.name for path in (host.root / "releases").iterdir()}
@@ -166,6 +167,9 @@ def test_only_the_last_two_releases_are_kept(host: Host) -> None:
     assert len(kept) == 2
     assert host.laid_out().name in kept
     assert len(list((host.root / "venvs").iterdir())) == 2
+    www = host.root / "www" / BASE / "app/static"
+    assert len(list(www.glob("slider-*.js"))) == 2
+    assert len(list(www.glob("plotly-*.min.js"))) == 1
 
 
 def test_the_path_is_the_one_of_the_replicas_settings(tmp_path: Path) -> None:

@@ -22,7 +22,7 @@ from ui.bearing import (
     written,
 )
 from ui.format import quoted, typed_number
-from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, machine_of
+from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, machine_of, tidy
 
 
 @dataclass
@@ -147,7 +147,7 @@ def _value(key: str, word: object) -> tuple[float | None, str]:
         value = typed_number(word)
     except ValueError as error:
         return None, f"{error}"
-    return value, INPUTS[key].problem(value)
+    return tidy(value), INPUTS[key].problem(value)
 
 
 def _word(

@@ -8,7 +8,7 @@ other its id is worth nothing.
 import hashlib
 import re
 import secrets
-from collections import OrderedDict
+from collections import Counter, OrderedDict
 from http.cookies import CookieError, SimpleCookie
 
 from google.protobuf.message import DecodeError
@@ -24,7 +24,8 @@ COOKIE = "rotorcalc_browser"
 UPLOADS = "_stcore/upload_file/"
 _SECRET = re.compile(r"[A-Za-z0-9_-]{43}")
 _PROTOCOLS = b"sec-websocket-protocol"
-# Sessions whose browser is remembered: far more than are open, or kept after their tab is closed.
+# Sessions whose browser is remembered, beside those that are open: far more than are kept after
+# their tab is closed.
 _KEPT = 4096
 
 
@@ -34,6 +35,7 @@ class OwnBrowser:
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
         self._owners: OrderedDict[str, bytes] = OrderedDict()
+        self._open: Counter[str] = Counter()  # their websockets
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer as the app does, to a session's own browser."""
@@ -55,17 +57,19 @@ class OwnBrowser:
             headers = [item for item in scope["headers"] if item[0] != _PROTOCOLS]
             own = (_PROTOCOLS, ", ".join(words[:2]).encode("latin-1"))
             scope = {**scope, "headers": [*headers, own]}
-        begun = False
+        begun = ""
 
         async def noting(message: Message) -> None:
             nonlocal begun
-            if not begun and (session := session_begun(message)):
-                self._note(secret, session)
-                begun = True
+            if not begun and (begun := session_begun(message)):
+                self._note(secret, begun)
             await send(message)
 
         onward = noting if known else _giving(scope, noting, secret)
-        await self._app(scope, receive, onward)
+        try:
+            await self._app(scope, receive, onward)
+        finally:
+            self._open -= Counter({begun: 1})
 
     async def _upload(self, scope: Scope, receive: Receive, send: Send) -> None:
         session = below_base(scope).removeprefix(UPLOADS).split("/")[0]
@@ -84,8 +88,9 @@ class OwnBrowser:
     def _note(self, secret: str, session: str) -> None:
         self._owners[session] = _digest(secret)
         self._owners.move_to_end(session)
-        while len(self._owners) > _KEPT:
-            self._owners.popitem(last=False)
+        self._open[session] += 1
+        if len(self._owners) > _KEPT + len(self._open):
+            del self._owners[next(known for known in self._owners if known not in self._open)]
 
 
 def _digest(secret: str) -> bytes:
