@@ -12,7 +12,8 @@ from typing import Any, TypeVar
 import streamlit as st
 
 from rotorcalc.units import SYSTEMS, Units
-from ui.bearing import Value, Values
+from ui.bearing import KIND, Value, Values
+from ui.history import History
 from ui.inputs import PRESET_VALUES
 from ui.preview import Preview
 from ui.sharing import address
@@ -20,6 +21,15 @@ from ui.sharing import address
 Number = TypeVar("Number", int, float)
 
 _KEY = "rotorcalc"
+
+
+@dataclass(frozen=True)
+class Work:
+    """What undo and redo restore."""
+
+    preset: str
+    values: Values
+    baseline: Values | None
 
 
 @dataclass
@@ -43,6 +53,8 @@ class Session:
     # Number of the frame drawn last. Of sliders and preview of one frame, the preview's values are
     # the newer.
     frame: int = 0
+    # What the frame drawn last shows beside its sliders.
+    drawn: tuple[object, ...] = ()
     # Long computations: those requested, by button, and those that have begun and not ended.
     asked: dict[str, str] = field(default_factory=dict)
     begun: set[str] = field(default_factory=set)
@@ -51,6 +63,11 @@ class Session:
     # The page whose sidebar was drawn last, and whether the visitor has just come to another.
     page: str = ""
     arriving: bool = True
+    history: History[Work] = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Begin the history with the machine of the link."""
+        self.history = History(self._work())
 
     @property
     def units(self) -> Units:
@@ -66,6 +83,40 @@ class Session:
         """Take over a preset's machine and speeds."""
         self.preset, self.values = preset, dict(PRESET_VALUES[preset])
         self.problems.clear()
+
+    def changed(self) -> list[str]:
+        """Return the keys of the values that differ from the preset's."""
+        usual = PRESET_VALUES[self.preset]
+        keys = [*self.values, *(usual.keys() - self.values.keys())]
+        return [key for key in keys if self.values.get(key) != usual.get(key)]
+
+    def record(self) -> None:
+        """Keep the machine for undo; while a slider is dragged, only where it is released."""
+        if not self.dragging:
+            self.history.record(self._work())
+
+    def undo(self) -> None:
+        """Go back to the machine before the last change."""
+        self.record()
+        self._restore(self.history.undo())
+
+    def redo(self) -> None:
+        """Make the change that was undone last."""
+        self.record()
+        self._restore(self.history.redo())
+
+    def _work(self) -> Work:
+        return Work(self.preset, dict(self.values), self.baseline)
+
+    def _restore(self, work: Work) -> None:
+        self.preset, self.values, self.baseline = work.preset, dict(work.values), work.baseline
+        self.problems.clear()
+
+    def framed(self) -> tuple[object, ...]:
+        """Return what the frame shows of the machine beside its sliders, which follow by
+        themselves.
+        """
+        return self.preset, self.values["load"] is None, self.values[KIND], self.units_name
 
     def mirror(self, key: str, value: object) -> bool:
         """Give a widget its value before it is drawn, where it has another; return whether it had.

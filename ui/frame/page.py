@@ -12,7 +12,7 @@ from streamlit.delta_generator import DeltaGenerator
 
 from rotorcalc.units import Units
 from ui.computed import Computed, computed_from
-from ui.frame import baseline, sidebar
+from ui.frame import baseline, history, sidebar
 from ui.preview import Draw, Preview, compared
 from ui.results.row import show_results
 from ui.serving import one_at_a_time, version
@@ -28,10 +28,15 @@ _ABOUT = f"{version.label()}: rotors on fluid-film bearings, after San Andrés, 
 # Results and what stands below each, a caption or a popover, come in pairs, a column each. On a
 # narrow screen results stand two in a row, equations break between their terms, tables are
 # tight and a wide one's rows run over several lines: nothing there scrolls sideways, which a
-# keyboard could not do. KaTeX's own boxes stick out of an equation by two pixels.
+# keyboard could not do. KaTeX's own boxes stick out of an equation by two pixels. Undo stays in
+# sight while the sidebar scrolls.
 _STYLE = """<style>
 .stMainBlockContainer {padding-top: 4.2rem; padding-bottom: 3rem;}
 .katex-display {padding-right: 2px;}
+:has(> .st-key-past) {position: sticky; top: 0; z-index: 2;}
+.st-key-past {background: light-dark(#F4F6F8, #20262D); padding: 0.3rem 0 0.5rem;}
+.st-key-past, .st-key-history {gap: 0.4rem;}
+.st-key-history kbd {display: none;}
 .stVerticalBlock[class*="st-key-results_"] {
   display: grid; grid-auto-flow: dense; grid-auto-columns: minmax(0, 1fr); gap: 0 1rem;
 }
@@ -111,6 +116,7 @@ class Page:
 class Places(NamedTuple):
     """Places in the frame whose content changes while sliders move."""
 
+    history: DeltaGenerator
     navigation: DeltaGenerator
     foot: DeltaGenerator
 
@@ -149,8 +155,10 @@ def _frame(title: str, sentence: str) -> Places:
     _run_when_reconnected()
     visitor.frame += 1
     visitor.arriving = visitor.page != title
+    visitor.drawn = visitor.framed()
     with st.sidebar:
         sidebar.draw_presets()
+        past = st.container(key="past")
         baseline.draw_buttons()
         sidebar.draw_inputs()
         popover.draw()
@@ -160,7 +168,7 @@ def _frame(title: str, sentence: str) -> Places:
     navigation = st.container()
     st.header(title, anchor=False)
     st.markdown(sentence)
-    return Places(navigation, foot)
+    return Places(past, navigation, foot)
 
 
 # The browser's longest timer is 24 days.
@@ -176,6 +184,10 @@ def _content(
     content: Callable[[Page], None], places: Places, *, has_preview: bool, whole: bool
 ) -> None:
     with one_at_a_time.PAGES.through():
+        visitor = session()
+        if visitor.drawn != visitor.framed():
+            # A button of the content, such as a demonstration's, changed more than sliders show.
+            st.rerun()
         content(replace(_page(places, has_preview=has_preview), whole=whole))
 
 
@@ -186,6 +198,9 @@ def _page(places: Places, *, has_preview: bool) -> Page:
     preview, through which a better value comes, is written in any case.
     """
     visitor = session()
+    visitor.record()
+    with places.history:
+        history.draw(visitor)
     params = write_address_bar()
     with places.navigation:
         _navigation(params)

@@ -81,6 +81,8 @@ class Slider {
     for (const end of ["pointerup", "pointercancel"])
       this.range.addEventListener(end, () => setTimeout(() => this.grasped && this.moved(false)));
     this.field.addEventListener("change", () => this.typed());
+    // While typing, Ctrl+Z takes back what was typed, not the machine's last change.
+    this.field.addEventListener("keydown", (event) => event.key.toLowerCase() === "z" && event.stopPropagation());
     this.waiting = null; // the next message to send
     this.previewed = null; // the last value previewed
     this.out = false; // whether a message is on its way or its answer being drawn

@@ -1,0 +1,36 @@
+"""Undo, redo and reset of the machine, and what was changed from its preset."""
+
+import streamlit as st
+
+from ui.bearing import FILM, KIND, fields_of
+from ui.inputs import INPUTS
+from ui.session import Session
+
+
+def draw(visitor: Session) -> None:
+    """Draw the buttons, and name the inputs that differ from the preset's."""
+    changed = visitor.changed()
+    with st.container(horizontal=True, gap="small", key="history"):
+        st.button(
+            "Undo", key="undo", on_click=visitor.undo, disabled=not visitor.history.can_undo,
+            shortcut="Mod+Z", help="Takes back the last change of the machine or its cases.",
+        )  # fmt: skip
+        st.button(
+            "Redo", key="redo", on_click=visitor.redo, disabled=not visitor.history.can_redo,
+            shortcut="Mod+Shift+Z", help="Makes again the change that was undone last.",
+        )  # fmt: skip
+        st.button(
+            "Reset", key="reset", on_click=visitor.set_preset, args=(visitor.preset,),
+            disabled=not changed, help="Back to the preset's machine and speeds.",
+        )  # fmt: skip
+    names = ", ".join(_symbol(key, visitor) for key in changed)
+    st.caption(f"Changed from the preset: {names}." if names else "As the preset.")
+
+
+def _symbol(key: str, visitor: Session) -> str:
+    if key in INPUTS:
+        return INPUTS[key].symbol
+    if key in (KIND, FILM):
+        return key
+    fields = fields_of(visitor.values[KIND])
+    return fields[key].label.lower() if key in fields else key.replace("_", " ")
