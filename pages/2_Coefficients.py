@@ -25,7 +25,7 @@ def content(page: Page) -> None:
         "Why only cross-coupling": only_cross_coupling,
     })  # fmt: skip
     st.subheader("At the running speed", anchor=False)
-    words.show_matrices(page.computed, axes, page.units)
+    words.show_matrices(page.preview, axes)
 
 
 def against_speed(page: Page, axes: Axes) -> None:
@@ -72,7 +72,7 @@ def dimensionless(page: Page, axes: Axes, against: Literal["ε", "σ"]) -> None:
                 alt=f"Dimensionless coefficients {symbol} against {against}, logarithmic.",
                 caption=words.dimensionless_caption(page.computed, symbol, against),
             )
-    words.say_unloaded(page.computed)
+    page.say("unloaded", words.unloaded)
 
 
 def added_mass(page: Page) -> None:
@@ -93,12 +93,12 @@ def added_mass(page: Page) -> None:
             caption="Solid for laminar flow, dotted for bulk flow.",
         )
     with right:
-        words.show_added_mass(page.computed, units)
+        words.show_added_mass(page.preview)
 
 
 def only_cross_coupling(page: Page) -> None:
     units = page.units
-    if words.say_other_centre(page.computed, units):
+    if words.say_other_centre(page.preview):
         return
     left, right = st.columns(2)
     with left:
@@ -114,7 +114,7 @@ def only_cross_coupling(page: Page) -> None:
             ),
         )
     with right:
-        words.show_centred(page.computed, units)
+        words.show_centred(page.preview)
 
 
 show(

@@ -4,6 +4,7 @@ from rotorcalc import whirl_energy
 from rotorcalc.figures import design as what_if
 from rotorcalc.figures import stability as figures
 from ui.frame.page import Page, show
+from ui.preview import Text
 from ui.words import design
 from ui.words import stability as ask
 from ui.words.citation import cited
@@ -30,8 +31,7 @@ def threshold(page: Page) -> None:
     units = page.units
     if not ask.can_whirl(page.computed):
         return
-    if not ask.crossing(page.computed).closed_form:
-        st.info(ask.BARE)
+    page.say("bare", ask.bare)
     left, right = st.columns(2)
     with left:
         page.chart(
@@ -68,7 +68,7 @@ def figures_of_the_notes(page: Page) -> None:
             lambda c: figures.whirl_ratio(ask.film_figure(c, over_eps)),
             "whirl_ratio",
             alt="Whirl frequency ratio; zero where the film feeds no whirl.",
-            caption=cited(ask.ends_of_whirl(computed), computed, "whirl ratio", rotor="Eq. 5.46"),
+            caption=lambda c: cited(ask.ends_of_whirl(c), c, "whirl ratio", rotor="Eq. 5.46"),
         )
         page.chart(
             lambda c: figures.critical_mass_number(ask.film_figure(c, over_eps)),
@@ -83,9 +83,9 @@ def figures_of_the_notes(page: Page) -> None:
             lambda c: figures.threshold_speed(ask.film_figure(c, over_eps)),
             "threshold_speed",
             alt="Dimensionless threshold speed of a rigid rotor on the bearing.",
-            caption=cited(
-                rf"$p_s = Ω_s\sqrt{{MC/F_o}}${ask.lowest_threshold(computed)}.",
-                computed,
+            caption=lambda c: cited(
+                rf"$p_s = Ω_s\sqrt{{MC/F_o}}${ask.lowest_threshold(c)}.",
+                c,
                 "threshold",
                 rotor="Eq. 5.45",
             ),
@@ -112,7 +112,7 @@ def follower_force(page: Page) -> None:
     if not ask.has_orbit(page.computed):
         return
     units = page.units
-    st.markdown(ask.balance(page.computed, units))
+    page.say("balance", lambda c: Text(ask.balance(c, units)))
     left, right = st.columns([2, 3])
     with left:
         page.chart(
@@ -172,11 +172,15 @@ def remedies(page: Page) -> None:
         vary = design.choose_input("Change", "C", "stability_vary")
     with right:
         target = design.choose_target(computed, units)
-    found, axis = (
-        design.solution(computed, vary, target, units),
-        design.quantity(vary, computed.machine, units),
+    axis = design.quantity(vary, computed.machine, units)
+    page.say(
+        "answer",
+        lambda c: Text(
+            design.answer(
+                design.solution(c, vary, target, units), axis, design.value(c, vary), units
+            )
+        ),
     )
-    st.markdown(design.answer(found, axis, design.value(computed, vary), units))
     page.chart(
         lambda c: what_if.solution(
             design.solution(c, vary, target, units),

@@ -5,6 +5,7 @@ import streamlit as st
 from rotorcalc.figures import modes as figures
 from rotorcalc.figures import root_locus as locus_figures
 from ui.frame.page import Page, show
+from ui.preview import Text
 from ui.words import root_locus as words
 
 
@@ -19,15 +20,15 @@ def content(page: Page) -> None:
 
 
 def plane(page: Page, *, bends: bool) -> None:
-    computed, units = page.computed, page.units
+    units = page.units
     page.chart(
         lambda c: locus_figures.plane(c.locus(bends), onset(c, bends=bends), units),
         "locus",
         alt=words.ALTS["locus"],
-        caption=" ".join([
-            words.caption("locus", computed),
-            words.crossing(computed, onset(computed, bends=bends), units),
-            locus_figures.beyond(computed.locus(bends), units),
+        caption=lambda c: " ".join([
+            words.caption("locus", c),
+            words.crossing(c, onset(c, bends=bends), units),
+            locus_figures.beyond(c.locus(bends), units),
         ]),
     )  # fmt: skip
 
@@ -63,17 +64,17 @@ def against_speed(page: Page, *, bends: bool) -> None:
 def mode_shape(page: Page, *, bends: bool) -> None:
     computed, units = page.computed, page.units
     locus = computed.locus(bends)
-    st.markdown(words.table(locus.here, computed.speed, units))
+    page.say("modes", lambda c: Text(words.table(c.locus(bends).here, c.speed, units)))
     left, right = st.columns([2, 3])
     with left:
-        mode = words.choose_mode(locus.here, locus.leading, units)
+        mode = words.choose_mode(locus)
         spiral = st.toggle("Show growth or decay over three turns", key="locus_spiral")
         st.markdown(words.ABOUT_MODES)
     with right:
         page.chart(
             lambda c: figures.shape(
                 c.locus(bends).here,
-                mode if c is computed else c.locus(bends).leading,
+                words.same_mode(c.locus(bends), None if c is page.baseline else mode),
                 rigid=c.machine.rotor.is_rigid or not bends,
                 spiral=spiral,
             ),

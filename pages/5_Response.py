@@ -4,6 +4,7 @@ import streamlit as st
 
 from rotorcalc.figures import response as draw
 from ui.frame.page import Page, show
+from ui.preview import Text
 from ui.words import response as words
 
 
@@ -11,7 +12,8 @@ def content(page: Page) -> None:
     page.results("disk_amplitude", "journal_amplitude", "disk_peak", "journal_peak")
     if words.say_balanced(page.computed):
         return
-    words.say_limits(page.computed, page.units)
+    page.say("unstable", words.unstable)
+    page.say("wall", lambda c: words.wall(c, page.units))
     page.tabs("response_tabs", {
         "Against speed": against_speed,
         "Orbits": orbits,
@@ -20,7 +22,7 @@ def content(page: Page) -> None:
 
 
 def against_speed(page: Page) -> None:
-    computed, units = page.computed, page.units
+    units = page.units
     shown: Literal["axes", "XY"] = st.segmented_control(
         "Amplitudes of", list(words.SHOWN), format_func=words.SHOWN.__getitem__,
         key="response_shown", default="axes", required=True, persist_state="session",
@@ -31,7 +33,7 @@ def against_speed(page: Page) -> None:
             lambda c: draw.amplitude(c.response, shown, units),
             "amplitude",
             alt="Amplitudes of disk and journal against speed, with peaks and unstable range.",
-            caption=words.amplitude_caption(computed),
+            caption=words.amplitude_caption,
         )
     with right:
         page.chart(
@@ -44,7 +46,7 @@ def against_speed(page: Page) -> None:
 
 
 def orbits(page: Page) -> None:
-    computed, units = page.computed, page.units
+    units = page.units
     left, right = st.columns(2)
     with left:
         page.chart(
@@ -60,7 +62,7 @@ def orbits(page: Page) -> None:
             lambda c: draw.at_running_speed(c.orbits, units),
             "orbits",
             alt="Orbits of disk and journal at the running speed about the same point.",
-            caption=f"Both about equilibrium. {words.senses(computed)} {words.ORBIT_MARKS}",
+            caption=lambda c: f"Both about equilibrium. {words.senses(c)} {words.ORBIT_MARKS}",
         )
     page.chart(
         lambda c: draw.scrubber(c.orbit_steps, c.orbits, units),
@@ -72,12 +74,12 @@ def orbits(page: Page) -> None:
 
 
 def family(page: Page) -> None:
-    computed, units = page.computed, page.units
+    units = page.units
     varied: Literal["damping", "mass"] = st.segmented_control(
         "Vary", list(words.VARIED), format_func=words.VARIED.__getitem__,
         key="response_varied", default="damping", required=True, persist_state="session",
     )  # fmt: skip
-    words.explain_family(computed, varied)
+    page.say("family", lambda c: Text(words.explain_family(c, varied)))
     left, right = st.columns(2)
     with left:
         page.chart(

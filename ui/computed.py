@@ -47,6 +47,7 @@ from rotorcalc.unbalance_curves import (
     response_family,
 )
 from rotorcalc.unbalance_peaks import ResponsePeaks, both_peaks
+from rotorcalc.validity import Check, validity
 from ui.bearing import Values
 from ui.inputs import machine_of, speeds_of
 
@@ -79,6 +80,16 @@ class Computed:
     def point(self) -> Sweep:
         """The machine at its running speed; fields without a leading axis."""
         return analyse(self.machine, self.speed)
+
+    @cached_property
+    def checks(self) -> tuple[Check, ...]:
+        """The model's assumptions, checked at the running speed."""
+        return validity(self.point)
+
+    @property
+    def is_outside(self) -> bool:
+        """Whether the machine lies outside the model's range."""
+        return any(check.worst == "outside" for check in self.checks)
 
     @property
     def sweep(self) -> Sweep:

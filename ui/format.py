@@ -38,6 +38,11 @@ def tex(value: float, unit: str = "") -> str:
     return number + (rf"\ \mathrm{{{words}}}" if unit else "")
 
 
+def display(tex: str) -> str:
+    """Return LaTeX as an equation on lines of its own, Markdown."""
+    return f"$$\n{tex}\n$$"
+
+
 def quoted(word: object) -> str:
     """Return a visitor's input, shortened and without markup."""
     # In backticks Markdown is text; a backtick of the visitor's own would end them.

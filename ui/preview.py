@@ -1,51 +1,106 @@
-"""A preview: a page's content at the value to which an input is being dragged."""
+"""A preview: a page's content at the value to which an input is being dragged.
+
+Whatever on a page depends on the machine is registered here as a function of the machine's results:
+charts, rows of results, and texts. A run of the page draws them by Streamlit; while a slider is
+dragged the same functions answer, and the browser writes over what the run drew.
+"""
 
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Literal, TypeVar
+
+import streamlit as st
 
 from rotorcalc.figures import Chart, themed, with_baseline
 from rotorcalc.units import Units
 from ui.bearing import Values
 from ui.computed import Computed, computed_from
 from ui.inputs import input_named
-from ui.results.row import row_key
-from ui.results.table import RESULTS
 
+T = TypeVar("T")
 Draw = Callable[[Computed], Chart]
+Kind = Literal["markdown", "caption", "success", "info", "warning", "error"]
+
+
+@dataclass(frozen=True)
+class Text:
+    """A text of a page: Markdown, and as what it is shown.
+
+    The browser knows of Markdown what this program uses: paragraphs, lists, tables, bold, code,
+    badges, `:small[…]` and LaTeX.
+    """
+
+    words: str
+    kind: Kind = "markdown"
+
+
+Words = Callable[[Computed], Text | None]
+# A result's number, its change from the pinned machine, and its source.
+Cells = Callable[[Computed], tuple[str, str, str]]
 
 
 @dataclass
 class Preview:
-    """A page as last drawn: its machine, the pinned one, and its charts and results."""
+    """A page as last drawn: its machine, the pinned one, and what it shows of them."""
 
     values: Values
+    computed: Computed
     baseline: Computed | None
     units: Units
     dark: bool
     charts: dict[str, Draw] = field(default_factory=dict)
-    rows: list[tuple[str, ...]] = field(default_factory=list)
+    rows: dict[str, list[Cells]] = field(default_factory=dict)
+    texts: dict[str, Words] = field(default_factory=dict)
+
+    def say(self, key: str, words: Words) -> None:
+        """Show a text that depends on the machine; nothing where it has no words for it."""
+        key = f"said_{key}"
+        self.texts[key] = words
+        text = words(self.computed)
+        with st.container(key=key):
+            if text is None:
+                # Streamlit leaves out an empty container, where the browser could not write.
+                st.html('<span class="unsaid"></span>')
+            else:
+                getattr(st, text.kind)(text.words)
 
     def at(self, name: str, value: str) -> dict[str, Any]:
-        """Return the charts by key, and the texts of each row of results, at an input's value.
+        """Return charts and texts by key, and the texts of each row of results, at a value.
 
-        Raises ValueError where there is no such input, or the value makes no machine.
+        A chart or text that the machine does not give is None. Raises ValueError where there is no
+        such input, or the value makes no machine.
         """
         # The other inputs are those of the page as last drawn, which its charts show beside it.
         computed = computed_from(self.values | {name: input_named(name).taken(value, self.units)})
+        _ = computed.point  # a film may have no answer at the running speed
         return {
-            "charts": {key: self._still(draw, computed) for key, draw in self.charts.items()},
+            "charts": {
+                key: _given(lambda draw=draw: self._still(draw, computed))
+                for key, draw in self.charts.items()
+            },
+            "texts": {
+                key: _given(lambda words=words: vars(words(computed) or Text("")))
+                for key, words in self.texts.items()
+            },
             "rows": {
-                row_key(keys): [RESULTS[key].shown(computed, self.units) for key in keys]
-                for keys in self.rows
+                key: [_given(lambda cell=cell: cell(computed)) for cell in row]
+                for key, row in self.rows.items()
             },
         }
 
     def _still(self, draw: Draw, computed: Computed) -> Chart:
         """Return a chart without its frames: no animation plays while a slider is dragged."""
-        chart = dict(compared(draw, computed, self.baseline))
+        chart = dict(draw(computed))
         chart.pop("frames", None)
         return themed(chart, dark=self.dark)
+
+
+def _given(ask: Callable[[], T]) -> T | None:
+    """Return an answer, None where the machine does not give it."""
+    with suppress(ValueError):
+        return ask()
+    return None
 
 
 def compared(draw: Draw, computed: Computed, baseline: Computed | None) -> Chart:

@@ -3,10 +3,12 @@
 import math
 import re
 
+import numpy as np
 import pytest
 
+import rotorcalc as rc
 from rotorcalc import PRESETS, onset_speed
-from tests.app.session import HOME, faults, move, texts, visit
+from tests.app.session import HOME, NOTES, PAGES, faults, move, texts, visit
 from ui.inputs import PRESET_VALUES
 
 RPM = math.pi / 30
@@ -32,6 +34,33 @@ def test_an_unstable_machine_is_called_so() -> None:
     (verdict,) = at.error
     assert re.match("Unstable at 9000 rpm.*went unstable at 8919 rpm", verdict.value)
     assert not at.success
+
+
+def test_above_the_onset_the_verdict_gives_the_frequency_of_the_unstable_mode() -> None:
+    """The eigenvalues give it: at the onset the whirl is slower."""
+    values = rc.analyse(PRESETS["sheet-1e8"].machine, 10000 * RPM).flexible_eigenvalues
+    unstable = values[np.argmax(values.real)]
+    (verdict,) = visit(HOME, rpm="10000").error
+    assert f"it whirls at {abs(unstable.imag) / RPM:.0f} rpm" in verdict.value
+    assert f"growing at {unstable.real:.4g} 1/s" in verdict.value
+    assert "4468" not in verdict.value
+
+
+def test_outside_the_models_range_there_is_no_verdict_and_numbers_are_in_brackets() -> None:
+    at = visit(HOME, L="5")
+    assert not at.success
+    assert not at.error
+    (verdict,) = at.warning
+    assert verdict.value.startswith("No verdict: the model does not hold for this machine.")
+    assert ":red-badge[The model is outside its range: Imbalance orbit" in verdict.value
+    assert all(re.fullmatch(r"\(.+\)", metric.value) for metric in at.metric)
+    assert all("(" not in metric.value for metric in visit(HOME).metric)
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if page != NOTES])
+def test_every_page_gives_the_same_verdict(page: str) -> None:
+    (verdict,) = [box.value for box in visit(page, rpm="9000").error if "went" in box.value]
+    assert verdict == visit(HOME, rpm="9000").error[0].value
 
 
 def test_the_onset_separates_stable_from_unstable_speeds() -> None:
@@ -60,7 +89,8 @@ def test_a_machine_without_onset_says_so() -> None:
     # A heavily loaded bearing runs above the eccentricity ratio of 0.756, where it cannot whirl.
     at = visit(HOME, load="20000", mu="1", rpm="1000", k="inf", mass="10")
     assert faults(at) == []
-    assert re.match("Stable at 1000 rpm", at.success[0].value)
+    # Its film is thinner than the model allows.
+    assert "stable at 1000 rpm: no speed makes this machine whirl" in at.warning[0].value
 
 
 @pytest.mark.parametrize("preset", PRESETS)

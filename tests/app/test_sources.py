@@ -101,7 +101,8 @@ def test_names_with_an_index_are_typeset(path: str) -> None:
 
 
 def _tex(at: AppTest) -> set[str]:
-    return {element.value for element in at.latex}
+    """Return the equations shown on lines of their own."""
+    return {one.value for one in (*at.latex, *at.markdown) if one.value.startswith(("$$", "\\"))}
 
 
 def test_metrics_have_a_true_minus() -> None:

@@ -13,13 +13,13 @@ from streamlit.delta_generator import DeltaGenerator
 from rotorcalc.units import Units
 from ui.computed import Computed, computed_from
 from ui.frame import baseline, history, sidebar
-from ui.preview import Draw, Preview, compared
+from ui.preview import Draw, Preview, Text, Words, compared
 from ui.results.row import show_results
 from ui.serving import one_at_a_time, version
 from ui.session import session, write_address_bar
 from ui.sharing import popover
 from ui.widgets import chart_key, is_dark, show_chart, show_connection, show_preview
-from ui.words import validity
+from ui.words import validity, verdict
 
 _ICON = str(Path(__file__).with_name("icon.svg"))
 
@@ -37,6 +37,11 @@ _STYLE = """<style>
 .st-key-past {background: light-dark(#F4F6F8, #20262D); padding: 0.3rem 0 0.5rem;}
 .st-key-past, .st-key-history {gap: 0.4rem;}
 .st-key-history kbd {display: none;}
+.st-key-said_verdict .stMarkdownBadge {white-space: normal;}
+.st-key-said_verdict :is(.stAlertContainer, .live-alert) {padding: 0.45rem 0.8rem;}
+[data-testid="stLayoutWrapper"]:has(> [class*="st-key-said_"] .unsaid):not(:has(.live-said)) {
+  display: none;
+}
 .stVerticalBlock[class*="st-key-results_"] {
   display: grid; grid-auto-flow: dense; grid-auto-columns: minmax(0, 1fr); gap: 0 1rem;
 }
@@ -83,11 +88,19 @@ class Page:
     # Whether the content runs with the frame as one.
     whole: bool = False
 
-    def chart(self, draw: Draw, key: str, *, alt: str, caption: str) -> None:
-        """Show a chart of the live machine, the pinned one thin and grey behind it."""
+    def chart(
+        self, draw: Draw, key: str, *, alt: str, caption: str | Callable[[Computed], str]
+    ) -> None:
+        """Show a chart of the live machine, the pinned one thin and grey behind it.
+
+        A caption that depends on the inputs of sliders is a function of the machine's results.
+        """
         show_chart(compared(draw, self.computed, self.baseline), key=key, alt=alt)
-        self.preview.charts[chart_key(key)] = draw
-        st.caption(caption)
+        self.preview.charts[chart_key(key)] = lambda c: compared(draw, c, self.baseline)
+        if isinstance(caption, str):
+            st.caption(caption)
+        else:
+            self.say(f"under_{key}", lambda c: Text(caption(c), "caption"))
 
     def tabs(self, key: str, contents: Mapping[str, Callable[["Page"], object]]) -> None:
         """Show tabs by their labels, of which only the open one's content is drawn."""
@@ -109,8 +122,11 @@ class Page:
 
     def results(self, *keys: str) -> None:
         """Show results in a row, each with its equation and its change from the pinned machine."""
-        show_results(self.computed, self.baseline, self.units, *keys)
-        self.preview.rows.append(keys)
+        show_results(self.preview, *keys)
+
+    def say(self, key: str, words: Words) -> None:
+        """Show a text that depends on the machine."""
+        self.preview.say(key, words)
 
 
 class Places(NamedTuple):
@@ -216,9 +232,11 @@ def _page(places: Places, *, has_preview: bool) -> Page:
             show_preview(None)
         st.error(f"{error}", title=NO_MACHINE)
         st.stop()
-    visitor.preview = Preview(dict(visitor.values), pinned, visitor.units, dark=is_dark())
+    visitor.preview = Preview(dict(visitor.values), computed, pinned, visitor.units, dark=is_dark())
+    units = visitor.units
+    visitor.preview.say("verdict", lambda c: verdict.text(c, units))
     with places.foot:
-        validity.draw(computed)
+        validity.draw(visitor.preview)
         show_preview(visitor.preview if has_preview else None)
     baseline.draw_differences(visitor.units)
     return Page(computed=computed, baseline=pinned, units=visitor.units, preview=visitor.preview)

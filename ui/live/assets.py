@@ -32,6 +32,14 @@ def script(name: str) -> str:
     return _published(*_ours(_HERE / f"{name}.js"))
 
 
+@cache
+def katex() -> str:
+    """Return the address of the KaTeX of Streamlit's own pages, to set equations alike."""
+    (file,) = (Path(st.__file__).parent / "static" / "static" / "js").glob("katex.*.js")
+    base = st.get_option("server.baseUrlPath").strip("/")
+    return f"{base and '/'}{base}/static/js/{file.name}"
+
+
 def module(name: str) -> str:
     """Return a component's JavaScript, which comes with every message: it loads the script here."""
     return (

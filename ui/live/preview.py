@@ -1,6 +1,6 @@
-"""The preview in a browser: charts and numbers at the value of a slider being dragged.
+"""The preview in a browser: what a page shows, at the value of a slider being dragged.
 
-While a slider is dragged the browser requests charts and numbers at the slider's value from
+While a slider is dragged the browser requests charts, numbers and texts at the slider's value from
 `path()`, with the token of the page's session, and draws the answer; Streamlit takes no part, and
 nothing is stored. The value on release comes through Streamlit, by this component: then only the
 fragment that holds it runs, and the sidebar stays as it is.
@@ -32,9 +32,9 @@ class Preview(Protocol):
     """A visitor's page as last drawn."""
 
     def at(self, name: str, value: str) -> dict[str, Any]:
-        """Return {"charts": {key: chart}, "rows": {key: numbers as text}} at one input's value.
+        """Return {"charts": {key: chart}, "texts": {key: text}, "rows": {key: cells}} at a value.
 
-        Raises ValueError where the value is no number, out of range, or gives no valid machine.
+        Raises ValueError, in words for the visitor, where the value gives no valid machine.
         """
         ...
 
@@ -58,6 +58,7 @@ def show(
     common = {
         "address": path(), "token": token, "frame": frame, "echo": echo(),
         "available": preview is not None,
+        "scripts": {"markdown": assets.script("markdown"), "katex": assets.katex()},
     }  # fmt: skip
     # A list: Streamlit would look through a dictionary for data frames, at some cost.
     _component(key=_KEY, data=[common, values], on_moved_change=lambda: taken(_KEY, on_move))
@@ -92,7 +93,7 @@ def _packed(token: str, preview: Preview, name: str, value: str) -> bytes:
     try:
         with one_at_a_time.PAGES.through(token):
             shown = preview.at(name, value)
-    except ValueError:  # reported when the slider is released
-        shown = {"charts": {}, "rows": {}}
+    except ValueError as error:
+        shown = {"charts": {}, "texts": {}, "rows": {}, "refused": f"{error}"}
     # Compressed at the fastest level; Streamlit would use the smallest, ten times slower.
     return gzip.compress(encoded(shown), compresslevel=1, mtime=0)

@@ -75,23 +75,23 @@ _SHEET = "the notes' calculation sheet"
 EQUILIBRIUM: tuple[Result, ...] = (
     Result(
         "viscosity", "Viscosity μ", "viscosity", lambda c: c.machine.viscosity, _SHEET,
-        r"\mu = \mu_R\, e^{-\alpha(T-T_R)}", _viscosity,
+        r"\mu = \mu_R\, e^{-\alpha(T-T_R)}", _viscosity, modelled=False,
     ),
     Result(
         "static_load", "Load per bearing Fₒ", "force", lambda c: c.machine.static_load,
         "Eq. 5.3",
-        r"F_o = M g", _load,
+        r"F_o = M g", _load, modelled=False,
     ),
     Result(
         "static_sag", "Static sag Γ", "film", lambda c: c.machine.static_sag, "Eq. 5.50",
         r"\Gamma = \frac{F_o}{K_{rot}}",
-        _sag,
+        _sag, modelled=False,
     ),
     Result(
         "sommerfeld", "Sommerfeld number σ", "number", lambda c: float(c.point.sommerfeld),
         "Definition",
         r"\sigma = \frac{\mu\Omega L R}{4F_o}\left(\frac{L}{C}\right)^2", _sommerfeld,
-        "The modified one. The classical Sommerfeld number is S = σ(D/L)²/π.",
+        "The modified one. The classical Sommerfeld number is S = σ(D/L)²/π.", modelled=False,
     ),
     Result(
         "eccentricity_ratio", "Eccentricity ratio ε", "number",

@@ -20,7 +20,8 @@ class Result:
 
     `equation` is LaTeX, `number` where it stands in the notes, `filled` its right-hand side with
     this machine's SI values, `remark` what the equation does not say, `nought` words for zero,
-    `unknown` for no number. `source` names the result among those of the film, where another film
+    `unknown` for no number. `modelled` is false of what follows from the inputs without the film's
+    model. `source` names the result among those of the film, where another film
     has another equation; `solved` returns what was solved where that depends on the machine.
     """
 
@@ -34,6 +35,7 @@ class Result:
     remark: str = ""
     nought: Callable[[Computed], str] | None = None
     unknown: str = "none"
+    modelled: bool = True
     source: str = ""
     solved: Callable[[Computed], Source] | None = None
 

@@ -1,9 +1,13 @@
 """Results in a row on a page, each above a popover that explains it."""
 
+from functools import partial
+
 import streamlit as st
 
 from rotorcalc.units import Units
 from ui.computed import Computed
+from ui.format import display
+from ui.preview import Preview, Text
 from ui.results.record import Result
 from ui.results.table import RESULTS
 from ui.words import citation
@@ -14,28 +18,40 @@ def row_key(keys: tuple[str, ...]) -> str:
     return f"results_{keys[0]}"
 
 
-def show_results(computed: Computed, baseline: Computed | None, units: Units, *keys: str) -> None:
+def show_results(preview: Preview, *keys: str) -> None:
     """Show results in a row, each above a popover that explains it.
 
     The page's style lays out the pairs: a column each would be an element more.
     """
-    with st.container(key=row_key(keys)):
+    row = row_key(keys)
+    preview.rows[row] = [partial(_cells, RESULTS[key], preview) for key in keys]
+    with st.container(key=row):
         for key in keys:
             result = RESULTS[key]
-            change = None if baseline is None else result.change(computed, baseline)
+            number, change, source = _cells(result, preview, preview.computed)
             st.metric(
                 result.label,
-                result.shown(computed, units),
-                change,
+                number,
+                change or None,
                 delta_color="off",
                 delta_arrow="off",
             )
-            _explain(result, computed, units)
+            _explain(result, source, preview)
 
 
-def _explain(result: Result, computed: Computed, units: Units) -> None:
+def _cells(result: Result, preview: Preview, computed: Computed) -> tuple[str, str, str]:
+    """Return a result's number, its change from the pinned machine, and its source."""
+    pinned = preview.baseline
+    change = None if pinned is None else result.change(computed, pinned)
     # A column is too narrow for whose calculation sheet it is.
-    label = citation.capital(result.cited(computed).removeprefix("The notes' "))
+    source = citation.capital(result.cited(computed).removeprefix("The notes' "))
+    number = result.shown(computed, preview.units)
+    if result.modelled and computed.is_outside:
+        number = f"({number})"
+    return number, change or "", source
+
+
+def _explain(result: Result, label: str, preview: Preview) -> None:
     opened = st.popover(
         label,
         type="tertiary",
@@ -44,24 +60,30 @@ def _explain(result: Result, computed: Computed, units: Units) -> None:
     )
     if opened.open:
         with opened:
-            own = result.is_own(computed)
-            if not own:
-                _explain_other(result, computed)
-            elif computed.unloaded:
-                st.latex(result.equation)
-                st.caption("Without load: the limit of a vanishing load.")
-            else:
-                st.latex(result.equation)
-                st.latex(f"= {result.filled(computed)}")
-            st.markdown(f"{result.label}: **{result.shown(computed, units)}**")
-            if own and result.remark:
-                st.caption(result.remark)
+            preview.say(
+                f"explain_{result.key}",
+                lambda computed: Text(explanation(result, computed, preview.units)),
+            )
 
 
-def _explain_other(result: Result, computed: Computed) -> None:
-    """Show what was solved where that is not the notes' equation."""
+def explanation(result: Result, computed: Computed, units: Units) -> str:
+    """Return a result's equation with this machine's numbers, Markdown."""
+    own = result.is_own(computed)
+    if not own:
+        lines = [_other(result, computed)]
+    elif computed.unloaded:
+        lines = [display(result.equation), ":small[Without load: the limit of a vanishing load.]"]
+    else:
+        lines = [display(result.equation), display(f"= {result.filled(computed)}")]
+    lines.append(f"{result.label}: **{result.shown(computed, units)}**")
+    if own and result.remark:
+        lines.append(f":small[{result.remark}]")
+    return "\n\n".join(lines)
+
+
+def _other(result: Result, computed: Computed) -> str:
+    """Return what was solved where that is not the notes' equation."""
     origin = result.origin(computed)
     if origin and origin.tex:
-        st.latex(origin.tex)
-    else:
-        st.caption("The model of this bearing's film gives it.")
+        return display(origin.tex)
+    return ":small[The model of this bearing's film gives it.]"

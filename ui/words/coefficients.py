@@ -1,13 +1,16 @@
-"""Texts and matrices of the force coefficients page."""
+"""Texts and matrices of the force coefficients preview."""
+
+from typing import Literal
 
 import numpy as np
 import streamlit as st
 
-from rotorcalc.analysis import Axes, ForceCoefficients
+from rotorcalc.analysis import Axes
 from rotorcalc.coefficients import BULK_FLOW, LAMINAR
 from rotorcalc.units import Unit, Units
 from ui.computed import Computed
-from ui.format import amount, digits, minus, tex
+from ui.format import amount, digits, display, minus, tex
+from ui.preview import Preview, Text
 from ui.words.citation import cited, is_stiff_unloaded, remark, source
 
 FRAMES: dict[Axes, str] = {"XY": "X, Y: along the load", "rt": "r, t: line of centres"}
@@ -16,36 +19,40 @@ _SMALL, _LARGE = 0.01, 0.1
 
 
 def matrix(symbol: str, values: np.ndarray, unit: Unit, axes: Axes = "XY") -> str:
-    """Return the LaTeX of a 2×2 matrix of coefficients: its elements' names and their values."""
+    """Return the equation of a 2×2 matrix of coefficients: its elements' names and values."""
     names = [[rf"{symbol}_{{{row}{column}}}" for column in axes] for row in axes]
     numbers = [[tex(float(value)) for value in row] for row in unit.of(values)]
-    return f"{_bracket(names)}={_bracket(numbers)}{_unit(unit)}"
+    return display(f"{_bracket(names)}={_bracket(numbers)}{_unit(unit)}")
 
 
-def show_matrices(computed: Computed, axes: Axes, units: Units) -> None:
+def show_matrices(preview: Preview, axes: Axes) -> None:
     """Show K, C and k, c at the running speed."""
-    here, film = computed.coefficients_here(axes), computed.film_coefficients_here(axes)
+    units = preview.units
     left, right = st.columns(2)
     with left:
-        st.latex(matrix("K", here.stiffness, units.stiffness, axes))
-        _without_dimensions("k", film, film.stiffness, computed)
+        preview.say("K", lambda c: Text(
+            matrix("K", c.coefficients_here(axes).stiffness, units.stiffness, axes)
+        ))  # fmt: skip
+        preview.say("k", lambda c: _without_dimensions("k", c, axes))
     with right:
-        st.latex(matrix("C", here.damping, units.damping, axes))
-        _without_dimensions("c", film, film.damping, computed)
+        preview.say("C", lambda c: Text(
+            matrix("C", c.coefficients_here(axes).damping, units.damping, axes)
+        ))  # fmt: skip
+        preview.say("c", lambda c: _without_dimensions("c", c, axes))
     words = (
         "K and C per bearing at the running speed, Kᵢⱼ = −∂Fᵢ/∂Xⱼ (Eq. 5.14); "
         "k = KC/Fₒ and c = CΩC/Fₒ (Eq. 5.32)."
     )
-    st.caption(f"{cited(words, computed, axes)} {remark(computed, axes)}")
+    st.caption(f"{cited(words, preview.computed, axes)} {remark(preview.computed, axes)}")
 
 
-def _without_dimensions(
-    symbol: str, film: ForceCoefficients, values: np.ndarray, computed: Computed
-) -> None:
+def _without_dimensions(symbol: Literal["k", "c"], computed: Computed, axes: Axes) -> Text:
     if computed.unloaded:
-        st.caption(f"{symbol} is in units of the load, so it is undefined without load.")
-    else:
-        st.latex(matrix(symbol, values, Unit("-"), film.axes))
+        return Text(
+            f"{symbol} is in units of the load, so it is undefined without load.", "caption"
+        )
+    film = computed.film_coefficients_here(axes)
+    return Text(matrix(symbol, film.stiffness if symbol == "k" else film.damping, Unit("-"), axes))
 
 
 def dimensionless_caption(computed: Computed, symbol: str, against: str) -> str:
@@ -59,34 +66,38 @@ def dimensionless_caption(computed: Computed, symbol: str, against: str) -> str:
     return cited(words, computed, f"over {against}", symbol, rotor=rotor)
 
 
-def say_unloaded(computed: Computed) -> None:
-    """Show why the dimensionless charts have no point without load."""
-    if computed.unloaded:
-        st.info(
-            "Without load σ is infinite, and k and c, which are in units of the load, are "
-            "undefined: the charts show no running speed. K and C against speed do."
-        )
+def unloaded(computed: Computed) -> Text | None:
+    """Return why the dimensionless charts have no point without load."""
+    if not computed.unloaded:
+        return None
+    return Text(
+        "Without load σ is infinite, and k and c, which are in units of the load, are "
+        "undefined: the charts show no running speed. K and C against speed do.",
+        "info",
+    )
 
 
-def say_other_centre(computed: Computed, units: Units) -> bool:
+def say_other_centre(preview: Preview) -> bool:
     """Show the stiffness without load of a film that names no equation for it; return whether."""
-    if source(computed, "centre"):
+    if source(preview.computed, "centre"):
         return False
     st.info(
         "This film has direct stiffness without load: it holds its journal, and cross-coupling is "
         "not alone there. At this machine's speed, its load taken off:"
-        if is_stiff_unloaded(computed)
+        if is_stiff_unloaded(preview.computed)
         else "This film has no direct stiffness without load. At this machine's speed, its load "
         "taken off:"
     )
-    st.latex(matrix("K", computed.centred.stiffness, units.stiffness))
+    preview.say("centred", lambda c: Text(_centred_stiffness(c, preview.units)))
     return True
 
 
-def show_centred(computed: Computed, units: Units) -> None:
+def _centred_stiffness(computed: Computed, units: Units) -> str:
+    return matrix("K", computed.centred.stiffness, units.stiffness)
+
+
+def show_centred(preview: Preview) -> None:
     """Explain why a centred bearing has only cross-coupling, with this machine's numbers."""
-    centred, here = computed.centred, computed.unloading_here
-    unit = units.stiffness
     st.markdown(
         "Push a centred journal aside by a little. The film is now thinner where the journal went, "
         "and the turning surface drags oil towards that place: pressure rises a quarter turn "
@@ -96,17 +107,21 @@ def show_centred(computed: Computed, units: Units) -> None:
         "no pressure rises at all: stiffness and damping cancel, so $K_{XY} = "
         "\\tfrac{\\Omega}{2}C_{XX}$. At this machine's speed, its load taken off:"
     )
-    damping = tex(float(unit.of(centred.whirl_damping[0, 0])))
-    st.latex(matrix("K", centred.stiffness, unit))
-    st.latex(rf"\tfrac{{\Omega}}{{2}}C_{{XX}} = {damping}{_unit(unit)}")
-    st.caption(cited("", computed, "centre"))
-    st.markdown(_distance_from_centre(computed, here.stiffness, units))
+    preview.say("centred", lambda c: Text(_centred(c, preview.units)))
+    st.caption(cited("", preview.computed, "centre"))
+    preview.say("distance", lambda c: Text(_distance_from_centre(c, preview.units)))
 
 
-def _distance_from_centre(computed: Computed, K: np.ndarray, units: Units) -> str:
+def _centred(computed: Computed, units: Units) -> str:
+    damping = tex(float(units.stiffness.of(computed.centred.whirl_damping[0, 0])))
+    half = display(rf"\tfrac{{\Omega}}{{2}}C_{{XX}} = {damping}{_unit(units.stiffness)}")
+    return f"{_centred_stiffness(computed, units)}\n\n{half}"
+
+
+def _distance_from_centre(computed: Computed, units: Units) -> str:
     if computed.unloaded:
         return "This machine has no load: it runs exactly there, in the centre."
-    unit = units.stiffness
+    unit, K = units.stiffness, computed.unloading_here.stiffness
     direct, cross = (minus(digits(float(unit.of(K[place])))) for place in ((0, 0), (0, 1)))
     return (
         f"Under its load it runs at ε = {digits(float(computed.point.eccentricity_ratio))}, with "
@@ -124,20 +139,31 @@ def knows_added_mass(computed: Computed) -> bool:
     return True
 
 
-def show_added_mass(computed: Computed, units: Units) -> None:
+def show_added_mass(preview: Preview) -> None:
     """Show the film's added mass, its assumptions, and whether it matters."""
+    units = preview.units
+    preview.say("added_mass", lambda c: Text(
+        matrix("M", c.added_mass_here(LAMINAR).mass, units.mass)
+    ))  # fmt: skip
+    st.latex(r"M_{ij} = \alpha_m\frac{\rho R L^3}{12\,C}\,I_{ij}(\varepsilon)")
+    preview.say("added_share", lambda c: Text(_share(c)))
+    preview.say("added_density", lambda c: Text(_assumed(c, units), "caption"))
+
+
+def _share(computed: Computed) -> str:
     laminar, bulk = computed.added_mass_here(LAMINAR), computed.added_mass_here(BULK_FLOW)
     share = float(laminar.to_rotor)
-    st.latex(matrix("M", laminar.mass, units.mass))
-    st.latex(r"M_{ij} = \alpha_m\frac{\rho R L^3}{12\,C}\,I_{ij}(\varepsilon)")
-    density = amount(units.density, computed.machine.oil.density)
-    st.markdown(
+    return (
         f"**{_percent(share)} of half the rotor's mass**: {_verdict(share)} With a flat profile of "
         f"velocity (bulk flow, αₘ = 1) it is {_percent(float(bulk.to_rotor))}. At running speed "
         f"the force of the film's inertia is {_percent(float(laminar.to_damping))} of the force of "
         "its damping."
     )
-    st.caption(
+
+
+def _assumed(computed: Computed, units: Units) -> str:
+    density = amount(units.density, computed.machine.oil.density)
+    return (
         "Assumes laminar flow, αₘ = 6/5, temporal inertia only, the film over half the "
         f"circumference, and the oil's density of {density} (sidebar, Oil). "
         "Definition: Eq. 5.14. The rest of the program neglects added mass, as the notes do."

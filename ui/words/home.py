@@ -4,19 +4,16 @@ import streamlit as st
 
 from rotorcalc import whirl_energy
 from rotorcalc.figures import equilibrium, machine, response, stability, style
+from ui.computed import Computed
 from ui.frame.page import Page, show
+from ui.preview import Text
 from ui.words.citation import cited
 from ui.words.stability import can_whirl, crossing
-from ui.words.verdict import verdict
 
 
 def content(page: Page) -> None:
     """Draw the machine at a glance."""
     units = page.units
-
-    judged = verdict(page.computed, units)
-    (st.success if judged.level == "stable" else st.error)(judged.sentence)
-
     bearing, results = st.columns([2, 3], gap="large")
     with bearing:
         scale = st.segmented_control(
@@ -40,11 +37,7 @@ def content(page: Page) -> None:
         page.results("onset_speed", "whirl_frequency", "margin", "damping_ratio")
         st.caption("Static equilibrium")
         page.results("eccentricity_ratio", "attitude_angle", "minimum_film_thickness", "power_loss")
-        st.caption(
-            "Imbalance response"
-            if page.computed.is_stable
-            else "Imbalance response, if it were stable"
-        )
+        page.say("imbalance", _heading)
         page.results("disk_amplitude", "journal_amplitude", "disk_peak", "journal_peak")
 
     locus, threshold, swing = st.columns(3)
@@ -68,6 +61,11 @@ def content(page: Page) -> None:
             caption="Amplitudes of disk and journals. Eq. 5.38.",
         )
         st.page_link("pages/5_Response.py", label="Imbalance response")
+
+
+def _heading(computed: Computed) -> Text:
+    unstable = "" if computed.is_stable else ", if it were stable"
+    return Text(f"Imbalance response{unstable}", "caption")
 
 
 def _threshold(page: Page) -> None:

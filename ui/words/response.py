@@ -10,6 +10,7 @@ from rotorcalc.unbalance_curves import damping_variants, journal_mass_variants
 from rotorcalc.units import Units
 from ui.computed import Computed
 from ui.format import digits
+from ui.preview import Text
 
 SHOWN: dict[Literal["axes", "XY"], str] = {"axes": "Orbit's axes", "XY": "X and Y"}
 VARIED: dict[Literal["damping", "mass"], str] = {
@@ -37,21 +38,29 @@ def say_balanced(computed: Computed) -> bool:
     return balanced
 
 
-def say_limits(computed: Computed, units: Units) -> None:
-    """Warn where the response shown would not occur."""
-    if not computed.is_stable:
-        st.error(
-            "The machine is unstable at its running speed: it whirls with growing amplitude, and "
-            "the steady response shown there would not last."
-        )
+def unstable(computed: Computed) -> Text | None:
+    """Return that the response shown would not last, where it would not."""
+    if computed.is_stable:
+        return None
+    return Text(
+        "The machine is unstable at its running speed: it whirls with growing amplitude, and "
+        "the steady response shown there would not last.",
+        "error",
+    )
+
+
+def wall(computed: Computed, units: Units) -> Text | None:
+    """Return by how much the journal would move into the wall, where it would."""
     closest = computed.clearance_orbit.closest
-    if closest <= 0.0:
-        C = float(units.film.of(computed.machine.bearing.radial_clearance))
-        st.warning(
-            f"By this linear theory the journal would move {digits(-closest * C)} "
-            f"{units.film.name} into the wall; the clearance is {digits(C)} {units.film.name}. "
-            "The film stiffens well before that: the orbit is then a warning, not an amplitude."
-        )
+    if closest > 0.0:
+        return None
+    C = float(units.film.of(computed.machine.bearing.radial_clearance))
+    return Text(
+        f"By this linear theory the journal would move {digits(-closest * C)} "
+        f"{units.film.name} into the wall; the clearance is {digits(C)} {units.film.name}. "
+        "The film stiffens well before that: the orbit is then a warning, not an amplitude.",
+        "warning",
+    )
 
 
 def amplitude_caption(computed: Computed) -> str:
@@ -79,8 +88,8 @@ def senses(computed: Computed) -> str:
     return f"The disk whirls {disk}, the journal {journal}."
 
 
-def explain_family(computed: Computed, varied: Literal["damping", "mass"]) -> None:
-    """Show what the family's lines are."""
+def explain_family(computed: Computed, varied: Literal["damping", "mass"]) -> str:
+    """Return what the family's lines are."""
     rotor = computed.machine.rotor
     if varied == "damping":
         shares = (
@@ -88,12 +97,11 @@ def explain_family(computed: Computed, varied: Literal["damping", "mass"]) -> No
             if rotor.is_rigid
             else "the critical damping of the disk on its shaft, 2√(Kᵣₒₜ M)"
         )
-        st.markdown(
+        return (
             "The thickest line is this machine, the others the same with midspan damping of "
             f"0, 5, 10, 20 and 50 % of {shares}. Dotted where the machine is unstable."
         )
-        return
-    st.markdown(
+    return (
         "The thickest line is this machine, the others the same with 0, 5, 10, 20 and 40 % of half "
         "the rotor's mass moved from the disk to each journal. Dotted where the machine is "
         "unstable. The imbalance is the disk's, so a lighter disk is also excited less."

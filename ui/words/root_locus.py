@@ -8,6 +8,7 @@ from rotorcalc import modes
 from rotorcalc.arrays import ComplexArray
 from rotorcalc.modes import ModeShapes
 from rotorcalc.onset import Onset
+from rotorcalc.root_locus import Locus
 from rotorcalc.unbalance_response import orbit_ellipse
 from rotorcalc.units import Units
 from ui.computed import Computed
@@ -104,15 +105,21 @@ def crossing(computed: Computed, onset: Onset, units: Units) -> str:
     )
 
 
-def choose_mode(here: ModeShapes, leading: int, units: Units) -> int:
-    """Show the choice of a mode; return its index."""
-    names = [
-        f"{i + 1}: {_frequency(complex(value), units)}" for i, value in enumerate(here.eigenvalues)
-    ]
+def choose_mode(locus: Locus) -> int:
+    """Show the choice of a mode, by its number in the table; return its index."""
     chosen = st.selectbox(
-        "Mode", range(len(names)), index=leading, format_func=lambda i: names[i], key="locus_mode"
+        "Mode",
+        range(len(locus.here.eigenvalues)),
+        index=locus.leading,
+        format_func=lambda i: f"{i + 1}",
+        key="locus_mode",
     )
-    return leading if chosen is None else chosen
+    return locus.leading if chosen is None else chosen
+
+
+def same_mode(locus: Locus, mode: int | None) -> int:
+    """Return a mode's index in another locus: the least damped one's where it has no such mode."""
+    return locus.leading if mode is None or mode >= len(locus.here.eigenvalues) else mode
 
 
 def table(here: ModeShapes, speed: float, units: Units) -> str:
@@ -154,9 +161,3 @@ def _direction(phasors: ComplexArray) -> str:
     if math.isnan(roundness) or abs(roundness) < 0.005:
         return "along a line"
     return f"{'forward' if roundness > 0 else 'backward'}, {abs(roundness):.2f}"
-
-
-def _frequency(value: complex, units: Units) -> str:
-    if value.imag <= 0.0:
-        return "does not oscillate"
-    return f"{float(units.speed.of(value.imag)):.0f} {units.speed.name}"

@@ -15,6 +15,7 @@ from rotorcalc.onset import closed_form
 from rotorcalc.units import Units
 from ui.computed import Computed
 from ui.format import amount
+from ui.preview import Text
 from ui.words.citation import capital, without_load
 
 BARE = (
@@ -72,6 +73,11 @@ def lowest_threshold(computed: Computed) -> str:
     """Return in words at which eccentricity the bearing's threshold speed is lowest."""
     eps = whirl_energy.lowest_threshold(computed.machine.bearing)
     return "" if math.isnan(eps) else f", lowest at ε = {eps:.3f}"
+
+
+def bare(computed: Computed) -> Text | None:
+    """Return that the closed forms drawn do not give the onset, where they do not."""
+    return None if crossing(computed).closed_form else Text(BARE, "info")
 
 
 def can_whirl(computed: Computed) -> bool:

@@ -2,32 +2,45 @@
 
 import streamlit as st
 
-from rotorcalc.validity import Check, validity
+from rotorcalc.validity import Check
 from ui.computed import Computed
 from ui.format import digits
+from ui.preview import Preview, Text
 
 _BADGES = {"good": "green", "caution": "orange", "outside": "red"}
 _FILM = ":small[Film: {}, laminar, isoviscous, aligned, rigid walls. Orbits: small.]"
 WORDS = {"good": "holds", "caution": "strained", "outside": "outside"}
 
 
-def draw(computed: Computed) -> None:
-    """Show each assumption with its number and limits; the headline tells the worst."""
-    checks = validity(computed.point)
-    worst = max(checks, key=lambda check: list(_BADGES).index(check.worst))
-    strained = [check for check in checks if check.worst != "good"]
-    headline = (
-        "The model holds" if not strained else f"The model is {WORDS[worst.worst]}: {worst.name}"
-    )
-    with st.expander(headline, expanded=False, key="validity", icon=_icon(worst)):
-        st.markdown(
-            "\n\n".join([*map(_line, checks), _FILM.format(computed.machine.bearing.model)])
-        )
+def worst(computed: Computed) -> Check:
+    """Return the assumption that a machine satisfies worst at its running speed."""
+    return max(computed.checks, key=lambda check: list(_BADGES).index(check.worst))
 
 
-def _icon(worst: Check) -> str:
-    icons = {"good": "check_circle", "caution": "warning", "outside": "error"}
-    return f":material/{icons[worst.worst]}:"
+def headline(computed: Computed) -> str:
+    """Return the worst of the assumptions in a few words."""
+    check = worst(computed)
+    if check.worst == "good":
+        return "The model holds"
+    state = "strained" if check.worst == "caution" else "outside its range"
+    return f"The model is {state}: {check.name}"
+
+
+def badge(computed: Computed) -> str:
+    """Return the headline in its colour, Markdown."""
+    return f":{_BADGES[worst(computed).worst]}-badge[{headline(computed)}]"
+
+
+def panel(computed: Computed) -> Text:
+    """Return each assumption with its number and limits."""
+    lines = map(_line, computed.checks)
+    return Text("\n\n".join([*lines, _FILM.format(computed.machine.bearing.model)]))
+
+
+def draw(preview: Preview) -> None:
+    """Show all assumptions in an expander; the worst of them stands with the verdict."""
+    with st.expander("Where the model holds", expanded=False, key="validity"):
+        preview.say("assumptions", panel)
 
 
 def _line(check: Check) -> str:

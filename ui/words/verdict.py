@@ -1,4 +1,4 @@
-"""One sentence: whether the machine is stable, its onset speed, and its whirl frequency there."""
+"""One sentence: whether the machine is stable, its onset speed, and how it whirls."""
 
 import math
 from dataclasses import dataclass
@@ -7,29 +7,55 @@ from typing import Literal
 from rotorcalc.units import Units
 from ui.computed import Computed
 from ui.format import amount, digits
+from ui.preview import Text
+from ui.results.stability import leading
+from ui.words import validity
 from ui.words.citation import without_load
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """A sentence and its level."""
+    """A sentence and its level: "outside" where the model does not hold for the machine."""
 
-    level: Literal["stable", "unstable"]
+    level: Literal["stable", "unstable", "outside"]
     sentence: str
+
+
+_SHOWN_AS = {"stable": "success", "unstable": "error", "outside": "warning"}
+
+
+def text(computed: Computed, units: Units) -> Text:
+    """Return the verdict as a page shows it, with the headline of the model's assumptions."""
+    judged = verdict(computed, units)
+    return Text(f"{judged.sentence} {validity.badge(computed)}", _SHOWN_AS[judged.level])
 
 
 def verdict(computed: Computed, units: Units) -> Verdict:
     """Return the verdict on a machine at its running speed."""
+    level = "stable" if computed.is_stable else "unstable"
+    sentence = _sentence(computed, units)
+    if not computed.is_outside:
+        return Verdict(level, sentence)
+    return Verdict(
+        "outside",
+        "No verdict: the model does not hold for this machine. By the model it is "
+        f"{_lower(sentence)} Numbers in brackets are not to be trusted.",
+    )
+
+
+def _lower(text: str) -> str:
+    return text[:1].lower() + text[1:]
+
+
+def _sentence(computed: Computed, units: Units) -> str:
     running = amount(units.speed, computed.speed)
     if computed.is_stable:
-        return Verdict("stable", f"Stable at {running}: {_outlook(computed, units)}")
+        return f"Stable at {running}: {_outlook(computed, units)}"
     if computed.onset.speed == 0.0:
-        return Verdict(
-            "unstable",
-            f"Unstable at {running}: {without_load(computed)}, and the machine whirls at any "
-            "speed.",
+        return (
+            f"Unstable at {running}: {without_load(computed)}, and the machine whirls at any speed."
         )
-    return Verdict("unstable", f"Unstable at {running}: {_past(computed, units)}")
+    return f"Unstable at {running}: {_past(computed, units)}"
 
 
 def _outlook(computed: Computed, units: Units) -> str:
@@ -47,17 +73,29 @@ def _outlook(computed: Computed, units: Units) -> str:
 
 
 def _past(computed: Computed, units: Units) -> str:
-    onset = computed.onset
-    excess = (1.0 - onset.speed / computed.speed) * 100.0
-    where = f"{amount(units.speed, onset.speed)}, {digits(excess)} % below"
-    return f"it went unstable at {where}, {_whirl(computed, units)}."
+    onset, growing = computed.onset, leading(computed)
+    now = f"{_growing(computed, growing, units)}; " if growing.real > 0.0 else ""
+    if math.isinf(onset.speed):
+        return f"{now}no onset was found."
+    below = digits((1.0 - onset.speed / computed.speed) * 100.0)
+    return f"{now}it went unstable at {amount(units.speed, onset.speed)}, {below} % below."
+
+
+def _growing(computed: Computed, value: complex, units: Units) -> str:
+    """Return how the unstable mode whirls, which is not as the machine whirls at its onset."""
+    return (
+        f"it whirls at {_frequency(value.imag, units)}, {value.imag / computed.speed:.3f} of the "
+        f"running speed, growing at {amount(units.growth, value.real)}"
+    )
 
 
 def _whirl(computed: Computed, units: Units) -> str:
     onset = computed.onset
-    frequency = amount(units.frequency, onset.whirl_frequency)
     ratio = onset.whirl_frequency / onset.speed if onset.speed > 0.0 else math.nan
     return (
-        f"and then whirls at {amount(units.speed, onset.whirl_frequency)} "
-        f"({frequency}), {ratio:.3f} of that speed"
+        f"and then whirls at {_frequency(onset.whirl_frequency, units)}, {ratio:.3f} of that speed"
     )
+
+
+def _frequency(value: float, units: Units) -> str:
+    return f"{amount(units.speed, value)} ({amount(units.frequency, value)})"
