@@ -85,12 +85,11 @@ def test_a_rigid_shaft_has_the_rigid_rotors_onset() -> None:
     assert faults(at) == []
 
 
-def test_a_machine_without_onset_says_so() -> None:
+def test_a_film_thinner_than_the_model_allows_gets_no_verdict() -> None:
     # A heavily loaded bearing runs above the eccentricity ratio of 0.756, where it cannot whirl.
     at = visit(HOME, load="20000", mu="1", rpm="1000", k="inf", mass="10")
     assert faults(at) == []
-    # Its film is thinner than the model allows.
-    assert "stable at 1000 rpm: no speed makes this machine whirl" in at.warning[0].value
+    assert re.match("No verdict.*stable at 1000 rpm", at.warning[0].value)
 
 
 @pytest.mark.parametrize("preset", PRESETS)

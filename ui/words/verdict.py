@@ -7,7 +7,7 @@ from typing import Literal
 from rotorcalc.units import Units
 from ui.computed import Computed
 from ui.format import amount, digits
-from ui.preview import Text
+from ui.preview import Kind, Text
 from ui.results.stability import leading
 from ui.words import validity
 from ui.words.citation import without_load
@@ -21,7 +21,7 @@ class Verdict:
     sentence: str
 
 
-_SHOWN_AS = {"stable": "success", "unstable": "error", "outside": "warning"}
+_SHOWN_AS: dict[str, Kind] = {"stable": "success", "unstable": "error", "outside": "warning"}
 
 
 def text(computed: Computed, units: Units) -> Text:
