@@ -11,7 +11,7 @@ from ui.words.citation import cited
 
 
 def content(page: Page) -> None:
-    page.results("onset_speed", "whirl_frequency", "margin", "critical_mass", "whirl_ratio")
+    page.results("onset_speed", "whirl_frequency", "margin", "critical_mass", "onset_ratio")
     page.tabs("stability_tab", {
         "Threshold": threshold,
         "Figures of the notes": figures_of_the_notes,

@@ -8,12 +8,13 @@ Source: San Andrés, Notes 5, Eqs. 5.14, 5.45 to 5.50 and Appendix A.
 """
 
 import functools
+import itertools
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import minimize_scalar
+from scipy.optimize import brentq, minimize_scalar
 
 from rotorcalc import modes
 from rotorcalc.analysis import FilmCurves, Sweep, film_curves
@@ -27,6 +28,8 @@ from rotorcalc.onset import Onset
 from rotorcalc.onset.whirl import flexible_threshold
 
 _I = np.eye(2)
+# Over the disk's own mass: up to these its critical mass is sought, and down to their inverses.
+_FACTORS = np.geomspace(1.0, 1e4, 24)
 _CIRCLE: ComplexArray = np.array([1.0, -1.0j])  # turns forward
 
 
@@ -134,6 +137,60 @@ def thresholds(sweep: Sweep) -> Thresholds:
         flexible_mass_ratio=flexible_threshold(ratio, K_eq, 1.0 / rotor.shaft_stiffness) ** 2,
         rigid_mass_ratio=ratio**2,
     )
+
+
+@checked
+def critical_mass(point: Sweep) -> float:
+    """Return the mass per bearing with which a machine would be at its onset at a speed.
+
+    Its load, shaft, midspan damping and journal mass stay as they are: of a flexible machine it is
+    below the rigid rotor's M_c of Eq. 5.45, and at an onset it is the machine's own.
+
+    Parameters
+    ----------
+    point : Sweep
+        The machine at one speed.
+
+    Returns
+    -------
+    float
+        M_c, disk and journal [kg]; infinite where no heavier disk makes it unstable, NaN where no
+        lighter one makes it stable, or where the film depends on the whirl's frequency.
+
+    Notes
+    -----
+    Undamped, the film balances the rotor at the film's own whirl ratio: with X = (ω̄Ω)²,
+    m_d = K_rot (K_eq − M_j X)/(X (K_rot + K_eq − M_j X)), which for massless journals is Eq. 5.50.
+    With midspan damping it is the mass nearest to the machine's own at which max Re λ = 0.
+    """
+    rotor = point.machine.rotor
+    if film_of(point.machine.bearing).frequency_dependent:
+        return math.nan
+    if rotor.disk_damping > 0.0:
+        return _damped_critical_mass(point)
+    X = float(point.whirl_ratio * point.speed) ** 2
+    if X == 0.0:
+        return math.inf
+    journal = 0.0 if rotor.is_rigid else rotor.journal_mass  # a rigid rotor moves as one
+    K = float(point.equivalent_stiffness) - journal * X
+    return journal + K / X / (1.0 + K / rotor.shaft_stiffness) if K > 0.0 else math.nan
+
+
+def _damped_critical_mass(point: Sweep) -> float:
+    rotor = point.machine.rotor
+
+    def growth(disk: float) -> float:
+        heavier = replace(rotor, mass=2.0 * (disk + rotor.journal_mass))
+        return float(np.max(modes.eigenvalues(heavier, point.stiffness, point.damping).real))
+
+    own = rotor.half_mass - rotor.journal_mass
+    stable = growth(own) <= 0.0
+    # A stable machine's is above its own mass, an unstable one's below.
+    disks = own * (_FACTORS if stable else 1.0 / _FACTORS)
+    for near, far in itertools.pairwise(disks):
+        if (growth(far) <= 0.0) != stable:
+            return brentq(growth, near, far) + rotor.journal_mass
+    return math.inf if stable else math.nan
 
 
 @checked

@@ -161,6 +161,30 @@ def test_thresholds_meet_the_speed_at_the_onset(key: str) -> None:
         assert ratio == pytest.approx(1.0, rel=1e-9)
 
 
+@pytest.mark.parametrize("key", MACHINES)
+@pytest.mark.parametrize("speed", [300.0, 900.0])
+def test_at_its_critical_mass_a_machine_is_neutral_on_the_film_as_it_is(
+    key: str, speed: float
+) -> None:
+    machine = MACHINES[key]
+    critical = whirl_energy.critical_mass(analyse(machine, speed))
+    for factor in (0.99, 1.0, 1.01):
+        rotor = replace(machine.rotor, mass=2.0 * critical * factor)
+        heavier = replace(machine, rotor=rotor, load=machine.static_load)
+        values = analyse(heavier, speed).flexible_eigenvalues
+        growth = values.real.max() / abs(values[np.argmax(values.real)])
+        assert (
+            growth == pytest.approx(0.0, abs=1e-9) if factor == 1.0 else growth * (factor - 1) > 0
+        )
+
+
+def test_at_the_onset_the_critical_mass_is_the_machines_own() -> None:
+    for machine in MACHINES.values():
+        there = analyse(machine, onset_speed(machine).speed)
+        own = whirl_energy.critical_mass(there)
+        assert own == pytest.approx(machine.rotor.half_mass, rel=1e-8)
+
+
 def test_whirl_frequency_is_the_whirl_ratio_times_the_threshold() -> None:
     sweep = analyse(SHEET, np.geomspace(50.0, 3000.0, 40))
     over = whirl_energy.thresholds(sweep)

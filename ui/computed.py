@@ -18,6 +18,7 @@ from rotorcalc import (
     film_curves,
     modes,
     onset_speed,
+    whirl_energy,
 )
 from rotorcalc.analysis import Axes, FilmCurves, ForceCoefficients, force_coefficients
 from rotorcalc.arrays import Array, ComplexArray
@@ -157,6 +158,11 @@ class Computed:
     def branches(self) -> ComplexArray:
         """Eigenvalues of the rotor over the sweep, one column per mode."""
         return _branches(self.machine, self.top_speed, True)
+
+    @cached_property
+    def critical_mass(self) -> float:
+        """Mass per bearing with which the machine would be at its onset at the running speed."""
+        return whirl_energy.critical_mass(self.point)
 
     def locus(self, flexible: bool) -> Locus:
         """Return the root locus over the sweep, and the modes at the running speed."""

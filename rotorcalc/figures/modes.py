@@ -46,7 +46,7 @@ def frequency(shown: OverSpeed) -> Chart:
     """Return the damped frequencies over speed, with 1× and ½× the running speed."""
     locus, units = shown.locus, shown.units
     y = style.axis(
-        titled("Whirl frequency", "ω<sub>d</sub>", units.speed.name), 0.0, window(locus, units)[2]
+        titled("Mode frequency", "ω<sub>d</sub>", units.speed.name), 0.0, window(locus, units)[2]
     )
     orders = [
         _guide(shown, locus.speed, "1× speed", "dot"),

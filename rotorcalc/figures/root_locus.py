@@ -42,7 +42,7 @@ def plane(locus: Locus, onset: Onset, units: Units) -> Chart:
     """
     left, right, top = window(locus, units)
     x = style.axis(titled("Growth rate", "Re λ", units.growth.name), -left, right)
-    y = style.axis(titled("Whirl frequency", "Im λ", units.speed.name), 0.0, top)
+    y = style.axis(titled("Mode frequency", "Im λ", units.speed.name), 0.0, top)
     here = locus.here.eigenvalues
     speeds, steps, active = _steps(locus, x, units)
     traces = [

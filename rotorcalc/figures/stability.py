@@ -76,7 +76,7 @@ def threshold(over: Thresholds, here: Thresholds, crossing: Crossing, units: Uni
     speed, x = unit.of(over.speed), _speed_axis(over, unit)
     top, now = _high(x), float(unit.of(here.flexible))
     y = style.axis(
-        titled("Threshold speed", "Ω<sub>s</sub>", unit.name),
+        titled("Threshold speed", "Ω<sub>s</sub>, Ω<sub>sf</sub>", unit.name),
         0.0,
         style.ceiling([1.2 * top, *_shown([now, *unit.of(over.rigid[-1:])], 4.0 * top)]),
     )
@@ -99,7 +99,7 @@ def whirl_frequency(over: Thresholds, here: Thresholds, crossing: Crossing, unit
     speed, x = unit.of(over.speed), _speed_axis(over, unit)
     top, now = _high(x), float(unit.of(here.flexible_frequency))
     y = style.axis(
-        titled("Whirl frequency", "ω<sub>s</sub>", unit.name),
+        titled("Whirl frequency at the threshold", "ω<sub>s</sub>", unit.name),
         0.0,
         style.ceiling([0.6 * top, *_shown([now, *unit.of(over.rigid_frequency[-1:])], 4.0 * top)]),
     )

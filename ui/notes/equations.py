@@ -203,3 +203,11 @@ EQUATIONS: dict[str, tuple[Equation, ...]] = {
         ),
     ),
 }  # fmt: skip
+
+
+def equation(number: str) -> str:
+    """Return the LaTeX of a numbered equation, as "5.50"."""
+    return next(
+        item.latex for group in EQUATIONS.values() for item in group
+        if number in item.number.split(", ")
+    )  # fmt: skip

@@ -4,6 +4,7 @@ import math
 
 from ui.computed import Computed
 from ui.format import tex
+from ui.notes.equations import equation
 from ui.results.record import Result
 
 
@@ -85,7 +86,7 @@ EQUILIBRIUM: tuple[Result, ...] = (
     Result(
         "static_sag", "Static sag Γ", "film", lambda c: c.machine.static_sag, "Eq. 5.50",
         r"\Gamma = \frac{F_o}{K_{rot}}",
-        _sag, modelled=False,
+        _sag, modelled=False, cites=equation("5.50"),
     ),
     Result(
         "sommerfeld", "Sommerfeld number σ", "number", lambda c: float(c.point.sommerfeld),

@@ -18,7 +18,8 @@ from ui.words import citation
 class Result:
     """A number that pages show.
 
-    `equation` is LaTeX, `number` where it stands in the notes, `filled` its right-hand side with
+    `equation` is LaTeX, `number` where it stands in the notes, `cites` that equation of the notes
+    where `equation` follows from it, `filled` its right-hand side with
     this machine's SI values, `remark` what the equation does not say, `nought` words for zero,
     `unknown` for no number. `modelled` is false of what follows from the inputs without the film's
     model. `source` names the result among those of the film, where another film
@@ -36,6 +37,7 @@ class Result:
     nought: Callable[[Computed], str] | None = None
     unknown: str = "none"
     modelled: bool = True
+    cites: str = ""
     source: str = ""
     solved: Callable[[Computed], Source] | None = None
 

@@ -7,6 +7,7 @@ import numpy as np
 from rotorcalc.unbalance_peaks import ResponsePeaks
 from rotorcalc.unbalance_response import orbit_ellipse
 from ui.format import tex
+from ui.notes.equations import equation
 from ui.results.record import Result
 
 
@@ -25,28 +26,31 @@ def _circles(response: np.ndarray) -> str:
     return f"{tex(abs(forward))} + {tex(abs(backward))} = {tex(size, 'm')}"
 
 
+_MOTION = equation("5.38")
 RESPONSE: tuple[Result, ...] = (
     Result(
         "disk_amplitude", "Disk orbit", "film",
         lambda c: _orbit(c.point.disk_response)[2], "Eq. 5.38", r"a = |f| + |b|",
         lambda c: _circles(c.point.disk_response),
         "Semi-major axis; f and b are the orbit's forward and backward circles, (X ± jY)/2.",
+        cites=_MOTION,
     ),
     Result(
         "journal_amplitude", "Journal orbit", "film",
         lambda c: _orbit(c.point.journal_response)[2], "Eq. 5.38", r"a = |f| + |b|",
         lambda c: _circles(c.point.journal_response),
         "Semi-major axis; f and b are the orbit's forward and backward circles, (X ± jY)/2.",
+        cites=_MOTION,
     ),
     Result(
         "disk_peak", "Disk peaks at", "speed", lambda c: _highest(c.disk_peaks),
         "Eq. 5.38", r"\frac{da}{d\Omega} = 0", lambda c: tex(_highest(c.disk_peaks), "rad/s"),
-        "Up to the top speed.",
+        "Up to the top speed.", cites=_MOTION,
     ),
     Result(
         "journal_peak", "Journal peaks at", "speed",
         lambda c: _highest(c.journal_peaks), "Eq. 5.38", r"\frac{da}{d\Omega} = 0",
         lambda c: tex(_highest(c.journal_peaks), "rad/s"),
-        "Its highest peak up to the top speed.",
+        "Its highest peak up to the top speed.", cites=_MOTION,
     ),
 )  # fmt: skip

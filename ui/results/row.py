@@ -68,13 +68,17 @@ def _explain(result: Result, label: str, preview: Preview) -> None:
 
 def explanation(result: Result, computed: Computed, units: Units) -> str:
     """Return a result's equation with this machine's numbers, Markdown."""
-    own = result.is_own(computed)
+    own, cited = result.is_own(computed), [display(result.cites)] if result.cites else []
     if not own:
         lines = [_other(result, computed)]
     elif computed.unloaded:
-        lines = [display(result.equation), ":small[Without load: the limit of a vanishing load.]"]
+        lines = [
+            *cited,
+            display(result.equation),
+            ":small[Without load: the limit of a vanishing load.]",
+        ]
     else:
-        lines = [display(result.equation), display(f"= {result.filled(computed)}")]
+        lines = [*cited, display(result.equation), display(f"= {result.filled(computed)}")]
     lines.append(f"{result.label}: **{result.shown(computed, units)}**")
     if own and result.remark:
         lines.append(f":small[{result.remark}]")

@@ -5,10 +5,12 @@ import math
 import numpy as np
 
 from rotorcalc import analyse, modes
+from rotorcalc.films import film_of
 from rotorcalc.films.model import Source
 from rotorcalc.onset import closed_form
 from ui.computed import Computed
 from ui.format import tex
+from ui.notes.equations import equation
 from ui.results.record import Result
 from ui.words.citation import whirl_without_load
 
@@ -39,6 +41,14 @@ def _ratio(computed: Computed) -> str:
 
 
 def _critical_mass(computed: Computed) -> str:
+    p, k = computed.point, computed.machine.rotor.shaft_stiffness
+    if not math.isfinite(float(p.critical_mass)):
+        return r"\infty\ \text{(no whirl in this equilibrium)}"
+    series = rf"\frac{{1}}{{1+{tex(float(p.equivalent_stiffness))}/{tex(k)}}}"
+    return rf"{tex(float(p.critical_mass))}\cdot {series} = {tex(computed.critical_mass, 'kg')}"
+
+
+def _rigid_critical_mass(computed: Computed) -> str:
     p = computed.point
     if not math.isfinite(float(p.critical_mass)):
         return r"\infty\ \text{(no whirl in this equilibrium)}"
@@ -91,11 +101,23 @@ def _solved(computed: Computed, flexible: bool) -> Source:
     if onset.method == "film":
         return Source("no whirl", r"K_{XY} = K_{YX}")
     if onset.method == "closed form":  # undamped, with a journal mass
-        return Source(
-            "force balance",
-            r"(K_{eq}-M_jX)(K_{rot}-m_dX) = K_{rot}\,m_dX,\quad X = (\bar\omega\,\Omega)^2",
-        )
-    return Source("eigenvalues", r"\max\mathrm{Re}\,\lambda(\Omega) = 0")
+        return Source("force balance", _BALANCE)
+    return Source("eigenvalues", r"\max\mathrm{Re}\,\lambda(\Omega_{on}) = 0")
+
+
+def _solved_mass(computed: Computed) -> Source:
+    """Return what gave the critical mass: the notes' equation, or another."""
+    rotor, film = computed.machine.rotor, film_of(computed.machine.bearing)
+    if rotor.disk_damping > 0.0 or film.frequency_dependent:
+        return Source("eigenvalues", r"\max\mathrm{Re}\,\lambda(M_c) = 0")
+    if rotor.journal_mass > 0.0 and not rotor.is_rigid:
+        return Source("force balance", _BALANCE)
+    return Source(_FLEXIBLE)
+
+
+def _onset_ratio(computed: Computed) -> float:
+    onset = computed.onset
+    return onset.whirl_frequency / onset.speed if 0.0 < onset.speed < math.inf else math.nan
 
 
 def _solved_frequency(computed: Computed) -> Source:
@@ -103,7 +125,7 @@ def _solved_frequency(computed: Computed) -> Source:
     solved = _solved(computed, True)
     if solved.equation == _FLEXIBLE:
         return Source(_RATIO)
-    return Source(solved.equation, r"\omega_s = |\mathrm{Im}\,\lambda|")
+    return Source(solved.equation, r"\omega_{on} = |\mathrm{Im}\,\lambda(\Omega_{on})|")
 
 
 def _whirl(computed: Computed) -> str:
@@ -115,7 +137,9 @@ def _whirl(computed: Computed) -> str:
 
 
 # Where the notes have the threshold of a rigid and of a flexible rotor, and the whirl ratio.
-_RIGID, _FLEXIBLE, _RATIO = "Eq. 5.47", "Eq. 5.50", "Eq. 5.46"
+_RIGID, _FLEXIBLE, _RATIO = "Eq. 5.45", "Eq. 5.50", "Eq. 5.46"
+_CITED = {number: equation(number.removeprefix("Eq. ")) for number in (_RIGID, _FLEXIBLE, _RATIO)}
+_BALANCE = r"(K_{eq}-M_jX)(K_{rot}-m_dX) = K_{rot}\,m_dX,\quad X = (\bar\omega\,\Omega)^2"
 _ONSET_REMARK = "With the equilibrium at the onset speed itself."
 
 STABILITY: tuple[Result, ...] = (
@@ -126,7 +150,7 @@ STABILITY: tuple[Result, ...] = (
         _stiffness,
     ),
     Result(
-        "whirl_ratio", "Whirl ratio ω̄", "number", lambda c: float(c.point.whirl_ratio),
+        "whirl_ratio", "Film's whirl ratio ω̄", "number", lambda c: float(c.point.whirl_ratio),
         _RATIO, r"\bar\omega^2 = \frac{(K_{eq}-K_{XX})(K_{eq}-K_{YY})-K_{XY}K_{YX}}"
         r"{\Omega^2(C_{XX}C_{YY}-C_{XY}C_{YX})}", _ratio,
         "Of the film's synchronous coefficients at this speed's equilibrium, whatever the rotor; 0 "
@@ -134,43 +158,62 @@ STABILITY: tuple[Result, ...] = (
     ),
     Result(
         "critical_mass", "Critical mass per bearing", "mass",
-        lambda c: float(c.point.critical_mass), "Eq. 5.45",
-        r"M_c = \frac{K_{eq}}{(\bar\omega\,\Omega)^2}", _critical_mass,
-        "A rigid rotor with more mass per bearing is unstable at this speed.",
+        lambda c: c.critical_mass, _FLEXIBLE,
+        r"M_c = \frac{K_{eq}}{(\bar\omega\,\Omega)^2}\cdot\frac{1}{1+K_{eq}/K_{rot}}",
+        _critical_mass,
+        "Of this machine, its load, shaft, damping and journal mass kept: with more mass per "
+        "bearing it is unstable at this speed.",
+        cites=_CITED[_FLEXIBLE], solved=_solved_mass,
     ),
     Result(
-        "rigid_threshold", "Threshold, rigid shaft", "speed",
+        "rigid_critical_mass", "Critical mass, rigid rotor", "mass",
+        lambda c: float(c.point.critical_mass), _RIGID,
+        r"M_c = \frac{K_{eq}}{(\bar\omega\,\Omega)^2}", _rigid_critical_mass,
+        "A rigid rotor with more mass per bearing is unstable at this speed.",
+        cites=_CITED[_RIGID],
+    ),
+    Result(
+        "rigid_threshold", "Threshold, rigid rotor", "speed",
         lambda c: float(c.point.rigid_threshold), _RIGID,
         r"\Omega_s = \frac{1}{\bar\omega}\sqrt{\frac{K_{eq}}{M}}", _threshold,
-        "At this speed's equilibrium.",
+        "At this speed's equilibrium.", cites=_CITED[_RIGID],
     ),
     Result(
         "flexible_threshold", "Threshold, flexible shaft", "speed",
         lambda c: float(c.point.flexible_threshold), _FLEXIBLE,
         r"\Omega_{sf} = \frac{\Omega_s}{\sqrt{1+K_{eq}/K_{rot}}}", _flexible,
         "At this speed's equilibrium; without midspan damping and journal mass.",
+        cites=_CITED[_FLEXIBLE],
     ),
     Result(
-        "onset_speed", "Onset of whirl Ωₛ", "speed", lambda c: c.onset.speed, _FLEXIBLE,
-        r"\Omega = \Omega_{sf}(\varepsilon(\Omega))",
+        "onset_speed", "Onset of whirl Ωₒₙ", "speed", lambda c: c.onset.speed, _FLEXIBLE,
+        r"\Omega_{on} = \Omega_{sf}(\varepsilon(\Omega_{on}))",
         lambda c: _onset(c, flexible=True), _ONSET_REMARK, nought=lambda _: "any speed",
-        solved=lambda c: _solved(c, True),
+        cites=_CITED[_FLEXIBLE], solved=lambda c: _solved(c, True),
     ),
     Result(
         "rigid_onset", "Onset if the shaft were rigid", "speed", lambda c: c.rigid_onset.speed,
-        _RIGID, r"\Omega = \Omega_s(\varepsilon(\Omega))",
+        _RIGID, r"\Omega_{on} = \Omega_s(\varepsilon(\Omega_{on}))",
         lambda c: _onset(c, flexible=False), _ONSET_REMARK, nought=lambda _: "any speed",
-        solved=lambda c: _solved(c, False),
+        cites=_CITED[_RIGID], solved=lambda c: _solved(c, False),
     ),
     Result(
-        "whirl_frequency", "Whirl frequency", "speed",
-        lambda c: c.onset.whirl_frequency, _RATIO, r"\omega_s = \bar\omega\,\Omega_s",
-        _whirl, "At the onset. " + _ONSET_REMARK,
-        nought=whirl_without_load, solved=_solved_frequency,
+        "whirl_frequency", "Whirl at onset ωₒₙ", "speed",
+        lambda c: c.onset.whirl_frequency, _RATIO,
+        r"\omega_{on} = \bar\omega\,\Omega_{on}",
+        _whirl, "Whirl frequency of the machine at its onset. " + _ONSET_REMARK,
+        nought=whirl_without_load, cites=_CITED[_RATIO], solved=_solved_frequency,
     ),
     Result(
-        "margin", "Margin to onset", "percent", _margin, "Ωₛ/Ω − 1",
-        r"\frac{\Omega_s}{\Omega}-1",
+        "onset_ratio", "Whirl ratio at onset", "number", _onset_ratio, "ωₒₙ/Ωₒₙ",
+        r"\frac{\omega_{on}}{\Omega_{on}}",
+        lambda c: rf"\frac{{{tex(c.onset.whirl_frequency)}}}{{{tex(c.onset.speed)}}} = "
+        rf"{tex(_onset_ratio(c))}",
+        "Of the machine itself. Without midspan damping it is the film's whirl ratio there.",
+    ),
+    Result(
+        "margin", "Margin to onset", "percent", _margin, "Ωₒₙ/Ω − 1",
+        r"\frac{\Omega_{on}}{\Omega}-1",
         lambda c: rf"\frac{{{tex(c.onset.speed)}}}{{{tex(c.speed)}}}-1 = {tex(_margin(c))}",
     ),
     Result(
@@ -182,9 +225,9 @@ STABILITY: tuple[Result, ...] = (
         "Of the oscillating mode that decays slowest, or grows fastest, at the running speed.",
     ),
     Result(
-        "natural_frequency", "Mode's frequency", "speed",
+        "natural_frequency", "Mode's frequency |Im λ|", "speed",
         lambda c: abs(leading(c).imag), "Im λ", r"\omega_d = |\mathrm{Im}\,\lambda|",
         lambda c: tex(abs(leading(c).imag), "rad/s"),
-        "Frequency of the oscillating mode that decays slowest at the running speed.",
+        "Of the oscillating mode that decays slowest, or grows fastest, at the running speed.",
     ),
 )  # fmt: skip

@@ -207,7 +207,7 @@ def _modes(computed: Computed, units: Units) -> str:
         if value.imag >= 0.0  # else the mirror image of another
     )
     head = _head(
-        "Mode", (f"Whirl frequency [{units.speed.name}]", "n"), ("× speed", "n"),
+        "Mode", (f"Mode frequency [{units.speed.name}]", "n"), ("× speed", "n"),
         (f"Growth rate Re λ [{units.growth.name}]", "n"), ("Damping ratio ζ", "n"),
         ("Log. decrement δ", "n"),
     )  # fmt: skip

@@ -181,7 +181,7 @@ SECTIONS: dict[str, tuple[Figure, ...]] = {
             width=FULL, height=300,
         ),
         Figure("growth", "Growth rate", _of_modes(modes.growth), "Unstable where one is positive."),
-        Figure("frequency", "Whirl frequency", _of_modes(modes.frequency), "Im λ."),
+        Figure("frequency", "Frequencies of the modes", _of_modes(modes.frequency), "Im λ."),
         Figure("ratio", "Damping ratio", _of_modes(modes.damping), "ζ = −Re λ/|λ|."),
         Figure(
             "natural", "Natural frequency",

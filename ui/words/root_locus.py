@@ -19,7 +19,7 @@ ALTS = {
     "locus": "Eigenvalues in the complex plane as the speed rises: left of the imaginary axis a "
     "mode decays, right of it the mode grows. A slider below the chart sets the speed.",
     "growth": "Real part of each eigenvalue against speed; positive is unstable.",
-    "frequency": "Whirl frequency of each mode against speed, with the speed and half of it.",
+    "frequency": "Frequency of each mode against speed, with the speed and half of it.",
     "damping": "Damping ratio of each mode against speed.",
     "natural": "Natural frequency of each mode against speed, beside that of a rigid rotor on the "
     "film and of the shaft alone.",
@@ -127,7 +127,7 @@ def table(here: ModeShapes, speed: float, units: Units) -> str:
     count = len(here.eigenvalues)
     columns = (_column(here, i, speed, units) for i in range(count))
     names = (
-        "Mode", f"Whirl frequency [{units.speed.name}]", "× speed",
+        "Mode", f"Mode frequency [{units.speed.name}]", "× speed",
         f"Growth rate [{units.growth.name}]", "Damping ratio ζ", "Log. decrement δ",
         "Disk's orbit", "Journal's orbit",
     )  # fmt: skip
