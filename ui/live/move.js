@@ -12,7 +12,9 @@ const HOVERED = new Set(["customdata", "hovertemplate"]);
 const TRACE = new Set(["x", "y", "text", "name", ...HOVERED]);
 const NOTE = new Set(["x", "y", "ax", "ay", "text"]);
 const SHAPE = new Set(["x0", "x1", "y0", "y1"]);
-// Only these parts of a layout may differ: notes and shapes are moved, an animation's slider waits for Plotly.
+const SLIDER = new Set(["steps", "active"]);
+const INSET = 10; // of a slider's first and last stop from its ends, in pixels
+// Only these parts of a layout may differ.
 const LAYOUT = new Set(["annotations", "shapes", "sliders"]);
 
 class Fixed extends Error {}
@@ -136,12 +138,25 @@ function moveShape(gd, shape, i) {
   }
 }
 
+// An animation's slider: its label and its grip. The chart drawn is the one at its active stop.
+function moveSlider(gd, { active, steps, currentvalue }, i) {
+  const group = gd.querySelectorAll(".slider-group")[i];
+  const [label, grip] = ["label", "grip-rect"].map((part) => group?.querySelector(`.slider-${part}`));
+  const length = gd._fullLayout.sliders[i]._dims?.inputAreaLength;
+  need(label && grip && length);
+  const { prefix = "", suffix = "" } = currentvalue;
+  say(label, `${prefix}${steps[active].label}${suffix}`);
+  const place = INSET + ((length - 2 * INSET) * active) / (steps.length - 1) - grip.getAttribute("width") / 2;
+  grip.setAttribute("transform", grip.getAttribute("transform").replace(/\((-?[\d.]+)/, `(${place}`));
+}
+
 // Updates a chart from the figure that it shows to another; returns false where only Plotly can.
 export function move(gd, before, { data, layout }) {
   try {
     changes(before.layout, layout, LAYOUT);
     each(before.data, data, TRACE, (...item) => moveTrace(gd, ...item));
     each(before.layout.annotations, layout.annotations, NOTE, (...item) => moveNote(gd, ...item));
+    each(before.layout.sliders, layout.sliders, SLIDER, (...item) => moveSlider(gd, ...item));
     each(before.layout.shapes, layout.shapes, SHAPE, (...item) => moveShape(gd, ...item));
   } catch (error) {
     if (error instanceof Fixed) return false;
