@@ -40,6 +40,9 @@ class Session:
     values: Values
     units_name: str
     problems: list[str] = field(default_factory=list)
+    # What could not be taken of a link or a file: until the visitor takes the rest, nothing is
+    # computed, as the rest is another machine than was meant.
+    refused: list[str] = field(default_factory=list)
     baseline: Values | None = None
     typed: bool = False
     image_format: str = "png"
@@ -82,7 +85,12 @@ class Session:
     def set_preset(self, preset: str) -> None:
         """Take over a preset's machine and speeds."""
         self.preset, self.values = preset, dict(PRESET_VALUES[preset])
+        self.take()
+
+    def take(self) -> None:
+        """Drop what was refused of a link or a file, and the messages about it."""
         self.problems.clear()
+        self.refused.clear()
 
     def changed(self) -> list[str]:
         """Return the keys of the values that differ from the preset's."""
@@ -110,7 +118,7 @@ class Session:
 
     def _restore(self, work: Work) -> None:
         self.preset, self.values, self.baseline = work.preset, dict(work.values), work.baseline
-        self.problems.clear()
+        self.take()
 
     def framed(self) -> tuple[object, ...]:
         """Return what the frame shows of the machine beside its sliders, which follow by
@@ -198,7 +206,7 @@ def session() -> Session:
         return st.session_state[_KEY]
     given = address.read(st.query_params.to_dict())
     st.session_state[_KEY] = visitor = Session(
-        preset=given.preset, values=given.values, units_name=given.units, problems=given.problems
+        preset=given.preset, values=given.values, units_name=given.units, refused=given.problems
     )
     return visitor
 
@@ -208,6 +216,7 @@ def write_address_bar() -> dict[str, str]:
     visitor = session()
     params = address.write(visitor.preset, visitor.values, visitor.units_name)
     # Streamlit sends the address bar to the browser at each assignment, changed or not.
-    if not visitor.dragging and st.query_params.to_dict() != params:
+    # A link that was refused in part stays as it is: read again, it is refused again.
+    if not visitor.dragging and not visitor.refused and st.query_params.to_dict() != params:
         st.query_params.from_dict(params)
     return params

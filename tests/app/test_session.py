@@ -154,9 +154,29 @@ def test_a_broken_link_gets_a_message_and_keeps_the_valid_values() -> None:
     for name in ("Radial clearance", "Diameter", "Reference viscosity", "colour"):
         assert any(name in words for words in said), name
     assert session_of(at).values == PRESET_VALUES["sheet-1e8"] | {"T": 70.0}
-    assert at.query_params == {"T": "70"}
-    move(at, "C", 85.0)
+
+
+def test_a_link_refused_in_part_gets_no_verdict_until_the_rest_is_taken() -> None:
+    query = {"load": "9e9", "mass": "9e9", "D": "400"}
+    at = visit(HOME, **query)
+    assert len(at.warning) == 2
+    for page in PAGES:
+        at.switch_page(page).run()
+        assert [*at.metric, *at.success, *at.error, *charts(at)] == [], page
+        assert faults(at) == []
+    assert at.query_params == query  # read again, it is refused again
+    at.switch_page(HOME).run()
+    at.button(key="take").click().run()
     assert not at.warning
+    assert at.query_params == {"D": "400"}
+    assert at.metric
+
+
+def test_a_preset_takes_the_place_of_a_refused_link() -> None:
+    at = visit(HOME, C="-5")
+    at.selectbox(key="preset").select("sheet-1e7").run()
+    assert not at.warning
+    assert at.metric
 
 
 def test_a_machine_file_comes_back_the_same() -> None:
@@ -199,6 +219,10 @@ def test_a_value_out_of_a_files_range_is_reported_by_name() -> None:
     (warning,) = at.warning
     assert "Radial clearance" in warning.value
     assert session_of(at).values == PRESET_VALUES["sheet-1e8"] | {"T": 70.0}
+    assert not at.metric
+    at.button(key="take").click().run()
+    assert not at.warning
+    assert at.metric
 
 
 def test_the_shared_link_contains_the_whole_machine() -> None:

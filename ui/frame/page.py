@@ -16,7 +16,7 @@ from ui.frame import baseline, history, sidebar
 from ui.preview import Draw, Preview, Text, Words, compared
 from ui.results.row import show_results
 from ui.serving import one_at_a_time, version
-from ui.session import session, write_address_bar
+from ui.session import Session, session, write_address_bar
 from ui.sharing import popover
 from ui.widgets import chart_key, is_dark, show_chart, show_connection, show_preview
 from ui.words import validity, verdict
@@ -220,8 +220,13 @@ def _page(places: Places, *, has_preview: bool) -> Page:
     params = write_address_bar()
     with places.navigation:
         _navigation(params)
-    for problem in visitor.problems:
+    for problem in (*visitor.refused, *visitor.problems):
         st.warning(problem)
+    if visitor.refused:
+        with places.foot:
+            show_preview(None)
+        _offer_the_rest(visitor)
+        st.stop()
     try:
         computed = computed_from(visitor.values)
         pinned = None if visitor.baseline is None else computed_from(visitor.baseline)
@@ -240,6 +245,15 @@ def _page(places: Places, *, has_preview: bool) -> Page:
         show_preview(visitor.preview if has_preview else None)
     baseline.draw_differences(visitor.units)
     return Page(computed=computed, baseline=pinned, units=visitor.units, preview=visitor.preview)
+
+
+def _offer_the_rest(visitor: Session) -> None:
+    """Ask whether to show the machine without what was refused of a link or a file."""
+    st.markdown(
+        "Without this it is another machine than the link or file describes, so nothing is "
+        "computed yet. The sidebar shows what would be taken."
+    )
+    st.button("Take what can be taken", key="take", type="primary", on_click=visitor.take)
 
 
 def _navigation(params: dict[str, str]) -> None:

@@ -79,4 +79,5 @@ def _load() -> None:
         return
     values = values_of(machine, *speeds_of(visitor.values))
     visitor.values = address.checked_values(values, visitor.preset, problems)
-    visitor.problems[:] = problems
+    visitor.problems.clear()
+    visitor.refused[:] = problems
