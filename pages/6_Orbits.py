@@ -12,7 +12,8 @@ from ui.words.citation import cited, remark
 
 def content(shown: Page) -> None:
     answer = st.container()
-    asked = ask.choose_release(shown.computed)
+    with st.container(key="release"):
+        asked = ask.choose_release(shown.computed)
     page, found = ask.try_out(shown, asked)
     with answer:
         ask.say_outcome(page.computed, asked, found, page.units)

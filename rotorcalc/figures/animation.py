@@ -11,6 +11,11 @@ _STILL: dict[str, Any] = {
     "frame": {"duration": 0, "redraw": False},
     "transition": {"duration": 0},
 }
+# Distances in pixels hold at any height of a chart: the slider lies below the title of the axis,
+# with buttons to its left.
+_BELOW, _BUTTONS = 64, 170
+# Margin below a plot with a slider.
+ROW = 134
 _GREY, _CLEAR = "rgba(127,127,127,0.35)", "rgba(0,0,0,0)"
 
 
@@ -57,17 +62,15 @@ def scrubbed(  # noqa: PLR0913 - steps, and the words of their slider
     }
 
 
-def playable(chart: Chart, *, step: int, y: float) -> Chart:
-    """Return an animated chart with buttons to play and stop it.
+def playable(chart: Chart, *, step: int) -> Chart:
+    """Return an animated chart with buttons to play and stop it, beside its slider.
 
     Parameters
     ----------
     chart : Chart
-        A chart with frames.
+        A chart with frames and a slider.
     step : int
         Duration of each frame [ms].
-    y : float
-        Top of the buttons in fractions of the plot, negative below it.
 
     Returns
     -------
@@ -82,14 +85,16 @@ def playable(chart: Chart, *, step: int, y: float) -> Chart:
     }
     menu = {
         "type": "buttons", "direction": "left", "showactive": False,
-        "x": 0.0, "xanchor": "left", "y": y, "yanchor": "top", "pad": {"r": 6, "t": 6},
+        "x": 0.0, "xanchor": "left", "y": 0.0, "yanchor": "top", "pad": {"t": _BELOW + 14},
         "bgcolor": _GREY, "bordercolor": _GREY,
         "buttons": [
             {"label": "▶ Play", "method": "animate", "args": [None, run]},
             {"label": "❚❚ Stop", "method": "animate", "args": [[None], _STILL]},
         ],
     }  # fmt: skip
-    return {**chart, "layout": {**chart["layout"], "updatemenus": [menu]}}
+    (slider,) = chart["layout"]["sliders"]
+    beside = {**slider, "pad": {**slider["pad"], "l": _BUTTONS}}
+    return {**chart, "layout": {**chart["layout"], "updatemenus": [menu], "sliders": [beside]}}
 
 
 def _slider(labels: Sequence[str], active: int, unit: str, prefix: str) -> dict[str, Any]:
@@ -99,12 +104,17 @@ def _slider(labels: Sequence[str], active: int, unit: str, prefix: str) -> dict[
             {"method": "animate", "label": label, "args": [[str(i)], _STILL]}
             for i, label in enumerate(labels)
         ],
-        "currentvalue": {"prefix": prefix, "suffix": f" {unit}", "xanchor": "left"},
-        "pad": {"t": 66, "b": 4, "l": 0, "r": 0},
-        "len": 1.0,
+        "currentvalue": {
+            "prefix": prefix, "suffix": f" {unit}", "xanchor": "left", "offset": 6,
+            "font": {"size": 14},
+        },
+        "font": {"size": 1},  # of the steps' labels: the current one is enough
+        "x": 0.0, "len": 1.0, "y": 0.0, "yanchor": "top",
+        "pad": {"t": _BELOW, "b": 0, "l": 0, "r": 8},
         "bgcolor": _GREY,
         "bordercolor": _CLEAR,
         "activebgcolor": "#f0b400",
         "tickcolor": _CLEAR,
-        "ticklen": 3,
-    }
+        "ticklen": 0,
+        "minorticklen": 0,
+    }  # fmt: skip

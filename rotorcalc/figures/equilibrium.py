@@ -14,7 +14,7 @@ from rotorcalc.figures.plane import Part
 from rotorcalc.figures.style import Axis, Chart, Trace
 from rotorcalc.units import Unit, Units
 
-HEIGHT = 440
+HEIGHT = 500
 SMALL_HEIGHT = 300
 
 _SOFT = "rgba(127,127,127,0.8)"

@@ -13,7 +13,7 @@ from rotorcalc.figures.plane import Part
 from rotorcalc.figures.style import Axis, Chart, Trace
 from rotorcalc.units import Units
 
-HEIGHT = 440
+HEIGHT = 500
 
 _RADIAL, _TANGENTIAL, _RESULTANT = style.PURPLE, style.OCHRE, style.BLUE
 _THICKNESS, _PRESSURE, _PRESSURE_FILL = style.BLUE, style.PURPLE, "rgba(176,86,159,0.16)"

@@ -67,6 +67,7 @@ def cross_section(
             style.note(words, 0.0, 0.0, xanchor="left"),
         ],
         showlegend=False,
+        height=330,
         margin={"l": 8, "r": 8, "t": 8, "b": 8},
     )
 

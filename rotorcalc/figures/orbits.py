@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from rotorcalc.arrays import Array
 from rotorcalc.figures import plane, style, text
-from rotorcalc.figures.animation import playable, scrubbed
+from rotorcalc.figures.animation import ROW, playable, scrubbed
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
 from rotorcalc.nonlinear.limit_cycles import Bifurcation
 from rotorcalc.nonlinear.measured_onset import GrowthCurve, Onsets
@@ -23,7 +23,7 @@ from rotorcalc.units import Unit, Units
 LINEAR = style.PURPLE
 UP, DOWN = style.GREEN, style.OCHRE
 # Tall: the clearance is the page's main picture.
-_PLANE_HEIGHT = 680
+_PLANE_HEIGHT = 560
 # Frames of an animation at most, points of the journal's trail, revolutions that the trail spans.
 _FRAMES, _TRAIL, _REACH = 120, 48, 2.0
 # Points of a line over time; more cannot be distinguished on a screen.
@@ -49,12 +49,12 @@ def orbit(let_go: Release, units: Units) -> Chart:
     ]
     chart = plane.chart(
         [*still, *_moving(steps[-1])], x, y, height=_PLANE_HEIGHT, showlegend=True,
-        margin={"l": 64, "r": 16, "t": 56, "b": 184},
+        margin={"l": 64, "r": 16, "t": 56, "b": ROW},
     )  # fmt: skip
     chart = scrubbed(
         chart, steps, labels=labels, active=len(labels) - 1, unit="", prefix="Revolution ",
     )  # fmt: skip
-    return _placed(playable(chart, step=60, y=-0.33))
+    return playable(chart, step=60)
 
 
 def over_time(let_go: Release, units: Units) -> Chart:
@@ -322,13 +322,6 @@ def _moving(step: list[Trace]) -> list[Trace]:
 
 def _at(points: NDArray[np.float32]) -> Trace:
     return {"x": points[:, 1], "y": points[:, 0]}
-
-
-def _placed(chart: Chart) -> Chart:
-    """Return a chart with its slider below the plot."""
-    (slider,) = chart["layout"]["sliders"]
-    moved = {**slider, "x": 0.0, "len": 1.0, "y": -0.11, "yanchor": "top", "pad": {"t": 6}}
-    return {**chart, "layout": {**chart["layout"], "sliders": [moved]}}
 
 
 # --- Over orders and speed --------------------------------------------------------------------

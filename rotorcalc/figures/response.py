@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.figures import style
+from rotorcalc.figures.animation import ROW, playable, scrubbed
 from rotorcalc.figures.style import Axis, Chart, Trace
 from rotorcalc.machine import Rotor
 from rotorcalc.unbalance_curves import (
@@ -25,7 +26,7 @@ from rotorcalc.unbalance_curves import (
 from rotorcalc.unbalance_peaks import ResponsePeaks
 from rotorcalc.units import Unit, Units
 
-_HEIGHT = 470
+_HEIGHT = 500
 # Axis over the highest peak, which leaves room for the peak's label.
 _HEADROOM = 1.12
 # Two entries per row, so that charts side by side have plots of equal height.
@@ -62,7 +63,7 @@ def amplitude(curves: ResponseCurves, shown: Literal["axes", "XY"], units: Units
     here = [unit.of(part) for _, body in _bodies_here(curves) for part in _parts(body, shown)]
     traces += _points(curves, np.array(here), (x, y), units)
     return style.chart(
-        traces, x, y, shapes=shapes, annotations=notes, height=420, legend=_TWO_COLUMNS
+        traces, x, y, shapes=shapes, annotations=notes, height=480, legend=_TWO_COLUMNS
     )
 
 
@@ -81,7 +82,7 @@ def phase(curves: ResponseCurves, units: Units) -> Chart:
     traces += _points(curves, here, (x, y), units)
     shapes, notes = _shades(curves, units), _unstable_note(curves)
     return style.chart(
-        traces, x, y, shapes=shapes, annotations=notes, height=420, legend=_TWO_COLUMNS
+        traces, x, y, shapes=shapes, annotations=notes, height=480, legend=_TWO_COLUMNS
     )
 
 
@@ -128,11 +129,15 @@ def scrubber(steps: Orbits, here: Orbits, units: Units) -> Chart:
     x, y = _plane(style.ceiling(1.05 * np.abs(points)), unit)
     # The sense of whirl may change with speed, so the name omits it.
     traces = style.joined([_orbit(p, unit, n.split(",")[0], c) for n, p, c in _paths(here)])
-    frames = [_frame(*moment, here.is_rigid, units) for moment in moments]
     active = [speed for speed, *_ in moments].index(float(here.speed))
-    slider = _slider([frame["name"] for frame in frames], active, units)
-    layout = {"height": _HEIGHT + 150, "sliders": [slider], "updatemenus": [_play()]}
-    return style.chart(traces, x, y, **layout) | {"frames": frames}
+    margin = {"l": 64, "r": 16, "t": 44, "b": ROW}
+    chart = scrubbed(
+        style.chart(traces, x, y, height=560, margin=margin),
+        [_step(disk, journal, here.is_rigid, units) for _, disk, journal in moments],
+        labels=[f"{float(units.speed.of(speed)):.0f}" for speed, *_ in moments],
+        active=active, unit=units.speed.name, prefix="Ω = ",
+    )  # fmt: skip
+    return playable(chart, step=120)
 
 
 def family(
@@ -315,15 +320,10 @@ def _arrow(points: Array, unit: Unit, name: str, colour: str) -> Trace:
     return {**path, **rest, **style.LIVE_ONLY}
 
 
-def _frame(speed: float, disk: Array, journal: Array, rigid: bool, units: Units) -> dict[str, Any]:
+def _step(disk: Array, journal: Array, rigid: bool, units: Units) -> list[Trace]:
     """Return the traces of one step of the slider."""
     paths = [journal] if rigid else [disk, journal]
-    moved = [_moved(trace) for path in paths for trace in _orbit(path, units.film, "", style.GREY)]
-    return {
-        "name": _frame_name(speed, units),
-        "data": moved,
-        "traces": list(range(len(moved))),
-    }
+    return [_moved(trace) for path in paths for trace in _orbit(path, units.film, "", style.GREY)]
 
 
 def _moved(trace: Trace) -> Trace:
@@ -332,40 +332,6 @@ def _moved(trace: Trace) -> Trace:
     place = {axis: trace[axis].astype(np.float32) for axis in ("x", "y")}
     angle = trace.get("marker", {}).get("angle")
     return place if angle is None else place | {"marker": {"angle": angle}}
-
-
-def _frame_name(speed: float, units: Units) -> str:
-    return f"{float(units.speed.of(speed)):.0f}"
-
-
-def _slider(names: list[str], active: int, units: Units) -> dict[str, Any]:
-    still = {"mode": "immediate", "frame": {"duration": 0, "redraw": False},
-             "transition": {"duration": 0}}  # fmt: skip
-    return {
-        "active": active,
-        "steps": [
-            {"label": name, "method": "animate", "args": [[name], still]} for name in names
-        ],
-        "currentvalue": {"prefix": "Ω = ", "suffix": f" {units.speed.name}", "xanchor": "left"},
-        "x": 0.0, "len": 1.0, "y": -0.14, "yanchor": "top", "pad": {"t": 6},
-        "bgcolor": "rgba(127,127,127,0.3)", "bordercolor": "rgba(127,127,127,0.6)",
-        "activebgcolor": style.HERE, "ticklen": 0, "minorticklen": 0, "font": {"size": 13},
-    }  # fmt: skip
-
-
-def _play() -> dict[str, Any]:
-    run = {"frame": {"duration": 120, "redraw": False}, "transition": {"duration": 0},
-           "fromcurrent": True, "mode": "immediate"}  # fmt: skip
-    stop = {"frame": {"duration": 0, "redraw": False}, "mode": "immediate"}
-    return {
-        "type": "buttons", "direction": "left", "showactive": False,
-        "x": 0.0, "xanchor": "left", "y": -0.38, "yanchor": "top", "pad": {"r": 6, "t": 6},
-        "bgcolor": "rgba(127,127,127,0.2)", "bordercolor": "rgba(127,127,127,0.6)",
-        "buttons": [
-            {"label": "▶", "method": "animate", "args": [None, run]},
-            {"label": "❚❚", "method": "animate", "args": [[None], stop]},
-        ],
-    }  # fmt: skip
 
 
 def _by_stability(

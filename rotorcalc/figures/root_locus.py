@@ -8,7 +8,7 @@ import numpy as np
 from rotorcalc import modes
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.figures import style
-from rotorcalc.figures.animation import scrubbed
+from rotorcalc.figures.animation import ROW, scrubbed
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
 from rotorcalc.onset import Onset
 from rotorcalc.root_locus import Locus
@@ -55,7 +55,7 @@ def plane(locus: Locus, onset: Onset, units: Units) -> Chart:
     rays = _rays(left, top, units)
     chart = style.chart(
         traces, x, y,
-        height=580, margin={"l": 64, "r": 16, "t": 44, "b": 130},
+        height=580, margin={"l": 64, "r": 16, "t": 44, "b": ROW},
         shapes=[_half_plane(right), _imaginary_axis(), *(ray for ray, _ in rays)],
         annotations=[*_sides(), *(name for _, name in rays), *_numbers(locus, units, left, top)],
     )  # fmt: skip
@@ -145,6 +145,7 @@ def _colour_bar(locus: Locus, units: Units) -> Trace:
     bar = {
         "title": {"text": f"Ω [{units.speed.name}]", "side": "right"},
         "thickness": 10, "outlinewidth": 0, "nticks": 5, "x": 1.01, "xpad": 4,
+        **style.PLAIN_NUMBERS,
     }  # fmt: skip
     marker = {
         "size": 0.1, "color": np.zeros(2), "colorbar": bar, "showscale": True,

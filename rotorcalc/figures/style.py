@@ -37,8 +37,11 @@ SHADE = "rgba(209,84,31,0.12)"
 # Marks a trace, such as an arrowhead, that is not repeated in grey when machines are compared.
 LIVE_ONLY: dict[str, Any] = {"meta": "live only"}
 
-HEIGHT = 380
-SMALL_HEIGHT = 280
+# For axes and colour bars: 10000 rpm, not 10k.
+PLAIN_NUMBERS: dict[str, Any] = {"exponentformat": "power", "minexponent": 5}
+
+HEIGHT = 420
+SMALL_HEIGHT = 260
 # Shares of a chart's height for two panes, one above the other.
 UPPER, LOWER = [0.55, 1.0], [0.0, 0.45]
 # Round ends of an axis within a decade, so close that at most a quarter of it stays empty.
@@ -223,8 +226,7 @@ _AXIS: Axis = {
     "ticks": "outside",
     "tickcolor": "rgba(127,127,127,0.6)",
     "automargin": True,
-    "exponentformat": "power",
-    "minexponent": 5,  # 10000 rpm, not 10k
+    **PLAIN_NUMBERS,
 }
 _LAYOUT: dict[str, Any] = {
     "height": HEIGHT,

@@ -88,10 +88,11 @@ def test_the_scrubber_starts_at_the_running_speed_and_moves_the_right_traces() -
     chart = response.scrubber(orbits(analyse(SHEET, SPEEDS)), orbits(analyse(SHEET, SPEED)), SI)
     (slider,) = chart["layout"]["sliders"]
     names = [frame["name"] for frame in chart["frames"]]
-    assert [step["label"] for step in slider["steps"]] == names
-    assert len(set(names)) == len(names)
+    assert [step["args"][0] for step in slider["steps"]] == [[name] for name in names]
+    labels = [step["label"] for step in slider["steps"]]
+    assert len(set(labels)) == len(labels)
+    assert labels[slider["active"]] == f"{float(SI.speed.of(SPEED)):.0f}"
     start = chart["frames"][slider["active"]]
-    assert start["name"] == f"{float(SI.speed.of(SPEED)):.0f}"
     for place, moved in zip(start["traces"], start["data"], strict=True):
         assert_allclose(chart["data"][place]["x"], moved["x"], rtol=1e-6)
         assert_allclose(chart["data"][place]["y"], moved["y"], rtol=1e-6, atol=1e-6)

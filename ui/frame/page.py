@@ -24,44 +24,27 @@ from ui.words import validity, verdict
 _ICON = str(Path(__file__).with_name("icon.svg"))
 
 _ABOUT = f"{version.label()}: rotors on fluid-film bearings, after San Andrés, Notes 5."
-# The verdict near the top: Streamlit leaves six rem free above a page.
-# Results and what stands below each, a caption or a popover, come in pairs, a column each. On a
-# narrow screen results stand two in a row, equations break between their terms, tables are
-# tight and a wide one's rows run over several lines: nothing there scrolls sideways, which a
-# keyboard could not do. KaTeX's own boxes stick out of an equation by two pixels. Undo stays in
-# sight while the sidebar scrolls.
-_STYLE = """<style>
-.stMainBlockContainer {padding-top: 4.2rem; padding-bottom: 3rem;}
-.katex-display {padding-right: 2px;}
-:has(> .st-key-past) {position: sticky; top: 0; z-index: 2;}
-.st-key-past {background: light-dark(#F4F6F8, #20262D); padding: 0.3rem 0 0.5rem;}
-.st-key-past, .st-key-history {gap: 0.4rem;}
-.st-key-history kbd {display: none;}
-.st-key-said_verdict .stMarkdownBadge {white-space: normal;}
-.st-key-said_verdict :is(.stAlertContainer, .live-alert) {padding: 0.45rem 0.8rem;}
-[data-testid="stLayoutWrapper"]:has(> [class*="st-key-said_"] .unsaid):not(:has(.live-said)) {
-  display: none;
-}
-.stVerticalBlock[class*="st-key-results_"] {
-  display: grid; grid-auto-flow: dense; grid-auto-columns: minmax(0, 1fr); gap: 0 1rem;
-}
-[class*="st-key-results_"] > :nth-child(n) {grid-column: 1;}
-[class*="st-key-results_"] > :nth-child(n + 3) {grid-column: 2;}
-[class*="st-key-results_"] > :nth-child(n + 5) {grid-column: 3;}
-[class*="st-key-results_"] > :nth-child(n + 7) {grid-column: 4;}
-[class*="st-key-results_"] > :nth-child(n + 9) {grid-column: 5;}
-@media (max-width: 640px) {
-  .katex-display {font-size: 0.85em;}
-  .katex-display > .katex {white-space: normal;}
-  .katex-display .base {margin: 0.15em 0;}
-  .stMarkdown td, .stMarkdown th {padding: 0.25rem 0.35rem; font-size: 0.85rem;}
-  .stMarkdown table:has(th:nth-child(7)) {display: block;}
-  .stMarkdown tr:has(> :nth-child(7)) {display: flex; flex-wrap: wrap;}
-  .stMarkdown tr > :nth-last-child(n + 7):first-child {flex: 1 0 100%; font-weight: 600;}
-  [class*="st-key-results_"] > :is(:nth-child(4n + 1), :nth-child(4n + 2)) {grid-column: 1;}
-  [class*="st-key-results_"] > :is(:nth-child(4n + 3), :nth-child(4n + 4)) {grid-column: 2;}
-}
-</style>"""
+# Least width of a row of results [rem] by the number of its columns; on less there are fewer.
+_COLUMNS = {5: 42, 4: 32, 3: 24, 2: 12}
+
+
+def _pairs_in_columns(columns: int, least: int) -> str:
+    """Return the rule that lays out pairs in columns where a row is wide enough for them."""
+    places = (
+        f":nth-child({2 * columns}n + {2 * i + part}) {{grid-column: {i + 1};}}"
+        for i in range(columns)
+        for part in (1, 2)
+    )
+    rules = " ".join(f'[class*="st-key-results_"] > {place}' for place in places)
+    return f"@container (min-width: {least}rem) {{{rules}}}"
+
+
+_STYLE = "\n".join([
+    "<style>",
+    Path(__file__).with_name("page.css").read_text(encoding="utf-8"),
+    *(_pairs_in_columns(*rule) for rule in sorted(_COLUMNS.items())),
+    "</style>",
+])  # fmt: skip
 
 NO_MACHINE = "These inputs make no machine"
 HOME = "app.py"
@@ -181,9 +164,11 @@ def _frame(title: str, sentence: str) -> Places:
         foot = st.container()
         st.caption(version.label())
     visitor.page = title
-    navigation = st.container()
-    st.header(title, anchor=False)
-    st.markdown(sentence)
+    with st.container(key="frame_top"):
+        navigation = st.container()
+    with st.container(key="page_title"):
+        st.header(title, anchor=False)
+        st.markdown(sentence)
     return Places(past, navigation, foot)
 
 

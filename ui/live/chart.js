@@ -1,7 +1,27 @@
 // A chart: Plotly redraws it in the same element, which keeps zoom and hidden lines.
 //
-// `data` is JSON in UTF-8: key, chart (data, layout, frames), config, alt, and the
+// `data` is JSON in UTF-8: key, chart (data, layout, frames), config, alt, presenting, and the
 // addresses of Plotly and of move.js.
+//
+// The chart is as high as the window allows. A button shows it alone on the whole screen. There, and in a
+// presentation, type and lines are larger. `layout.meta` has what an overview leaves out, and the screen shows.
+
+const STYLE = `
+.live-view {position: relative; background: var(--st-background-color);}
+.live-view > button {position: absolute; top: 0; right: 0; width: 1.75rem; height: 1.75rem; padding: 0; border: 0;
+  border-radius: var(--st-base-radius); background: none; color: var(--st-text-color); font-size: 1rem; cursor: pointer;}
+.live-view > button:is(:hover, :focus-visible) {background: var(--st-secondary-background-color);}
+.live-view > button:focus-visible {outline: 2px solid var(--st-primary-color);}
+.live-view:fullscreen {padding: 1rem 1.5rem;}
+.live-view:fullscreen .live-chart {height: calc(100vh - 2rem) !important;}
+.live-view .modebar {right: 2rem !important;}
+.live-view .annotation-text {paint-order: stroke; stroke: var(--st-background-color); stroke-width: 4px;
+  stroke-linejoin: round;}
+`;
+const CORNERS = `<svg viewBox="0 0 16 16" width="16" height="16" fill="none" stroke="currentColor" stroke-width="1.6">
+  <path d="M2 6V2h4M10 2h4v4M14 10v4h-4M6 14H2v-4"/></svg>`;
+// Type for the last row of a lecture hall, over type for a desk.
+const LARGE = 10 / 7;
 
 const FAILED = "This chart could not be drawn: Plotly's script did not load. Reload the page.";
 // Milliseconds without a change after which Plotly draws a moved chart.
@@ -30,18 +50,30 @@ function plotly(address) {
 
 const charts = new WeakMap();
 
+function screenButton(view) {
+  const button = Object.assign(document.createElement("button"), { type: "button", innerHTML: CORNERS });
+  button.ariaLabel = button.title = "Full screen";
+  button.addEventListener("click", () => (document.fullscreenElement ? document.exitFullscreen() : view.requestFullscreen()));
+  return button;
+}
+
 function made(parent) {
+  const view = document.createElement("div");
   const element = document.createElement("div");
+  view.className = "live-view";
   element.className = "live-chart";
   element.setAttribute("role", "figure");
-  parent.replaceChildren(element);
-  const chart = { element, wanted: null, shown: null, drawing: null, ranges: [] };
+  view.append(element);
+  parent.replaceChildren(view);
+  const chart = { view, element, wanted: null, shown: null, drawing: null, ranges: [] };
+  if (document.fullscreenEnabled) view.prepend(screenButton(view));
+  view.addEventListener("fullscreenchange", () => draw(chart, chart.shown));
   chart.preview = (figure) => draw(chart, { ...chart.given, chart: figure });
   chart.settle = () => chart.shown !== chart.given && draw(chart, chart.given);
   chart.resizing = new ResizeObserver(() => {
     if (element.data && element.offsetParent) window.Plotly.Plots.resize(element);
   });
-  chart.resizing.observe(parent);
+  chart.resizing.observe(element);
   charts.set(parent, chart);
   return chart;
 }
@@ -53,17 +85,68 @@ function differ(a, b) {
 // Plotly keeps a zoom only if it is given the same range as before.
 function keepZoom(chart, { layout }) {
   for (const [name, range] of chart.ranges) {
-    if (layout[name] && differ(chart.element.layout[name]?.range, range)) layout[name].range = [...range];
+    if (!layout[name] || !differ(chart.element.layout[name]?.range, range)) continue;
+    Object.assign(layout[name], { range: [...range], tickmode: "auto" });
+    for (const ticks of ["dtick", "tick0", "tickvals", "ticktext"]) delete layout[name][ticks];
   }
   const axes = Object.entries(layout).filter(([, axis]) => axis?.range);
   chart.ranges = axes.map(([name, { range }]) => [name, [...range]]);
 }
 
-async function redrawn(Plotly, chart, { chart: figure, config }) {
+function times(factor, holder, names) {
+  for (const name of names) if (typeof holder?.[name] === "number") holder[name] *= factor;
+}
+
+// Enlarges type by a factor, with what must have room for it, and lines and marks by half of that.
+function enlarge({ data, layout }, factor) {
+  const half = (1 + factor) / 2;
+  times(factor, layout.font, ["size"]);
+  times(factor, layout.margin, ["l", "r", "t", "b"]);
+  times(factor, layout.legend, ["entrywidth", "itemwidth"]);
+  for (const note of layout.annotations ?? []) {
+    times(factor, note.font, ["size"]);
+    times(factor, note, ["xshift", "yshift"]);
+    times(half, note, ["arrowwidth"]);
+  }
+  for (const control of [...(layout.sliders ?? []), ...(layout.updatemenus ?? [])]) {
+    times(factor, control.pad, ["t", "b", "l", "r"]);
+    times(factor, control.font, ["size"]);
+    times(factor, control.currentvalue?.font, ["size"]);
+  }
+  for (const [name, axis] of Object.entries(layout)) if (name.includes("axis")) times(factor, axis.title, ["standoff"]);
+  for (const trace of data) {
+    times(factor, trace.textfont, ["size"]);
+    times(half, trace.line, ["width"]);
+    times(half, trace.marker, ["size"]);
+    times(half, trace.marker?.line, ["width"]);
+    times(half, trace.marker?.colorbar ?? trace.colorbar, ["thickness"]);
+  }
+}
+
+async function redrawn(Plotly, chart, { chart: figure, config, presenting }) {
   const copy = structuredClone(figure); // Plotly writes into what it is given
+  const whole = document.fullscreenElement === chart.view;
+  if (whole) Object.assign(copy.layout, copy.layout.meta);
+  if (whole || presenting) enlarge(copy, LARGE);
+  delete copy.layout.height; // the element's
   keepZoom(chart, copy);
   await Plotly.react(chart.element, { ...copy, config });
+  if (!chart.listens) chart.element.on("plotly_relayout", (changed) => zoomed(chart, changed));
+  chart.listens = true;
   delete chart.element.dataset.moved;
+}
+
+// Draws the ticks that suit a zoom, or those of the whole axis again.
+function zoomed(chart, changed) {
+  if (Object.keys(changed).some((name) => /axis\d*\.(auto)?range/.test(name))) draw(chart, chart.shown);
+}
+
+// High as the window allows: in a presentation it fills what lies below its place.
+function fitted(view, { layout: { height } }, presenting) {
+  if (!presenting) return `clamp(${0.8 * height}px, calc((100vh - 300px) * ${height / 600}), ${1.5 * height}px)`;
+  const main = view.closest('[data-testid="stMain"]');
+  const top = view.getBoundingClientRect().top + (main?.scrollTop ?? 0);
+  return `max(340px, calc(100vh - ${Math.ceil(top)}px - 4rem))`;
 }
 
 // Moves the existing SVG where possible, and lets Plotly draw the chart after a pause: hovering, zooming and
@@ -73,7 +156,7 @@ async function redraw(chart, wanted) {
   clearTimeout(chart.due);
   const [Plotly, { move }] = await Promise.all([plotly(wanted.plotly), import(location.origin + wanted.mover)]);
   chart.shown = wanted;
-  if (wanted === shown || !shown || differ(shown.config, wanted.config) || !move(chart.element, shown.chart, wanted.chart)) {
+  if (wanted === shown || !shown || differ(shown.config, wanted.config) || shown.presenting !== wanted.presenting || !move(chart.element, shown.chart, wanted.chart)) {
     await redrawn(Plotly, chart, wanted);
   } else {
     chart.element.dataset.moved = "";
@@ -109,12 +192,17 @@ async function drawn(chart) {
 }
 
 export default function ({ data, parentElement }) {
+  if (!document.getElementById("live-chart-style")) {
+    const style = Object.assign(document.createElement("style"), { id: "live-chart-style" });
+    style.textContent = STYLE;
+    document.head.append(style);
+  }
   const chart = charts.get(parentElement) ?? made(parentElement);
   chart.given = JSON.parse(new TextDecoder().decode(data));
-  const { key, alt, chart: figure } = chart.given;
+  const { key, alt, chart: figure, presenting } = chart.given;
   window.rotorcalcCharts.set(key, chart);
   chart.element.setAttribute("aria-label", alt);
-  chart.element.style.height = `${figure.layout.height}px`;
+  chart.element.style.height = fitted(chart.view, figure, presenting);
   draw(chart, chart.given);
   return () => {
     clearTimeout(chart.due);

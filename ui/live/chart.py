@@ -15,13 +15,19 @@ _FEW = 8
 _component = component("rotorcalc.chart", js=assets.module("chart"), isolate_styles=False)
 
 
-def show(chart: Chart, *, key: str, alt: str, config: dict[str, Any]) -> None:
-    """Show a chart; `alt` is its text alternative, `config` is Plotly's."""
+def show(
+    chart: Chart, *, key: str, alt: str, config: dict[str, Any], presenting: bool = False
+) -> None:
+    """Show a chart; `alt` is its text alternative, `config` is Plotly's.
+
+    Where it is presented its type is large, and it fills the window.
+    """
     message = {
         "key": key, "chart": chart, "config": config, "alt": alt,
+        "presenting": presenting,
         "plotly": assets.plotly_bundle(), "mover": assets.script("move"),
     }  # fmt: skip
-    _component(key=key, data=encoded(message), height=chart["layout"]["height"])
+    _component(key=key, data=encoded(message))
 
 
 def encoded(message: dict[str, Any]) -> bytes:

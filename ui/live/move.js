@@ -15,7 +15,7 @@ const SHAPE = new Set(["x0", "x1", "y0", "y1"]);
 const SLIDER = new Set(["steps", "active"]);
 const INSET = 10; // of a slider's first and last stop from its ends, in pixels
 // Only these parts of a layout may differ.
-const LAYOUT = new Set(["annotations", "shapes", "sliders"]);
+const LAYOUT = new Set(["annotations", "shapes", "sliders", "meta"]);
 
 class Fixed extends Error {}
 
