@@ -49,11 +49,11 @@ def dimensionless(
     values_here = here.stiffness if is_stiffness else here.damping
     x = _abscissa(places, against)
     words = "Stiffness" if is_stiffness else "Damping"
-    y = _decades(f"{words} |{symbol}ᵢⱼ| [-]", values_here)
+    y = _decades(style.titled(words, f"|{symbol}_ij|", "-"), values_here)
     traces = _elements(symbol, curve.axes, places, values)
     if is_stiffness:
         k_eq = curve.equivalent_stiffness
-        traces.append(style.line(places, k_eq, "k<sub>eq</sub>", style.GREY, dash="dot"))
+        traces.append(style.line(places, k_eq, style.symbols("k_eq"), style.GREY, dash="dot"))
     return style.chart([*traces, *_points(float(place), values_here, (x, y))], x, y, legend=_LEGEND)
 
 
@@ -74,18 +74,18 @@ def damping_against_speed(
 def unloading(curve: Unloading, here: Unloading, centred: Unloading, units: Units) -> Chart:
     """Return K and (Ω/2)·C_XX at the running speed as the journal nears the centre (Eq. 5.37)."""
     unit = units.stiffness
-    x = style.axis("Eccentricity ratio ε [-]", 1e-2, 1.0, log=True)
+    x = style.axis(style.titled("Eccentricity ratio", "ε", "-"), 1e-2, 1.0, log=True)
     cross = float(unit.of(centred.stiffness[0, 1]))
-    title = style.titled("Stiffness", "Kᵢⱼ", unit.name)
+    title = style.titled("Stiffness", "K_ij", unit.name)
     middle = math.floor(math.log10(cross))
     y = style.axis(title, 10.0 ** (middle - 2), 10.0 ** (middle + 3), log=True)
     eps, eps_here = curve.eccentricity_ratio, float(here.eccentricity_ratio)
     traces: list[Trace] = []
     for place, colour in _COLOURS.items():
-        name = f"K<sub>{_indices('XY', place)}</sub>"
+        name = _name("K", "XY", place)
         traces += _signed(eps, unit.of(curve.stiffness[:, *place]), name, colour)
     damping = unit.of(curve.whirl_damping[:, 0, 0])
-    traces.append(style.line(eps, damping, "½Ω C<sub>XX</sub>", style.GREY, dash="dot"))
+    traces.append(style.line(eps, damping, style.symbols("½Ω C_XX"), style.GREY, dash="dot"))
     traces += _points(eps_here, unit.of(here.stiffness), (x, y))
     return style.chart(traces, x, y)
 
@@ -94,14 +94,14 @@ def added_mass(laminar: AddedMass, bulk: AddedMass, here: AddedMass, units: Unit
     """Return the film's added mass against running speed, for two velocity profiles."""
     x, unit = _speed_axis(laminar.speed, units), units.mass
     low, high = _span(unit.of(laminar.mass[_settled(laminar.speed)]))
-    y = style.axis(style.titled("Added mass per bearing", "Mᵢⱼ", unit.name), low, high)
+    y = style.axis(style.titled("Added mass per bearing", "M_ij", unit.name), low, high)
     speed = units.speed.of(laminar.speed)
     traces: list[Trace] = []
     for place in ((0, 0), (1, 1), (0, 1)):
-        name = f"M<sub>{_indices('XY', place)}</sub>"
+        name = _name("M", "XY", place)
         traces.append(style.line(speed, unit.of(laminar.mass[:, *place]), name, _COLOURS[place]))
     for place in ((0, 0), (1, 1)):
-        name = f"M<sub>{_indices('XY', place)}</sub>, bulk flow"
+        name = f"{_name('M', 'XY', place)}, bulk flow"
         flat, colour = unit.of(bulk.mass[:, *place]), _COLOURS[place]
         traces.append(style.line(speed, flat, name, colour, dash="dot", width=1.6))
     values = unit.of(here.mass[[0, 1, 0], [0, 1, 1]])
@@ -124,13 +124,13 @@ def _dimensional(
     x = _speed_axis(sweep.speed, units)
     low, high = _span(np.append(values[_settled(sweep.speed)], values_here))
     words = "Stiffness" if is_stiffness else "Damping"
-    y = style.axis(style.titled(words, f"{symbol}ᵢⱼ", unit.name), low, high)
+    y = style.axis(style.titled(words, f"{symbol}_ij", unit.name), low, high)
     speed = units.speed.of(sweep.speed)
     traces = [
         style.line(
             speed,
             values[:, *place],
-            f"{symbol}<sub>{_indices(curve.axes, place)}</sub>",
+            _name(symbol, curve.axes, place),
             colour,
             width=_width(symbol, place),
         )
@@ -138,7 +138,7 @@ def _dimensional(
     ]
     if is_stiffness:
         K_eq = unit.of(curve.equivalent_stiffness)
-        traces.append(style.line(speed, K_eq, "K<sub>eq</sub>", style.GREY, dash="dot"))
+        traces.append(style.line(speed, K_eq, style.symbols("K_eq"), style.GREY, dash="dot"))
     now = float(units.speed.of(point.speed))
     return style.chart(
         [*traces, *_points(now, values_here, (x, y), signed=True)], x, y, legend=_LEGEND
@@ -152,7 +152,7 @@ def _elements(symbol: str, axes: str, places: Array, values: Array) -> list[Trac
             _signed(
                 places,
                 values[:, *place],
-                f"{symbol}<sub>{_indices(axes, place)}</sub>",
+                _name(symbol, axes, place),
                 colour,
                 width=_width(symbol, place),
             )
@@ -190,16 +190,17 @@ def _points(
     return [lines, point | {"showlegend": False}, others]
 
 
-def _indices(axes: str, place: tuple[int, int]) -> str:
+def _name(symbol: str, axes: str, place: tuple[int, int]) -> str:
+    """Return a coefficient's symbol with its two indices."""
     names = _NAMES[axes]
-    return names[place[0]] + names[place[1]]
+    return style.symbols(f"{symbol}_{names[place[0]]}{names[place[1]]}")
 
 
 def _abscissa(places: Array, against: str) -> Axis:
     if against == "ε":
-        return style.axis("Eccentricity ratio ε [-]", 0.0, 1.0)
+        return style.axis(style.titled("Eccentricity ratio", "ε", "-"), 0.0, 1.0)
     low, high = float(places.min()), float(places.max())
-    return style.axis("Modified Sommerfeld number σ [-]", low, high, log=True)
+    return style.axis(style.titled("Modified Sommerfeld number", "σ", "-"), low, high, log=True)
 
 
 def _decades(title: str, values: Array) -> Axis:

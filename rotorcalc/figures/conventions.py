@@ -49,7 +49,7 @@ def conventions() -> Chart:
         _word("θ", _at(0.79, thick + math.radians(45.0)), style.PURPLE),
         _word("Ω", _at(1.28, math.radians(135.0)), style.RED),
         _word("e", _at(0.2, _ATTITUDE - 0.55)),
-        _word("Fₒ", (centre[0] + 0.1, centre[1] - 0.3), style.RED),
+        _word("F_o", (centre[0] + 0.1, centre[1] - 0.3), style.RED),
         _word("θ = 0, thickest film", _at(1.06, thick), anchor="right"),
         _word("θ = π, thinnest film", _at(1.08, _ATTITUDE + 0.16), anchor="left"),
     ]
@@ -100,6 +100,7 @@ def _arrow(tip: tuple[float, float], angle: float, colour: str, *, length: float
 def _word(
     text: str, place: tuple[float, float], colour: str | None = None, anchor: str = "center"
 ) -> Item:
+    text = style.symbols(text)
     font = {"size": 16} if colour is None else {"size": 16, "color": colour}
     return {
         "text": text, "x": place[0], "y": place[1], "showarrow": False, "xanchor": anchor,

@@ -87,7 +87,7 @@ def tornado(found: Sensitivities, names: Mapping[str, str], units: Units) -> Cha
     less = np.array([_change(float(unit.of(one.onset_low)), onset) for one in inputs])
     more = np.array([_change(float(unit.of(one.onset_high)), onset) for one in inputs])
     reach = style.ceiling(1.1 * np.abs([*less, *more, 1.0]))
-    title = titled("Change", "ΔΩ<sub>on</sub>", unit.name)
+    title = titled("Change", "ΔΩ_on", unit.name)
     rows = [
         f"{names[one.field]}<br>{_signed(low)} / {_signed(high)} {unit.name}"
         for one, low, high in zip(inputs, less, more, strict=True)
@@ -123,7 +123,7 @@ def solution(
     x, now = quantity.axis(), float(unit.of(here[1]))
     target = float(unit.of(found.target))
     top = style.ceiling([1.6 * target, min(1.2 * now, 6.0 * target)])
-    y = style.axis(titled("Onset speed", "Ω<sub>on</sub>", unit.name), 0.0, top)
+    y = style.axis(titled("Onset speed", "Ω_on", unit.name), 0.0, top)
     onset = unit.of(np.where(np.isinf(found.onset), np.nan, found.onset))
     values = quantity.unit.of(found.values)
     ends = [values[0], values[-1]]

@@ -73,8 +73,8 @@ def locus(path: Path, point: Sweep, units: Units) -> Chart:
         *plane.turning(*turn),
         *(plane.dot(place, style.JOURNAL) for place in ticks),
     ]
-    x = style.axis("Y/C, in the sense of rotation →", -edge, edge, dtick=0.5)
-    y = style.axis("← X/C, along the load", edge, -edge, dtick=0.5)
+    x = style.axis(f"{style.symbols('Y/C')}, in the sense of rotation →", -edge, edge, dtick=0.5)
+    y = style.axis(f"← {style.symbols('X/C')}, along the load", edge, -edge, dtick=0.5)
     return plane.chart(
         traces, x, y, height=HEIGHT, margin=_MARGIN, annotations=labels, shapes=shapes
     )
@@ -99,7 +99,9 @@ def position_over_sommerfeld(curves: FilmCurves, sweep: Sweep, point: Sweep, uni
         style.line(film.sommerfeld, film.eccentricity_ratio, "any speed", _SOFT, **soft),
         *style.lower([style.line(film.sommerfeld, phi, "any speed", _SOFT, **soft)]),
     ]
-    notes = [] if loaded else [text.remark("no load: σ is infinite", 0.98, 0.97)]
+    notes = (
+        [] if loaded else [text.remark(f"no load: {style.symbols('σ')} is infinite", 0.98, 0.97)]
+    )
     return {
         "data": [*behind, *chart["data"]],
         "layout": {**chart["layout"], "annotations": notes},
@@ -141,7 +143,9 @@ def minimum_film_thickness(sweep: Sweep, point: Sweep, units: Units) -> Chart:
         sweep, point, units, ("minimum_film_thickness", units.film, title), least=1.05 * C
     )
     across = chart["layout"]["xaxis"]["range"]
-    clearance = style.line(across, [C, C], "radial clearance C", _SOFT, width=1.4, dash="dot")
+    clearance = style.line(
+        across, [C, C], f"radial clearance {style.symbols('C')}", _SOFT, width=1.4, dash="dot"
+    )
     return {**chart, "data": [clearance, *chart["data"]]}
 
 
@@ -164,11 +168,17 @@ def _panes(across: Array, sweep: Sweep, at: tuple[float, Sweep], x: Axis, units:
     x = {**x, "anchor": "y2"}
     eps, phi = sweep.eccentricity_ratio, units.angle.of(sweep.attitude_angle)
     y = style.axis(
-        "Eccentricity ratio ε [-]", 0.0, style.ceiling(eps, 1.0), dtick=0.25, domain=style.UPPER
+        style.titled("Eccentricity ratio", "ε", "-"),
+        0.0,
+        style.ceiling(eps, 1.0),
+        dtick=0.25,
+        domain=style.UPPER,
     )
     low, high = 30.0 * math.floor(min(0.0, float(phi.min())) / 30.0), float(phi.max())
     high = max(90.0, 30.0 * math.ceil(high / 30.0))
-    y2 = style.axis("Attitude angle φ [°]", low, high, dtick=30, domain=style.LOWER)
+    y2 = style.axis(
+        style.titled("Attitude angle", "φ", "°"), low, high, dtick=30, domain=style.LOWER
+    )
     hover = text.hover("%{x:.4g}", units.number)
     traces = [
         style.line(across, eps, "ε", style.JOURNAL, hovertemplate=hover),
@@ -240,12 +250,13 @@ def _locus_labels(point: Sweep, at: Array, outline: Array, units: Units) -> list
     C, rpm = point.machine.bearing.radial_clearance, float(units.speed.of(point.speed))
     phi = text.amount(units.angle, point.attitude_angle).replace(" ", "")
     is_circle = np.allclose(np.hypot(*outline.T), 1.0, rtol=0.0, atol=1e-9)
-    circle = f"clearance{' circle' if is_circle else ''}, C = {text.amount(units.film, C)}"
+    size = f"{style.symbols('C')} = {text.amount(units.film, C)}"
+    circle = f"clearance{' circle' if is_circle else ''}, {size}"
     left: Part = {"xanchor": "right", "xshift": -6}
     yshift = 20 if at[0] < _LOW else -4
     return [
         plane.label(f"<b>{rpm:.0f} rpm</b>", at, xshift=10, yshift=yshift, xanchor="left"),
-        plane.label(f"φ = {phi}", (0.3, 0.0), **left),
+        plane.label(f"{style.symbols('φ')} = {phi}", (0.3, 0.0), **left),
         plane.label("Ω", plane.at(2.2, 1.18 * float(np.hypot(*outline.T).max()))),
         plane.label(circle, (1.1 * float(outline[:, 0].max()), 0.0), size=12, **left),
     ]
@@ -257,7 +268,7 @@ def _load_arrow(point: Sweep, reach: float, units: Units) -> list[Part]:
         centred = not np.any(point.journal_position)
         words = "no load: the journal is centred" if centred else "no load"
         return [plane.label(words, (-0.6 * reach, 0.0))]
-    words = f"Fₒ = {text.amount(units.force, load)}"
+    words = f"{style.symbols('F_o')} = {text.amount(units.force, load)}"
     return [
         plane.label(words, (-0.75 * reach, 0.0), xshift=8, xanchor="left"),
         plane.arrow((-0.95 * reach, 0.0), (-0.45 * reach, 0.0), style.GREY),

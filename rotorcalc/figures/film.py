@@ -17,6 +17,7 @@ HEIGHT = 500
 
 _RADIAL, _TANGENTIAL, _RESULTANT = style.PURPLE, style.OCHRE, style.BLUE
 _THICKNESS, _PRESSURE, _PRESSURE_FILL = style.BLUE, style.PURPLE, "rgba(176,86,159,0.16)"
+_LOAD = style.symbols("F_o")
 _SOFT = "rgba(127,127,127,0.8)"
 _CAVITATED = "rgba(127,127,127,0.12)"
 
@@ -74,7 +75,8 @@ def pressure_map(field: PressureField, point: Sweep, units: Units) -> Chart:
         "z": p[once].T.astype(np.float32),  # single precision halves the message
         "zmin": 0.0, "zmax": high, "colorscale": "Cividis", "line": {"width": 0.4},
         "contours": {"start": 0.0, "end": high, "size": high / 10},
-        "colorbar": {"title": {"text": title, "side": "right"}, "thickness": 14, "outlinewidth": 0},
+        "colorbar": {"title": {"text": title, "side": "right"}, "thickness": 14, "outlinewidth": 0,
+                     **style.PLAIN_NUMBERS},
         "hovertemplate": f"θ = %{{x:.0f}}°<br>z = %{{y:.3g}} {units.length.name}<br>"
         f"%{{z:.3g}} {units.pressure.name}<extra></extra>",
     }  # fmt: skip
@@ -97,9 +99,9 @@ def forces(curves: FilmForces, at: FilmForces, units: Units) -> Chart:
     traces = [
         style.line(eps, units.force.of(force), name, colour, hovertemplate=hover)
         for force, name, colour in (
-            (curves.total, "resultant F", _RESULTANT),
-            (curves.tangential, "tangential Fₜ", _TANGENTIAL),
-            (-curves.radial, "radial −Fᵣ", _RADIAL),
+            (curves.total, f"resultant {style.symbols('F')}", _RESULTANT),
+            (curves.tangential, f"tangential {style.symbols('F_t')}", _TANGENTIAL),
+            (-curves.radial, f"radial −{style.symbols('F_r')}", _RADIAL),
         )
     ]
     if load == 0.0:
@@ -108,7 +110,7 @@ def forces(curves: FilmForces, at: FilmForces, units: Units) -> Chart:
     e, parts = float(at.eccentricity_ratio), units.force.of(np.array([at.tangential, -at.radial]))
     marker = {"size": 9, "color": [_TANGENTIAL, _RADIAL], "line": {"color": style.HERE, "width": 2}}
     traces += [
-        style.line([0.0, 1.0], [load, load], "load Fₒ", _SOFT, width=1.6, dash="dot"),
+        style.line([0.0, 1.0], [load, load], f"load {_LOAD}", _SOFT, width=1.6, dash="dot"),
         style.mark(
             [e, e], parts, "components", marker=marker, showlegend=False, hovertemplate=hover
         ),
@@ -119,8 +121,8 @@ def forces(curves: FilmForces, at: FilmForces, units: Units) -> Chart:
 
 def force_balance(at: FilmForces, point: Sweep, units: Units) -> Chart:
     """Return load and film forces as a closed triangle, in units of the load (Eq. 5.4)."""
-    x = style.axis("Force along Y, in Fₒ →", -0.55, 0.95, dtick=0.5)
-    y = style.axis("← Force along X, in Fₒ", 1.15, -0.25, dtick=0.5)
+    x = style.axis(f"Force along {style.symbols('Y')}, in {_LOAD} →", -0.55, 0.95, dtick=0.5)
+    y = style.axis(f"← Force along {style.symbols('X')}, in {_LOAD}", 1.15, -0.25, dtick=0.5)
     load = float(at.total)
     if load == 0.0:
         note = text.remark("no load: there is no force to balance", 0.5, 0.5, xanchor="center")
@@ -128,9 +130,9 @@ def force_balance(at: FilmForces, point: Sweep, units: Units) -> Chart:
     phi = float(point.attitude_angle)
     start, end, corner = (0.0, 0.0), (1.0, 0.0), plane.at(phi, -float(at.radial) / load)
     sides = (
-        (start, end, "load Fₒ", style.GREY, load),
-        (end, corner, "tangential Fₜ", _TANGENTIAL, float(at.tangential)),
-        (corner, start, "radial Fᵣ", _RADIAL, float(at.radial)),
+        (start, end, f"load {_LOAD}", style.GREY, load),
+        (end, corner, f"tangential {style.symbols('F_t')}", _TANGENTIAL, float(at.tangential)),
+        (corner, start, f"radial {style.symbols('F_r')}", _RADIAL, float(at.radial)),
     )
     half_circle = plane.arc(0.0, math.pi, 0.5) + np.array([0.5, 0.0])
     hidden: Part = {"showlegend": False, "hoverinfo": "skip"}
@@ -187,7 +189,7 @@ def _around(field: PressureField, **extra: Any) -> Axis:
     h = field.thickness
     thickest = bool(h[0] >= np.nanmax(h) * (1 - 1e-12))
     start = "the thickest film" if thickest else "opposite the line of centres"
-    return style.axis(f"θ from {start} [°]", 0.0, 360.0, dtick=60, **extra)
+    return style.axis(f"{style.symbols('θ')} from {start} [°]", 0.0, 360.0, dtick=60, **extra)
 
 
 def _upright(left: float, right: float, **extra: Any) -> Part:

@@ -10,13 +10,15 @@ from numpy.typing import ArrayLike
 from rotorcalc.analysis import Sweep
 from rotorcalc.arrays import Array
 from rotorcalc.coefficients import PressureField
-from rotorcalc.figures import style
+from rotorcalc.figures import style, text
 from rotorcalc.figures.style import Chart, Trace
 from rotorcalc.films import film_of
 from rotorcalc.units import Units
 
 # Clearance over the bore's radius in the exaggerated drawing; to scale it would be invisible.
 EXAGGERATED = 0.3
+# Radius of the attitude angle's arc over the journal's.
+_ARC = 0.55
 _ANGLES = np.linspace(0.0, 2.0 * np.pi, 181)
 _AROUND = np.linspace(0.0, 2.0 * np.pi, 361)  # a square bore's corners are among these
 
@@ -50,21 +52,18 @@ def cross_section(
         *_pressure(film.theta - film.load_theta, pressure, bore),
         _ring(bore.wall(_ANGLES), "bearing", style.GREY, fill=None),
         _ring(journal, "journal", style.JOURNAL, fill="rgba(43,123,186,0.16)"),
-        _line_of_centres(point),
+        *_attitude(point, bore),
         style.mark(*_drawn(centre), "journal centre", hoverinfo="name"),
     ]
-    peak = float(units.pressure.of(point.peak_pressure))
-    known = math.isfinite(peak)
-    words = f"peak pressure {peak:.3g} {units.pressure.name}" if known else "pressure not known"
-    load = float(units.force.of(point.machine.static_load))
     return style.chart(
         traces,
-        _hidden(-1.6, 1.6, constrain="domain"),
+        _hidden(-2.1, 1.7, constrain="domain"),
         _hidden(-1.6, 1.1, scaleanchor="x"),
         annotations=[
-            *_load_arrow(load, units),
+            *_load_arrow(point.machine.static_load),
             *_rotation_arrow(centre, 0.5 * bore.journal),
-            style.note(words, 0.0, 0.0, xanchor="left"),
+            *_names(point, bore),
+            *_readings(point, film, units),
         ],
         showlegend=False,
         height=330,
@@ -133,25 +132,64 @@ def _pressure(angles: Array, pressure: Array, bore: _Bore) -> list[Trace]:
     ]  # fmt: skip
 
 
-def _line_of_centres(point: Sweep) -> Trace:
+def _attitude(point: Sweep, bore: _Bore) -> list[Trace]:
+    """Return the line of centres, to the thinnest film, and the attitude angle from the load."""
     phi = float(point.attitude_angle)
-    ends = np.array([[0.0, 0.0], [np.cos(phi), np.sin(phi)]])
-    return style.line(*_drawn(ends), "line of centres", style.GREY, dash="dot", hoverinfo="name")
+    ends = np.array([[0.0, 0.0], [math.cos(phi), math.sin(phi)]])
+    arc = _circle(_ARC * bore.journal, np.linspace(0.0, phi, 49))
+    return [
+        style.line(*_drawn(ends), "line of centres", style.GREY, dash="dot", hoverinfo="name"),
+        style.line(*_drawn(arc), "attitude angle", style.PURPLE, width=1.8, hoverinfo="name"),
+    ]
 
 
-def _load_arrow(load: float, units: Units) -> list[dict[str, Any]]:
+def _names(point: Sweep, bore: _Bore) -> list[dict[str, Any]]:
+    """Return the names of the attitude angle and of the thinnest film, beside them."""
+    phi = float(point.attitude_angle)
+    angle = _circle((_ARC + 0.16) * bore.journal, np.array(phi / 2.0))
+    thinnest = _circle(1.0, np.array(phi))
+    right = bool(thinnest[1] >= 0.0)
+    return [
+        _label("φ", angle, font={"color": style.PURPLE}),
+        _label("h_min", thinnest, xanchor="left" if right else "right", xshift=6 if right else -6),
+    ]
+
+
+def _readings(point: Sweep, film: PressureField, units: Units) -> list[dict[str, Any]]:
+    """Return the numbers of the drawing, one below the other at its left edge."""
+    C = point.machine.bearing.radial_clearance
+    known = math.isfinite(float(point.peak_pressure))
+    load = point.machine.static_load
+    rows = (
+        ("F_o", text.amount(units.force, load) if load else "0, no load"),
+        ("φ", text.amount(units.angle, point.attitude_angle).replace(" ", "")),
+        ("e", text.amount(units.film, point.eccentricity_ratio * C)),
+        ("h_min", text.amount(units.film, film.thickness.min())),
+        ("p_max", text.amount(units.pressure, point.peak_pressure) if known else "not known"),
+    )
+    return [
+        style.note(
+            f"{style.symbols(name)} = {words}", 0.0, 1.0, xanchor="left", yanchor="top",
+            yshift=-22 * i,
+        )
+        for i, (name, words) in enumerate(rows)
+    ]  # fmt: skip
+
+
+def _label(name: str, place: Array, **extra: Any) -> dict[str, Any]:
+    x, y = map(float, _drawn(place))
+    return {"text": style.symbols(name), "x": x, "y": y, "showarrow": False, **extra}
+
+
+def _load_arrow(load: float) -> list[dict[str, Any]]:
     if load == 0.0:
-        return [style.note("no load", 0.5, 0.99)]
+        return []
     head = {
         "x": 0.0, "y": -0.42, "ax": 0.0, "ay": 0.42, "xref": "x", "yref": "y", "axref": "x",
         "ayref": "y", "text": "", "showarrow": True, "arrowhead": 2, "arrowwidth": 3,
         "arrowcolor": style.GREY,
     }  # fmt: skip
-    label = {
-        "x": 0.05, "y": 0.36, "text": f"Fₒ {load:.4g} {units.force.name}", "showarrow": False,
-        "xanchor": "left",
-    }  # fmt: skip
-    return [head, label]
+    return [head, _label("F_o", np.array([-0.36, 0.0]), xanchor="left", xshift=6)]
 
 
 def _rotation_arrow(centre: Array, radius: float) -> list[dict[str, Any]]:

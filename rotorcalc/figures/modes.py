@@ -45,9 +45,7 @@ def growth(shown: OverSpeed) -> Chart:
 def frequency(shown: OverSpeed) -> Chart:
     """Return the damped frequencies over speed, with 1× and ½× the running speed."""
     locus, units = shown.locus, shown.units
-    y = style.axis(
-        titled("Mode frequency", "ω<sub>d</sub>", units.speed.name), 0.0, window(locus, units)[2]
-    )
+    y = style.axis(titled("Mode frequency", "ω_d", units.speed.name), 0.0, window(locus, units)[2])
     orders = [
         _guide(shown, locus.speed, "1× speed", "dot"),
         _guide(shown, locus.speed / 2.0, "½× speed", "dash"),
@@ -91,18 +89,18 @@ def natural(shown: OverSpeed, *, rigid: Array, shaft: float) -> Chart:
     """
     units = shown.units
     top = window(shown.locus, units)[2]
-    y = style.axis(titled("Natural frequency", "ω<sub>n</sub>", units.speed.name), 0.0, top)
+    y = style.axis(titled("Natural frequency", "ω_n", units.speed.name), 0.0, top)
     rigid_rotor = style.line(
         units.speed.of(shown.locus.speed),
         units.speed.of(rigid),
-        "√(K<sub>eq</sub>/M)",
+        style.symbols("√(K_eq/M)"),
         style.RIGID,
         dash="dash",
     )
     beside = [rigid_rotor]
     if units.speed.of(shaft) <= top:
         alone = np.full_like(shown.locus.speed, shaft)
-        beside.append(_guide(shown, alone, "√(K<sub>rot</sub>/M)", "dashdot"))
+        beside.append(_guide(shown, alone, style.symbols("√(K_rot/M)"), "dashdot"))
 
     def quantity(values: ComplexArray) -> Array:
         return _swinging(values, units.speed.of(modes.natural_frequency(values)))

@@ -355,9 +355,9 @@ def _by_stability(
 def _variant_name(rotor: Rotor, varied: Literal["damping", "mass"], units: Units) -> str:
     """Return the legend's name of a variant."""
     if varied == "damping":
-        unit, value, symbol = units.shaft_damping, rotor.disk_damping, "C<sub>s</sub>"
+        unit, value, symbol = units.shaft_damping, rotor.disk_damping, "C_s"
     else:
-        unit, value, symbol = units.mass, rotor.journal_mass, "M<sub>j</sub>"
+        unit, value, symbol = units.mass, rotor.journal_mass, "M_j"
     number = float(unit.of(value))
     digits = f"{number:.3g}" if number < 1e3 else f"{number:,.0f}".replace(",", "\u2009")
-    return f"{symbol} = {digits} {unit.name}"
+    return f"{style.symbols(symbol)} = {digits} {unit.name}"

@@ -239,7 +239,8 @@ def _rays(left: float, top: float, units: Units) -> list[tuple[Item, Item]]:
                     "layer": "below", "line": line,
                 },
                 {
-                    "text": f"ζ = {ratio:g}", "x": 0.97 * x, "y": 0.97 * y, "showarrow": False,
+                    "text": f"{style.symbols('ζ')} = {ratio:g}", "x": 0.97 * x, "y": 0.97 * y,
+                    "showarrow": False,
                     "font": {"size": 12, "color": style.GREY}, "xanchor": "left", "xshift": 3,
                 },
             ))  # fmt: skip

@@ -76,7 +76,7 @@ def threshold(over: Thresholds, here: Thresholds, crossing: Crossing, units: Uni
     speed, x = unit.of(over.speed), _speed_axis(over, unit)
     top, now = _high(x), float(unit.of(here.flexible))
     y = style.axis(
-        titled("Threshold speed", "Ω<sub>s</sub>, Ω<sub>sf</sub>", unit.name),
+        titled("Threshold speed", "Ω_s, Ω_sf", unit.name),
         0.0,
         style.ceiling([1.2 * top, *_shown([now, *unit.of(over.rigid[-1:])], 4.0 * top)]),
     )
@@ -99,7 +99,7 @@ def whirl_frequency(over: Thresholds, here: Thresholds, crossing: Crossing, unit
     speed, x = unit.of(over.speed), _speed_axis(over, unit)
     top, now = _high(x), float(unit.of(here.flexible_frequency))
     y = style.axis(
-        titled("Whirl frequency at the threshold", "ω<sub>s</sub>", unit.name),
+        titled("Whirl frequency at the threshold", "ω_s", unit.name),
         0.0,
         style.ceiling([0.6 * top, *_shown([now, *unit.of(over.rigid_frequency[-1:])], 4.0 * top)]),
     )
@@ -139,7 +139,7 @@ def critical_mass(over: Thresholds, here: Thresholds, crossing: Crossing, units:
 
 def whirl_ratio(figure: FilmFigure) -> Chart:
     """Return the whirl frequency ratio over σ or ε (Fig. 5.7)."""
-    y = style.axis(titled("Whirl frequency ratio", "ω<sub>s</sub>/Ω<sub>s</sub>", "-"), 0.0, 0.6)
+    y = style.axis(titled("Whirl frequency ratio", "ω_s/Ω_s", "-"), 0.0, 0.6)
     now = math.nan if figure.here is None else float(figure.here.onset.whirl_ratio)
     return _film_chart(figure, figure.curves.onset.whirl_ratio, y, now, "whirl ratio")
 
@@ -147,19 +147,17 @@ def whirl_ratio(figure: FilmFigure) -> Chart:
 def threshold_speed(figure: FilmFigure) -> Chart:
     """Return the dimensionless threshold speed of a rigid rotor over σ or ε (Fig. 5.8)."""
     now = math.nan if figure.here is None else float(figure.here.onset.threshold_speed)
-    y = style.axis(
-        titled("Threshold speed", "p<sub>s</sub>", "-"), 0.0, style.ceiling([6.0, min(now, 30.0)])
-    )
-    return _film_chart(figure, figure.curves.onset.threshold_speed, y, now, "p<sub>s</sub>")
+    y = style.axis(titled("Threshold speed", "p_s", "-"), 0.0, style.ceiling([6.0, min(now, 30.0)]))
+    return _film_chart(figure, figure.curves.onset.threshold_speed, y, now, style.symbols("p_s"))
 
 
 def critical_mass_number(figure: FilmFigure) -> Chart:
     """Return the dimensionless critical mass over σ or ε (Fig. 5.9)."""
     now = math.nan if figure.here is None else float(figure.here.onset.critical_mass)
     y = style.axis(
-        titled("Critical mass", "p<sub>s</sub>²", "-"), 0.0, style.ceiling([30.0, min(now, 900.0)])
+        titled("Critical mass", "p_s²", "-"), 0.0, style.ceiling([30.0, min(now, 900.0)])
     )
-    return _film_chart(figure, figure.curves.onset.critical_mass, y, now, "p<sub>s</sub>²")
+    return _film_chart(figure, figure.curves.onset.critical_mass, y, now, style.symbols("p_s²"))
 
 
 def flexible_threshold(
@@ -171,24 +169,24 @@ def flexible_threshold(
     """
     x_values, x = figure.values(figure.curves), figure.axis()
     y = style.axis(
-        titled("Threshold speed", "p<sub>sf</sub>", "-"), 0.0, style.ceiling([5.0, min(now, 30.0)])
+        titled("Threshold speed", "p_sf", "-"), 0.0, style.ceiling([5.0, min(now, 30.0)])
     )
     sags = np.asarray(sags, dtype=float)
     known = [
         style.line(
-            x_values, _drawable(row), f"Γ/C = {sag:g}", style.GREY, width=1.6, showlegend=False
+            x_values, _drawable(row), f"{_SAG} = {sag:g}", style.GREY, width=1.6, showlegend=False
         )
         for sag, row in zip(sags[:-1], thresholds[:-1], strict=True)
     ]
     own = style.line(
         x_values,
         _drawable(thresholds[-1]),
-        f"this machine, Γ/C = {sags[-1]:.3g}",
+        f"this machine, {_SAG} = {sags[-1]:.3g}",
         style.FLEXIBLE,
         width=3.0,
     )
     names = [
-        _at_the_free_end(figure, f"Γ/C = {sag:g}", float(row[-1]))
+        _at_the_free_end(figure, f"{_SAG} = {sag:g}", float(row[-1]))
         for sag, row in zip(sags[:-1], thresholds[:-1], strict=True)
     ]
     return _film_frame(figure, [*known, own], (x, y), now, names)
@@ -205,7 +203,7 @@ def energy_bars(energies: Energies, units: Units) -> Chart:
     places = np.arange(len(stops), dtype=float)
     top = style.ceiling([1.12 * gains.max(), 1.12 * (films + disks).max()])
     bars = [
-        _bar(places - _BESIDE, gains, "fed in, K<sub>XY</sub> − K<sub>YX</sub>", style.UNSTABLE),
+        _bar(places - _BESIDE, gains, f"fed in, {style.symbols('K_XY − K_YX')}", style.UNSTABLE),
         _bar(places + _BESIDE, films, "dissipated by the film", style.JOURNAL),
     ]
     if disks.any():
@@ -251,6 +249,7 @@ def energy(energies: Energies, crossing: Crossing, units: Units) -> Chart:
     )
 
 
+_SAG = style.symbols("Γ/C")
 _STOPS = ("running speed", "onset")
 
 
@@ -371,16 +370,17 @@ def _stable_side(figure: FilmFigure, x: Axis) -> tuple[list[Item], list[Item]]:
     shade = _box(x0=left, x1=right, y0=0, y1=1, yref="paper", fillcolor=_STABLE)
     eps = float(figure.limit.film.eccentricity_ratio)
     at, anchor = (0.99, "right") if figure.over_eccentricity else (0.01, "left")
-    words = f"stable<br>ε > {eps:.4f}"
+    words = f"stable<br>{style.symbols('ε')} > {eps:.4f}"
     return [shade], [style.note(words, at, 0.03, xanchor=anchor, yanchor="bottom")]
 
 
 def _where(figure: FilmFigure) -> str:
     if figure.here is None:
-        return "no load: σ is infinite"
+        return f"no load: {style.symbols('σ')} is infinite"
     film = figure.here.film
     return (
-        f"running speed: σ = {float(film.sommerfeld):.3g}, ε = {float(film.eccentricity_ratio):.3f}"
+        f"running speed: {style.symbols('σ')} = {float(film.sommerfeld):.3g}, "
+        f"{style.symbols('ε')} = {float(film.eccentricity_ratio):.3f}"
     )
 
 

@@ -6,6 +6,7 @@ contrast of 3 : 1 on white and on near-black and are distinct for colour-blind r
 """
 
 import math
+import re
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -79,8 +80,40 @@ def decades(values: ArrayLike) -> tuple[float, float]:
 def axis(title: str, low: float, high: float, *, log: bool = False, **extra: Any) -> Axis:
     """Return an axis with a fixed range, in data units also for a logarithmic axis."""
     span = [math.log10(low), math.log10(high)] if log else [low, high]
-    kind = {"type": "log", "dtick": 1} if log else {"type": "linear"}
+    if log:
+        kind: Axis = {"type": "log", "dtick": 1}
+    else:
+        kind = {"type": "linear"} | ({} if _TICKS & extra.keys() else ticks(low, high))
     return {"title": {"text": title}, "range": span, **_AXIS, **kind, **extra}
+
+
+def ticks(low: float, high: float, most: int = 6) -> Axis:
+    """Return ticks at round numbers, of which the ends of the axis are some where they are round.
+
+    An axis from zero has one at its end in any case; `most` is the largest number of intervals.
+    """
+    start, end = sorted((low, high))
+    if not 0.0 < end - start < math.inf:
+        return {}
+    power = 10.0 ** math.floor(math.log10((end - start) / most))
+    steps = [
+        step
+        for step in (factor * power for factor in (1, 2, 5, 10, 20, 2.5, 4, 3, 12.5))
+        if 2.0 - 1e-9 <= (end - start) / step <= most + 1e-9
+    ]
+    fits = (step for step in steps if _divides(step, start) and _divides(step, end))
+    step = next(fits, steps[0])
+    first, last = math.ceil(start / step - 1e-9), math.floor(end / step + 1e-9)
+    # Within the axis: an end that is round but for its last digit would else have no tick.
+    values = [min(max(round(i * step, 12), start), end) for i in range(first, last + 1)]
+    if start == 0.0 and not _divides(step, end):
+        kept = [value for value in values if end - value > 0.6 * step]
+        values = [*kept, end]
+    return {"tickmode": "array", "tickvals": values}
+
+
+def _divides(step: float, value: float) -> bool:
+    return abs(value / step - round(value / step)) < 1e-6
 
 
 def line(x: ArrayLike, y: ArrayLike, name: str, colour: str, **extra: Any) -> Trace:
@@ -156,7 +189,8 @@ def _widened(layout: Chart, other: Chart) -> Chart:
         if name[1:5] == "axis" and there and {"range"} <= axis.keys() & there.keys():
             (first, last), ends = axis["range"], (*axis["range"], *there["range"])
             low, high = min(ends), max(ends)
-            axes[name] = {**axis, "range": [low, high] if first <= last else [high, low]}
+            wide = {**axis, "range": [low, high] if first <= last else [high, low]}
+            axes[name] = wide | (ticks(low, high) if _has_own_ticks(axis) else {})
     return {**layout, **axes}
 
 
@@ -174,7 +208,18 @@ def small(chart: Chart) -> Chart:
         "annotations": [],
         "margin": {"l": 56, "r": 12, "t": 12, "b": 48},
     }
-    return {**chart, "layout": {**chart["layout"], **overview}}
+    layout = chart["layout"]
+    # What the overview leaves out, for where it is shown large after all.
+    whole = {key: layout[key] for key in ("showlegend", "annotations", "margin") if key in layout}
+    axes = {
+        name: axis | ticks(*axis["range"], most=4)
+        for name, axis in layout.items()
+        if name[1:5] == "axis" and _has_own_ticks(axis)
+    }
+    return {
+        **chart,
+        "layout": {**layout, **axes, **overview, "meta": {"showlegend": True, **whole}},
+    }
 
 
 def note(text: str, x: float, y: float, **extra: Any) -> dict[str, Any]:
@@ -197,14 +242,35 @@ def _ghost(trace: Trace) -> Trace:
     return {**kept, "name": name, "line": style, "marker": marker, "showlegend": False}
 
 
+def _has_own_ticks(axis: Axis) -> bool:
+    """Return whether an axis has the ticks of `ticks`."""
+    return axis.get("tickmode") == "array" and axis["type"] == "linear" and "ticktext" not in axis
+
+
 def _low(axis: Axis) -> float:
     low = min(axis["range"])
     return 10.0**low if axis["type"] == "log" else low
 
 
+def symbols(text: str) -> str:
+    """Return symbols such as K_ij or ω_s/Ω_s typeset as in an equation.
+
+    Letters are italic, Greek capitals upright, as LaTeX has them; an underscore begins an index.
+    Words of more than one letter, such as Re, stay as they are.
+    """
+    return _SYMBOL.sub(_typeset, text)
+
+
+def _typeset(match: re.Match[str]) -> str:
+    letter, index = match[1], f"<sub>{match[2]}</sub>" if match[2] else ""
+    if "Α" <= letter <= "Ω":
+        return f"{letter}<i>{index}</i>" if index else letter
+    return f"<i>{letter}{index}</i>"
+
+
 def titled(words: str, symbol: str, unit: str) -> str:
-    """Return an axis title, "words symbol [unit]"."""
-    return " ".join(part for part in (words, symbol, f"[{unit}]") if part)
+    """Return an axis title, "words symbol [unit]", the symbol typeset."""
+    return " ".join(part for part in (words, symbols(symbol), f"[{unit}]") if part)
 
 
 def legend_below() -> dict[str, Any]:
@@ -217,6 +283,10 @@ def joined(groups: Sequence[Sequence[Trace]]) -> list[Trace]:
     return [trace for group in groups for trace in group]
 
 
+# One letter, no part of a word, and its index.
+_SYMBOL = re.compile(r"(?<![A-Za-z])([A-Za-zΑ-Ωα-ω])(?:_([A-Za-z]+))?(?![A-Za-z])")
+# What an axis says of its ticks itself.
+_TICKS = {"dtick", "tickvals", "tickmode", "nticks", "visible"}
 _TEXT, _TEXT_ON_DARK = "#20262d", "#e6eaee"
 _AXIS: Axis = {
     "gridcolor": "rgba(127,127,127,0.18)",

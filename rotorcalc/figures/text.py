@@ -7,13 +7,21 @@ from numpy.typing import ArrayLike
 from rotorcalc.figures import style
 from rotorcalc.units import Unit
 
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
 
 def amount(unit: Unit, value: ArrayLike) -> str:
     """Return an SI value in a unit, to at least four digits, with the unit's name."""
-    number = float(unit.of(value))
-    # Four digits would turn 25000 into 2.5e+04: from 1e4 on an integer reads better.
-    words = f"{number:.0f}" if 1e4 <= abs(number) < 1e7 else f"{number:.4g}"
-    return f"{words} {unit.name}".replace("-", "−")
+    return f"{number(float(unit.of(value)))} {unit.name}"
+
+
+def number(value: float, digits: int = 4) -> str:
+    """Return a number to a few digits: 25000 whole, 2.5·10⁷ and 4·10⁻⁶ with powers of ten."""
+    if 1e3 <= abs(value) < 1e7:
+        return f"{value:.0f}".replace("-", "−")
+    mantissa, _, power = f"{value:.{digits}g}".partition("e")
+    tens = f"·10{str(int(power)).translate(_RAISED)}" if power else ""
+    return mantissa.replace("-", "−") + tens
 
 
 def hover(place: str, unit: Unit) -> str:

@@ -70,7 +70,7 @@ def _film(axes: Any, sigma: Any = SIGMA) -> ForceCoefficients:
 def test_negative_coefficients_are_dashed_and_named_so() -> None:
     chart = coefficients.dimensionless(_film("XY"), _film("XY", 1.0), "k", "ε")
     lines = {trace["name"]: trace for trace in chart["data"] if trace["mode"] == "lines"}
-    positive, negative = lines["k<sub>YX</sub>"], lines["−k<sub>YX</sub>"]
+    positive, negative = lines["<i>k<sub>YX</sub></i>"], lines["−<i>k<sub>YX</sub></i>"]
     k_YX = _film("XY").stiffness[:, 1, 0]
     assert negative["line"]["dash"] == "dash"
     assert np.any(k_YX > 0.0)

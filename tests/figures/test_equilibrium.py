@@ -207,7 +207,7 @@ def test_forces_meet_the_load_at_the_point(case: str, units: Units) -> None:
     assert _mark(chart) == pytest.approx((float(r.point.eccentricity_ratio), load))
     parts = next(trace for trace in chart["data"] if trace["name"] == "components")
     assert math.hypot(*parts["y"]) == pytest.approx(load)
-    total = next(trace for trace in chart["data"] if trace["name"] == "resultant F")
+    total = next(trace for trace in chart["data"] if trace["name"] == "resultant <i>F</i>")
     if 0.01 < r.point.eccentricity_ratio < 0.88:
         on_curve = np.interp(parts["x"][0], total["x"][::-1], np.log(total["y"][::-1]))
         assert on_curve == pytest.approx(math.log(load), abs=0.02)

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotorcalc.figures import SI, US, style, themed, with_baseline
+from rotorcalc.figures import SI, US, style, text, themed, with_baseline
 from rotorcalc.units import SYSTEMS
 from tests.figures.charts import check_plotly_takes_it
 
@@ -93,3 +93,56 @@ def test_every_unit_leads_to_si_and_back(system, value):
 def test_us_units_are_the_defined_ones(kind, si, us):
     assert float(getattr(US, kind).of(si)) == pytest.approx(us, rel=1e-12)
     assert getattr(SI, kind).name != getattr(US, kind).name
+
+
+@pytest.mark.parametrize("most", [4, 6])
+@pytest.mark.parametrize(
+    ("low", "high"),
+    [(0.0, 12000.0), (0.0, 15000.0), (0.0, 11350.5), (0.0, 1.2), (-600.0, 600.0), (200.0, -200.0)],
+)
+def test_ticks_are_few_and_reach_both_ends_of_the_axis(low: float, high: float, most: int) -> None:
+    values = style.ticks(low, high, most)["tickvals"]
+    assert (values[0], values[-1]) == tuple(sorted((low, high)))
+    assert 2 <= len(values) <= most + 2
+    assert np.diff(values).min() > 0.5 * np.diff(values).max()
+
+
+@given(st.floats(1e-6, 1e6), st.floats(-1e6, 1e6))
+def test_ticks_lie_within_any_axis_one_at_most_a_step_from_each_end(span: float, at: float) -> None:
+    low, high = at, at + span
+    values = style.ticks(low, high)["tickvals"]
+    assert values == sorted(values)
+    assert low <= values[0]
+    assert values[-1] <= high
+    assert 2 <= len(values) <= 8
+
+
+def test_an_axis_that_a_case_widens_has_ticks_for_its_new_range() -> None:
+    def chart(top: float) -> style.Chart:
+        x = style.axis("x", 0.0, top)
+        return style.chart([style.line([0.0, top], [0.0, 1.0], "a", style.BLUE)], x, x)
+
+    both = with_baseline(chart(100.0), chart(1200.0))
+    assert both["layout"]["xaxis"]["tickvals"][-1] == 1200.0
+
+
+@pytest.mark.parametrize(
+    ("plain", "typeset"),
+    [
+        ("K_ij", "<i>K<sub>ij</sub></i>"),
+        ("ω_s/Ω_s", "<i>ω<sub>s</sub></i>/Ω<i><sub>s</sub></i>"),
+        ("Re λ", "Re <i>λ</i>"),
+        ("p_s²", "<i>p<sub>s</sub></i>²"),
+        ("√(K_eq/M)", "√(<i>K<sub>eq</sub></i>/<i>M</i>)"),
+    ],
+)
+def test_symbols_are_typeset_as_in_an_equation(plain: str, typeset: str) -> None:
+    assert style.symbols(plain) == typeset
+
+
+@pytest.mark.parametrize(
+    ("value", "words"),
+    [(25000.0, "25000"), (2e7, "2·10⁷"), (-4e-6, "−4·10⁻⁶"), (0.34447, "0.3445"), (0.0, "0")],
+)
+def test_numbers_on_charts_have_no_e(value: float, words: str) -> None:
+    assert text.number(value) == words

@@ -62,12 +62,15 @@ function at(gd, letter, reference, value) {
   return found._offset + found.d2p(value);
 }
 
-// Overwrites a text that is all plain or all bold.
+// Overwrites a text piece by piece: its markup must be that of the text drawn.
 function say(node, text) {
-  const [, bold, words] = text.match(/^(<b>)?([^<&]*)(?:<\/b>)?$/) ?? [];
-  const place = bold ? node.querySelector("tspan") : node;
-  need(words !== undefined && place && place.children.length === 0);
-  place.textContent = words;
+  const pieces = text.split(/<[^>]*>/).filter(Boolean);
+  const texts = document.createTreeWalker(node, NodeFilter.SHOW_TEXT);
+  const drawn = [];
+  // Plotly returns from an index to the line by a text without width.
+  while (texts.nextNode()) if (texts.currentNode.nodeValue !== "\u200b") drawn.push(texts.currentNode);
+  need(drawn.length === pieces.length);
+  drawn.forEach((place, k) => { place.nodeValue = pieces[k]; });
 }
 
 function path(points, end) {

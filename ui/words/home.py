@@ -14,7 +14,7 @@ from ui.words.stability import can_whirl, crossing
 def content(page: Page) -> None:
     """Draw the machine at a glance."""
     units = page.units
-    bearing, results = st.columns([2, 3], gap="large")
+    bearing, results = st.columns([3, 4], gap="medium")
     with bearing:
         scale = st.segmented_control(
             "Film drawn", ["exaggerated", "to scale"], key="film_scale", default="exaggerated",
