@@ -74,7 +74,7 @@ def mode_shape(page: Page, *, bends: bool) -> None:
         page.chart(
             lambda c: figures.shape(
                 c.locus(bends).here,
-                words.same_mode(c.locus(bends), None if c is page.baseline else mode),
+                words.same_mode(c.locus(bends), None if page.is_case(c) else mode),
                 rigid=c.machine.rotor.is_rigid or not bends,
                 spiral=spiral,
             ),

@@ -69,7 +69,7 @@ def orbits(page: Page) -> None:
         "orbit_scrubber",
         alt="Orbits of disk and journal, with a slider over speed.",
         caption="The same at every speed; the slider starts at the running speed, and a "
-        "pinned machine stays at its own.",
+        "case stays at its own.",
     )
 
 

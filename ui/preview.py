@@ -12,20 +12,20 @@ from typing import Any, Literal, TypeVar
 
 import streamlit as st
 
-from rotorcalc.figures import Chart, themed, with_baseline
+from rotorcalc.figures import Chart, themed
 from rotorcalc.units import Units
 from ui.bearing import Values
+from ui.cases import Draw, Shown
 from ui.computed import Computed, computed_from
 from ui.inputs import input_named
 
 T = TypeVar("T")
-Draw = Callable[[Computed], Chart]
-Kind = Literal["markdown", "caption", "success", "info", "warning", "error"]
+Kind = Literal["markdown", "caption", "success", "info", "warning", "error", "html"]
 
 
 @dataclass(frozen=True)
 class Text:
-    """A text of a page: Markdown, and as what it is shown.
+    """A text of a page: Markdown, or HTML of this program's own, and as what it is shown.
 
     The browser knows of Markdown what this program uses: paragraphs, lists, tables, bold, code,
     badges, `:small[…]` and LaTeX.
@@ -36,17 +36,17 @@ class Text:
 
 
 Words = Callable[[Computed], Text | None]
-# A result's number, its change from the pinned machine, and its source.
+# A result's number, its change from the first case, and its source.
 Cells = Callable[[Computed], tuple[str, str, str]]
 
 
 @dataclass
 class Preview:
-    """A page as last drawn: its machine, the pinned one, and what it shows of them."""
+    """A page as last drawn: its machine, the first case, and what it shows of them."""
 
     values: Values
     computed: Computed
-    baseline: Computed | None
+    first: Shown | None
     units: Units
     dark: bool
     charts: dict[str, Draw] = field(default_factory=dict)
@@ -101,14 +101,3 @@ def _given(ask: Callable[[], T]) -> T | None:
     with suppress(ValueError):
         return ask()
     return None
-
-
-def compared(draw: Draw, computed: Computed, baseline: Computed | None) -> Chart:
-    """Return a chart of a machine, the pinned one's thin and grey behind it."""
-    chart = draw(computed)
-    if baseline is None:
-        return chart
-    try:
-        return with_baseline(chart, draw(baseline))
-    except ValueError:  # the pinned machine's film does not give this result
-        return chart

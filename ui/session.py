@@ -1,4 +1,4 @@
-"""A visitor's session: one machine, its preset, the units of display, the pinned baseline.
+"""A visitor's session: one machine, its preset, the units of display, the cases beside it.
 
 Widgets read from here and write to here, and the address bar is written from here. So a value
 survives a change of page, whether it was moved or came with a link.
@@ -12,7 +12,9 @@ from typing import Any, TypeVar
 import streamlit as st
 
 from rotorcalc.units import SYSTEMS, Units
+from ui import cases
 from ui.bearing import KIND, Value, Values
+from ui.cases import Case
 from ui.history import History
 from ui.inputs import PRESET_VALUES
 from ui.preview import Preview
@@ -29,7 +31,7 @@ class Work:
 
     preset: str
     values: Values
-    baseline: Values | None
+    cases: tuple[Case, ...]
 
 
 @dataclass
@@ -43,7 +45,7 @@ class Session:
     # What could not be taken of a link or a file: until the visitor takes the rest, nothing is
     # computed, as the rest is another machine than was meant.
     refused: list[str] = field(default_factory=list)
-    baseline: Values | None = None
+    cases: tuple[Case, ...] = ()
     typed: bool = False
     image_format: str = "png"
     # Whether a slider is being dragged: the address bar waits until it is released.
@@ -114,10 +116,10 @@ class Session:
         self._restore(self.history.redo())
 
     def _work(self) -> Work:
-        return Work(self.preset, dict(self.values), self.baseline)
+        return Work(self.preset, dict(self.values), self.cases)
 
     def _restore(self, work: Work) -> None:
-        self.preset, self.values, self.baseline = work.preset, dict(work.values), work.baseline
+        self.preset, self.values, self.cases = work.preset, dict(work.values), work.cases
         self.take()
 
     def framed(self) -> tuple[object, ...]:
@@ -137,18 +139,26 @@ class Session:
             st.session_state[key] = value
         return needed
 
-    def pin(self) -> None:
-        """Keep the live machine as the baseline A."""
-        self.baseline = dict(self.values)
+    def keep(self, name: str) -> None:
+        """Keep the live machine as a case, or raise ValueError: `ui.cases` says why."""
+        self.cases = cases.added(self.cases, name, self.values)
 
-    def unpin(self) -> None:
-        """Forget the baseline."""
-        self.baseline = None
+    def rename(self, place: int, name: str) -> None:
+        """Rename a case, or raise ValueError."""
+        self.cases = cases.renamed(self.cases, place, name)
 
-    def swap(self) -> None:
-        """Exchange the live machine and the baseline."""
-        if self.baseline is not None:
-            self.values, self.baseline = self.baseline, self.values
+    def drop(self, place: int) -> None:
+        """Forget a case."""
+        self.cases = (*self.cases[:place], *self.cases[place + 1 :])
+
+    def use(self, place: int) -> None:
+        """Make a case the live machine."""
+        self.values = dict(self.cases[place].values)
+        self.take()
+
+    def link(self) -> dict[str, str]:
+        """Return the query parameters of a link to what is shown."""
+        return address.write(self.preset, self.values, self.units_name, self.cases)
 
     def ask_for(self, work: str, name: str) -> None:
         """Request a long computation; `name` distinguishes it from others of its kind."""
@@ -165,11 +175,9 @@ class Session:
 
         All of it is text and finite numbers, which JSON can hold.
         """
-        pinned = self.baseline
         shown = {key: st.session_state[key] for key in self.chosen if key in st.session_state}
         self.chosen |= shown
         return {
-            "pinned": None if pinned is None else address.write(self.preset, pinned, "SI"),
             "typed": self.typed, "image_format": self.image_format,
             "asked": self.asked, "chosen": self.chosen,
         }  # fmt: skip
@@ -177,8 +185,6 @@ class Session:
     def recall(self, kept: object) -> None:
         """Restore the valid part of what a browser kept, which is untrusted."""
         given: dict[str, Any] = kept if isinstance(kept, dict) else {}
-        if isinstance(pinned := given.get("pinned"), dict):
-            self.baseline = address.read({key: str(word) for key, word in pinned.items()}).values
         self.typed = given.get("typed") is True
         self.image_format = "svg" if given.get("image_format") == "svg" else "png"
         self.asked = _words(given.get("asked"), str)
@@ -206,15 +212,16 @@ def session() -> Session:
         return st.session_state[_KEY]
     given = address.read(st.query_params.to_dict())
     st.session_state[_KEY] = visitor = Session(
-        preset=given.preset, values=given.values, units_name=given.units, refused=given.problems
-    )
+        preset=given.preset, values=given.values, units_name=given.units, refused=given.problems,
+        cases=given.cases,
+    )  # fmt: skip
     return visitor
 
 
 def write_address_bar() -> dict[str, str]:
     """Write the machine to the address bar if it differs; return the query parameters."""
     visitor = session()
-    params = address.write(visitor.preset, visitor.values, visitor.units_name)
+    params = visitor.link()
     # Streamlit sends the address bar to the browser at each assignment, changed or not.
     # A link that was refused in part stays as it is: read again, it is refused again.
     if not visitor.dragging and not visitor.refused and st.query_params.to_dict() != params:

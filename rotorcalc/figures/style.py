@@ -35,7 +35,7 @@ HERE = "#f0b400"
 FAINT = "rgba(127,127,127,0.28)"
 SHADE = "rgba(209,84,31,0.12)"
 
-# Marks a trace, such as an arrowhead, that is not repeated in grey when machines are compared.
+# Marks a trace, such as an arrowhead, that is not repeated for the cases behind.
 LIVE_ONLY: dict[str, Any] = {"meta": "live only"}
 
 # For axes and colour bars: 10000 rpm, not 10k.
@@ -161,39 +161,6 @@ def chart(traces: Iterable[Trace], x: Axis, y: Axis, **layout: Any) -> Chart:
     return {"data": list(traces), "layout": {**_LAYOUT, "xaxis": x, "yaxis": y, **layout}}
 
 
-def with_baseline(chart: Chart, baseline: Chart) -> Chart:
-    """Return a chart with another machine's lines and marks behind it, thin and grey."""
-    drawn = [_outline(trace) for trace in chart["data"]]
-    ghosts = [
-        _ghost(trace)
-        for trace in baseline["data"]
-        if trace["type"] == "scatter"
-        and trace.get("meta") != LIVE_ONLY["meta"]
-        and _outline(trace) not in drawn
-    ]
-    layout = _widened(chart["layout"], baseline["layout"])
-    behind = {**chart, "data": [*ghosts, *chart["data"]], "layout": layout}
-    if "frames" in chart:  # a frame refers to its traces by index, which the grey ones shift
-        behind["frames"] = [
-            {**frame, "traces": [place + len(ghosts) for place in frame["traces"]]}
-            for frame in chart["frames"]
-        ]
-    return behind
-
-
-def _widened(layout: Chart, other: Chart) -> Chart:
-    """Return a layout whose axes include another's ranges, reversed axes staying reversed."""
-    axes: Chart = {}
-    for name, axis in layout.items():
-        there = other.get(name)
-        if name[1:5] == "axis" and there and {"range"} <= axis.keys() & there.keys():
-            (first, last), ends = axis["range"], (*axis["range"], *there["range"])
-            low, high = min(ends), max(ends)
-            wide = {**axis, "range": [low, high] if first <= last else [high, low]}
-            axes[name] = wide | (ticks(low, high) if _has_own_ticks(axis) else {})
-    return {**layout, **axes}
-
-
 def themed(chart: Chart, *, dark: bool) -> Chart:
     """Return a chart with its text in the colour for a light or a dark page."""
     font = {**chart["layout"]["font"], "color": _TEXT_ON_DARK if dark else _TEXT}
@@ -214,7 +181,7 @@ def small(chart: Chart) -> Chart:
     axes = {
         name: axis | ticks(*axis["range"], most=4)
         for name, axis in layout.items()
-        if name[1:5] == "axis" and _has_own_ticks(axis)
+        if name[1:5] == "axis" and has_own_ticks(axis)
     }
     return {
         **chart,
@@ -229,20 +196,7 @@ def note(text: str, x: float, y: float, **extra: Any) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _outline(trace: Trace) -> tuple[bytes, ...]:
-    """Return the data of a trace, to see whether another draws the same."""
-    return tuple(np.asarray(trace.get(key, ()), dtype=float).tobytes() for key in ("x", "y"))
-
-
-def _ghost(trace: Trace) -> Trace:
-    name = f"A: {trace.get('name', '')}"
-    style = {"color": GREY, "width": 1.2, "dash": trace.get("line", {}).get("dash", "solid")}
-    marker = {"color": "rgba(0,0,0,0)", "size": 10, "line": {"color": GREY, "width": 1.6}}
-    kept = {key: value for key, value in trace.items() if not key.startswith("fill")}
-    return {**kept, "name": name, "line": style, "marker": marker, "showlegend": False}
-
-
-def _has_own_ticks(axis: Axis) -> bool:
+def has_own_ticks(axis: Axis) -> bool:
     """Return whether an axis has the ticks of `ticks`."""
     return axis.get("tickmode") == "array" and axis["type"] == "linear" and "ticktext" not in axis
 

@@ -20,6 +20,8 @@ HOME, *OTHERS = PAGES
 # A number that is none, as Python writes it, where a reader should find a word.
 _NO_NUMBER = re.compile(r"(?<![\w\\])(nan|NaN|None|-?inf|Infinity)(?![\w:])")
 
+_CELL = re.compile(r"<td[^>]*>(.*?)</td>")
+
 
 def visit(page: str, **query: str) -> AppTest:
     """Return a new session on a page, cold, with a link's parameters."""
@@ -100,8 +102,19 @@ def texts(at: AppTest) -> Iterator[str]:
         yield from (element.value for element in box)
     for table in at.table:
         yield table.value.to_string()
+    yield from comparison(at).values()
     for figure in charts(at).values():
         yield from _words(figure)
+
+
+def comparison(at: AppTest) -> dict[str, str]:
+    """Return the table of cases: the texts of each row, by its quantity."""
+    found = [one.proto.body for one in at.get("html") if "<table" in one.proto.body]
+    rows = re.findall(r'<tr><th scope="row">(.*?)</th>(.*?)</tr>', "".join(found))
+    return {
+        label: " | ".join(re.sub("<small>", " ", text) for text in _CELL.findall(cells))
+        for label, cells in ((label, cells.replace("</small>", "")) for label, cells in rows)
+    }
 
 
 def _words(node: Any) -> Iterator[str]:

@@ -9,12 +9,25 @@ from types import SimpleNamespace
 import pytest
 
 from rotorcalc import Machine
+from rotorcalc.figures.cases import COLOURS
 from rotorcalc.films import film_of
 from rotorcalc.units import SI, US
-from tests.app.session import HOME, NOTES, ORBITS, PAGES, faults, session_of, texts, tours, visit
+from tests.app.session import (
+    HOME,
+    NOTES,
+    ORBITS,
+    PAGES,
+    comparison,
+    faults,
+    session_of,
+    texts,
+    tours,
+    visit,
+)
 from tests.films.models import BEARINGS, MOVING, Ringed
 from tests.machines import SHEET
 from ui.bearing import _TAKEN, bearing_values, fields_of, shape_of
+from ui.cases import Case, Shown
 from ui.computed import Computed
 from ui.inputs import INPUTS, machine_of, values_of
 from ui.sharing import address, export, popover, report
@@ -24,6 +37,7 @@ OTHERS = [name for name in BEARINGS if name != "short"]
 # Keys of the address bar that are not inputs yet.
 _LATER = ("T_in", "flow", "share", "tab", "present")
 SPEED, TOP = 6000 * RPM, 12000 * RPM
+SHEETS = Shown(Case("Sheet", values_of(SHEET, SPEED, TOP), COLOURS[0]), Computed(SHEET, SPEED, TOP))
 
 
 def machine(name: str) -> Machine:
@@ -113,7 +127,7 @@ def test_files_are_written_for_every_bearing(name: str) -> None:
     assert len(rows) == 241 or (name == "sprung" and 200 < len(rows) < 241)
     assert all(len(row) == len(rows[0]) for row in rows)
     assert export.ross_table(shown)[:2] == b"PK"
-    page = report.report(shown, Computed(SHEET, SPEED, TOP), US, "link", "0").decode()
+    page = report.report(shown, [SHEETS], US, "link", "0").decode()
     for field in fields_of(BEARINGS[name].geometry.kind).values():
         assert field.label in page
     for words in ("Kind of bearing", BEARINGS[name].geometry.kind, "Film model"):
@@ -143,13 +157,12 @@ def test_no_page_gives_a_threshold_to_a_film_that_cannot_whirl(path: str) -> Non
         assert "cannot whirl" in said
 
 
-def test_a_pinned_bearing_is_distinguished_from_the_live_one() -> None:
+def test_a_bearing_of_another_kind_is_distinguished_in_the_cases() -> None:
     at = visit(HOME, **query("ringed"))
-    at.button(key="pin").click().run()
+    at.button(key="keep").click().run()
     session_of(at).values = values_of(SHEET, SPEED, TOP)
     at.run()
-    (table,) = at.table
-    said = table.value.to_string()
-    assert "ringed" in said
-    assert "Outer clearance [µm]" in said
+    rows = comparison(at)
+    assert "ringed" in rows["Bearing"]
+    assert "Outer clearance [µm]" in rows
     assert faults(at) == []

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import pytest
 from streamlit.testing.v1 import AppTest
 
+from rotorcalc.figures.cases import COLOURS
 from tests.app.session import HOME, ORBITS, move, open_part, session_of, visit
 from ui.history import History
 from ui.inputs import PRESET_VALUES, machine_of
@@ -34,6 +35,16 @@ def _load_file(at: AppTest) -> None:
     at.file_uploader(key="upload").upload("machine.json", text.encode()).run()
 
 
+def _press_in_cases(at: AppTest, what: str) -> None:
+    open_part(at, "cases")
+    at.button(key=f"case_{COLOURS[0]}_{what}").click().run()
+
+
+def _rename(at: AppTest) -> None:
+    open_part(at, "cases")
+    at.text_input(key=f"case_{COLOURS[0]}_name").set_value("Thin oil").run()
+
+
 CHANGES: dict[str, Callable[[AppTest], object]] = {
     "slider": lambda at: move(at, "C", 85.0),
     "speed": lambda at: move(at, "rpm", 7000.0),
@@ -43,18 +54,23 @@ CHANGES: dict[str, Callable[[AppTest], object]] = {
     "fit": _use_fit,
     "file": _load_file,
     "demonstration": lambda at: at.button(key="orbits_small").click().run(),
+    "case kept": lambda at: at.button(key="keep").click().run(),
+    "case used": lambda at: _press_in_cases(at, "use"),
+    "case removed": lambda at: _press_in_cases(at, "drop"),
+    "case renamed": _rename,
     "reset": lambda at: at.button(key="reset").click().run(),
 }
 
 
 def _work(at: AppTest) -> object:
     visitor = session_of(at)
-    return visitor.preset, dict(visitor.values), visitor.baseline
+    return visitor.preset, dict(visitor.values), visitor.cases
 
 
 @pytest.mark.parametrize("kind", CHANGES)
 def test_a_change_of_each_kind_is_undone_and_made_again(kind: str) -> None:
-    at = visit(ORBITS if kind == "demonstration" else HOME, T="65")
+    case = {"cases": f"A~1~C~{95}"} if kind.startswith("case") else {}
+    at = visit(ORBITS if kind == "demonstration" else HOME, T="65", **case)
     assert at.button(key="undo").disabled
     before = _work(at)
     CHANGES[kind](at)

@@ -26,7 +26,7 @@ def _number(item: Input) -> st.SearchStrategy[float | None]:
 
 
 @st.composite
-def _values(draw: st.DrawFn, preset: str) -> Values:
+def drawn_values(draw: st.DrawFn, preset: str) -> Values:
     drawn = {key: draw(_number(item)) for key, item in INPUTS.items()}
     values = {
         key: value if draw(st.booleans()) else PRESET_VALUES[preset][key]
@@ -42,7 +42,7 @@ def _values(draw: st.DrawFn, preset: str) -> Values:
 @pytest.mark.parametrize("preset", PRESETS)
 @given(data=st.data(), units=st.sampled_from(sorted(SYSTEMS)))
 def test_a_link_reads_back_as_it_was_written(preset: str, data: st.DataObject, units: str) -> None:
-    values = data.draw(_values(preset))
+    values = data.draw(drawn_values(preset))
     params = address.write(preset, values, units)
     again = address.read(params)
     assert again.problems == []

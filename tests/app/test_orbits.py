@@ -113,9 +113,9 @@ def test_a_machine_with_fast_modes_is_followed_for_fewer_revolutions() -> None:
     assert "only 16 revolutions are computed" in said(at)
 
 
-def test_a_pinned_machine_that_allows_no_release_is_left_out() -> None:
+def test_a_case_that_allows_no_release_is_left_out() -> None:
     at = visit(ORBITS, rpm="100", load="20000")
-    session_of(at).pin()
+    session_of(at).keep("A")
     session_of(at).set_preset("sheet-1e8")
     at.slider(key="orbits_kick").set_value(0.9).run()
     assert not at.exception

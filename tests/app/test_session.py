@@ -1,8 +1,7 @@
-"""What a session keeps: values from page to page, units, presets, the pinned machine, the link."""
+"""What a session keeps: values from page to page, units, presets, the link."""
 
 import json
 import math
-import re
 
 import pytest
 
@@ -17,14 +16,11 @@ from tests.app.session import (
     move,
     open_part,
     session_of,
-    tours,
     visit,
 )
 from ui.format import literal
 from ui.inputs import INPUTS, PRESET_VALUES, machine_of, values_of
 from ui.sharing import address
-
-GREY = "#7d7d7d"
 
 
 def _units(at, name: str) -> None:
@@ -100,51 +96,6 @@ def test_moving_a_slider_in_us_units_keeps_si() -> None:
     at = visit(HOME, units="US")
     at.slider(key="input_C_US_slider").set_value(4.0).run()
     assert session_of(at).values["C"] == pytest.approx(4 * 25.4, rel=1e-12)
-
-
-@pytest.mark.parametrize("path", PAGES)
-def test_pin_and_compare(path: str) -> None:
-    at = visit(path)
-    at.button(key="pin").click().run()
-    assert len(at.table) == 0
-    move(at, "C", 85.0)
-    for label in tours(at):
-        for key, figure in charts(at).items():
-            if key.removeprefix("chart_") not in UNPINNED:
-                assert _ghosts(figure), (label, key)
-        assert faults(at) == [], label
-    if at.metric:
-        assert any("vs A" in (metric.delta or "") for metric in at.metric)
-    differing = at.table[0].value
-    assert "Radial clearance" in differing.to_string()
-    assert re.search(r"60\b.*85\b", differing.to_string())
-    at.button(key="swap").click().run()
-    assert (session_of(at).values["C"], session_of(at).baseline["C"]) == (60.0, 85.0)
-    at.button(key="unpin").click().run()
-    assert session_of(at).baseline is None
-    assert not any(_ghosts(figure) for figure in charts(at).values())
-    assert faults(at) == []
-
-
-# Bars have no place for another machine's behind them; the drawing of the axes shows no machine.
-UNPINNED = {"energy_bars", "tornado", "conventions"}
-
-
-def _ghosts(figure: dict) -> list[dict]:
-    found = [trace for trace in figure["data"] if str(trace.get("name", "")).startswith("A: ")]
-    for ghost in found:
-        assert ghost["line"]["color"] == GREY
-    return found
-
-
-def test_the_pinned_machine_survives_a_change_of_page_and_of_units() -> None:
-    at = visit(HOME)
-    at.button(key="pin").click().run()
-    move(at, "C", 85.0)
-    at.switch_page(OTHERS[0]).run()
-    _units(at, "US")
-    assert session_of(at).baseline == PRESET_VALUES["sheet-1e8"]
-    assert any(_ghosts(figure) for figure in charts(at).values())
 
 
 def test_a_broken_link_gets_a_message_and_keeps_the_valid_values() -> None:
@@ -309,14 +260,12 @@ def test_a_machine_read_from_values_is_the_machine() -> None:
 def test_a_lost_session_is_restored_from_what_its_browser_kept() -> None:
     at = visit(HOME, C="71", preset="sheet-1e7")
     visitor = session_of(at)
-    visitor.pin()
     visitor.typed, visitor.image_format = True, "svg"
     visitor.ask_for("orbits_run_up", "name")
     visitor.chosen["orbits_kick"] = 0.5
     kept = json.loads(json.dumps(visitor.kept(), allow_nan=False))
     other = session_of(visit(HOME, C="72"))
     other.recall(kept)
-    assert other.baseline == visitor.baseline
     assert (other.typed, other.image_format) == (True, "svg")
     assert (other.asked, other.begun) == ({"orbits_run_up": "name"}, {"orbits_run_up"})
     assert other.choice("orbits_kick", 0.3, 0.0, 1.2) == 0.5
@@ -325,15 +274,14 @@ def test_a_lost_session_is_restored_from_what_its_browser_kept() -> None:
 @pytest.mark.parametrize(
     "kept",
     [
-        None, 1, "kept", [], {}, {"pinned": 1, "typed": "yes", "image_format": [], "asked": 2},
-        {"pinned": {"C": [], "k": {}, "__class__": None}, "asked": {"a": 1}, "chosen": {"b": "c"}},
-        {"pinned": None, "chosen": {"orbits_kick": 1e300}, "image_format": "exe"},
+        None, 1, "kept", [], {}, {"typed": "yes", "image_format": [], "asked": 2},
+        {"asked": {"a": 1}, "chosen": {"b": "c"}},
+        {"chosen": {"orbits_kick": 1e300}, "image_format": "exe"},
     ],
 )  # fmt: skip
 def test_state_kept_by_a_browser_is_checked_like_any_input(kept: object) -> None:
     visitor = session_of(visit(HOME, C="72"))
     visitor.recall(kept)
-    assert visitor.baseline in (None, PRESET_VALUES["sheet-1e8"])
     assert (visitor.typed, visitor.image_format, visitor.asked) == (False, "png", {})
     assert visitor.choice("orbits_kick", 0.3, 0.0, 1.2) == 0.3
 

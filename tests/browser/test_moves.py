@@ -1,4 +1,4 @@
-"""What a visitor does: move a slider, pin a machine, change units, save a chart."""
+"""What a visitor does: move a slider, keep a case, change units, save a chart."""
 
 import re
 
@@ -33,22 +33,24 @@ def test_slider_moves_a_number_a_chart_and_the_address_bar(app: AppPage, name: s
 
 
 @pytest.mark.parametrize("name", LIVE)
-def test_pin_draws_the_baseline(app: AppPage, name: str) -> None:
+def test_a_kept_case_is_drawn_and_compared(app: AppPage, name: str) -> None:
     app.open(name)
     with app.run():
-        app.page.get_by_role("button", name="Pin this machine").click()
+        app.page.get_by_role("button", name="Keep as A").click()
     app.press("Radial clearance", "PageUp")
     assert app.changes(lambda: _ghosts(app), [])
     expect(app.page.get_by_text("vs A").first).to_be_visible()
-    expect(app.page.get_by_test_id("stTable")).to_contain_text("Radial clearance")
+    expect(app.page.locator("table.cases")).to_contain_text("Radial clearance")
+    app.open_popover("Cases (1)")
     with app.run():
-        app.page.get_by_role("button", name="Unpin A").click()
+        app.page.get_by_role("button", name="Remove").click()
+    app.close_popover()
     assert app.changes(lambda: bool(_ghosts(app)), True)
     expect(app.page.get_by_text("vs A")).to_have_count(0)
 
 
 def _ghosts(app: AppPage) -> list[str]:
-    """Return the names of the traces of the pinned machine."""
+    """Return the names of the traces of the case A."""
     return [trace for chart in app.traces() for trace in chart if trace.startswith("A: ")]
 
 
@@ -104,7 +106,7 @@ def test_keyboard_alone_reaches_sliders_and_opens_a_popover(app: AppPage) -> Non
         keyboard.press("Tab")
         reached.append(app.page.evaluate(FOCUS))
     assert any(what.startswith("INPUT: Radial clearance") for what in reached)
-    assert any(what.startswith("BUTTON: Pin this machine") for what in reached)
+    assert any(what.startswith("BUTTON: Keep as A") for what in reached)
     with app.run():
         keyboard.press("Enter")
     expect(app.page.get_by_test_id("stPopoverBody").locator(".katex").first).to_be_visible()

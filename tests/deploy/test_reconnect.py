@@ -43,11 +43,11 @@ def open_a_tab(tab: AppPage) -> None:
     tab.open_tab("Forces")
 
 
-def pin(tab: AppPage) -> None:
-    """Pin the machine, where it is not, and pin it for good by a look at another page."""
-    if not tab.page.get_by_role("button", name="Unpin A").count():
+def keep_a_case(tab: AppPage) -> None:
+    """Keep the machine as a case, where there is none."""
+    if not tab.page.locator("table.cases").count():
         with tab.run():
-            tab.page.get_by_role("button", name="Pin this machine").click()
+            tab.page.get_by_role("button", name="Keep as A").click()
 
 
 def type_a_value(tab: AppPage) -> None:
@@ -91,8 +91,12 @@ def tab_open(tab: AppPage) -> object:
     return tab.query(), tab.page.locator("[role=tab][aria-selected=true]").inner_text()
 
 
-def pinned(tab: AppPage) -> object:
-    return tab.metrics(), tab.page.get_by_test_id("stMetricDelta").all_inner_texts()
+def compared(tab: AppPage) -> object:
+    return (
+        tab.metrics(),
+        tab.page.locator("table.cases").inner_text(),
+        tab.page.get_by_test_id("stMetricDelta").all_inner_texts(),
+    )
 
 
 def field(tab: AppPage) -> object:
@@ -120,7 +124,7 @@ VISITS = {
     "nothing": Visit("Equilibrium", nothing, machine),
     "a slider": Visit("Machine", slide, machine),
     "a tab": Visit("Equilibrium", open_a_tab, tab_open),
-    "a pin": Visit("Stability", pin, pinned, first=pin),
+    "a case": Visit("Stability", keep_a_case, compared, first=keep_a_case),
     "a typed value": Visit("Machine", type_a_value, field, type_a_value, first=choose_typing),
     "a kick": Visit("Orbits", kick, height, kick),
 }

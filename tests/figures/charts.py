@@ -4,7 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from rotorcalc.figures import Chart, figure, with_baseline
+from rotorcalc.figures import Case, Chart, figure, with_cases
+from rotorcalc.figures.cases import COLOURS
 from rotorcalc.figures.style import GREY, LIVE_ONLY
 
 
@@ -23,20 +24,39 @@ def check_plotly_takes_it(chart: Chart) -> None:
             assert np.shape(trace["z"]) == (len(trace["y"]), len(trace["x"])), trace.get("name")
 
 
-def check_baseline_is_behind(chart: Chart, baseline: Chart) -> Chart:
+def beside(chart: Chart, other: Chart, name: str = "A") -> Chart:
+    """Return a chart with another machine's behind it, as a case."""
+    return with_cases(chart, [Case(name, COLOURS[0], other)])
+
+
+def check_case_is_behind(chart: Chart, other: Chart) -> Chart:
     """Draw another machine's chart behind one, and return both; the two machines must differ."""
-    both = with_baseline(chart, baseline)
+    both = beside(chart, other)
     check_plotly_takes_it(both)
     ghosts, live = both["data"][: -len(chart["data"])], both["data"][-len(chart["data"]) :]
-    assert live == chart["data"]
-    lines = [trace for trace in baseline["data"] if trace["type"] == "scatter"]
+    own = {"showlegend"} if chart["layout"].get("showlegend") is False else set[str]()
+    assert [_without(trace, own) for trace in live] == [
+        _without(trace, own) for trace in chart["data"]
+    ]
+    lines = [trace for trace in other["data"] if trace["type"] in ("scatter", "bar")]
+    entry, *ghosts = ghosts
     assert 0 < len(ghosts) <= len(lines)
+    assert entry["name"] == "A"
     assert all(trace["name"].startswith("A: ") for trace in ghosts)
+    assert {trace["line"]["color"] for trace in (entry, *ghosts)} == {COLOURS[0]}
+    named = [trace["name"] for trace in both["data"] if trace.get("showlegend", True)]
+    assert both["layout"].get("showlegend", True)
+    assert named.count("A") == 1
+    assert named == ["A"] or not own
     for name, axis in chart["layout"].items():
         if name[1:5] == "axis" and "range" in axis:
-            ends = *axis["range"], *baseline["layout"][name]["range"]
+            ends = *axis["range"], *other["layout"][name]["range"]
             assert sorted(both["layout"][name]["range"]) == [min(ends), max(ends)]
     return both
+
+
+def _without(trace: dict[str, Any], keys: set[str]) -> dict[str, Any]:
+    return {key: value for key, value in trace.items() if key not in keys}
 
 
 def curves_in_window(chart: Chart) -> list[str]:

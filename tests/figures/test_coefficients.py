@@ -13,7 +13,7 @@ from rotorcalc.analysis import ForceCoefficients, force_coefficients
 from rotorcalc.coefficients import BULK_FLOW, LAMINAR, added_mass, equilibrium, unloading
 from rotorcalc.figures import SI, US, Units, coefficients
 from rotorcalc.films import OperatingPoints, film_of, short
-from tests.figures.charts import check_baseline_is_behind, check_plotly_takes_it, curves_in_window
+from tests.figures.charts import check_case_is_behind, check_plotly_takes_it, curves_in_window
 
 MACHINES: dict[str, Machine] = {key: preset.machine for key, preset in PRESETS.items()}
 SHEET = MACHINES["sheet-1e8"]
@@ -56,11 +56,11 @@ def test_every_chart_is_a_plotly_figure(machine: Machine, axes: str, units: Unit
 
 
 @pytest.mark.parametrize("axes", ["XY", "rt"])
-def test_a_pinned_machine_stands_behind_every_chart(axes: str) -> None:
+def test_a_case_stands_behind_every_chart(axes: str) -> None:
     # What is against ε or σ is the film's own; another machine's mark alone differs there.
     other = MACHINES["friswell-5-5-1"]
     for chart, pinned in zip(_charts(SHEET, SI, axes), _charts(other, SI, axes), strict=True):
-        check_baseline_is_behind(chart, pinned)
+        check_case_is_behind(chart, pinned)
 
 
 def _film(axes: Any, sigma: Any = SIGMA) -> ForceCoefficients:

@@ -13,7 +13,7 @@ from rotorcalc.coefficients import equilibrium, film_field, film_forces
 from rotorcalc.figures import SI, US, Chart, Units, film, plane
 from rotorcalc.figures import equilibrium as place
 from tests.figures.charts import (
-    check_baseline_is_behind,
+    check_case_is_behind,
     check_plotly_takes_it,
     curves_in_window,
     notes,
@@ -231,7 +231,7 @@ def test_the_chart_says_that_there_is_no_load(name: str) -> None:
 @pytest.mark.parametrize("name", CHARTS)
 def test_another_machine_stands_behind(name: str) -> None:
     live, pinned = CHARTS[name](CASES["sheet-1e8"], SI), CHARTS[name](CASES["fig-5-2"], SI)
-    check_baseline_is_behind(live, pinned)
+    check_case_is_behind(live, pinned)
 
 
 def test_without_load_the_point_stands_at_the_far_end_of_sigma() -> None:

@@ -7,12 +7,12 @@ import pytest
 
 from rotorcalc import PRESETS, analyse, modes, onset_speed
 from rotorcalc.coefficients import equilibrium
-from rotorcalc.figures import SI, US, style, with_baseline
+from rotorcalc.figures import SI, US, style
 from rotorcalc.figures import modes as figures
 from rotorcalc.figures import root_locus as plane_figure
 from rotorcalc.figures.conventions import conventions
 from rotorcalc.root_locus import root_locus
-from tests.figures.charts import check_plotly_takes_it
+from tests.figures.charts import beside, check_plotly_takes_it
 
 
 def shown_of(preset, units=SI, *, flexible=True, speed=None, **changes):
@@ -130,11 +130,11 @@ def test_the_scrubber_begins_at_the_running_speed():
     assert chart["data"][-1]["x"] == pytest.approx(shown.locus.here.eigenvalues.real)
 
 
-def test_frames_keep_their_traces_over_a_baseline():
+def test_frames_keep_their_traces_over_a_case():
     live, *_ = shown_of(PRESETS["sheet-1e8"])
     pinned, *_ = shown_of(PRESETS["sheet-1e7"])
     alone = plane_figure.plane(live.locus, live.onset, SI)
-    both = with_baseline(alone, plane_figure.plane(pinned.locus, pinned.onset, SI))
+    both = beside(alone, plane_figure.plane(pinned.locus, pinned.onset, SI))
     assert len(both["data"]) > len(alone["data"])
     assert not [t for t in both["data"] if t["name"] == "A: at the slider's speed"]
     for before, after in zip(alone["frames"], both["frames"], strict=True):

@@ -16,7 +16,7 @@ from rotorcalc.nonlinear.release import release
 from rotorcalc.nonlinear.run_up import RunUp
 from rotorcalc.nonlinear.signals import waterfall
 from tests.figures.charts import (
-    check_baseline_is_behind,
+    check_case_is_behind,
     check_plotly_takes_it,
     curves_in_window,
     notes,
@@ -50,7 +50,7 @@ def test_every_chart_of_a_release_is_a_plotly_figure(releases, draw, name, units
     check_plotly_takes_it(chart)
     assert curves_in_window(chart) or notes(chart)
     if name != "follows":
-        check_baseline_is_behind(chart, draw(releases["follows"], units))
+        check_case_is_behind(chart, draw(releases["follows"], units))
     assert any(trace.get("marker", {}).get("color") == HERE for trace in chart["data"])
 
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from rotorcalc import PRESETS, Machine, Rotor, analyse, onset_speed
-from rotorcalc.figures import SI, US, Units, response, with_baseline
+from rotorcalc.figures import SI, US, Units, response
 from rotorcalc.unbalance_curves import (
     ResponseCurves,
     clearance_orbit,
@@ -25,7 +25,12 @@ from rotorcalc.unbalance_curves import (
 )
 from rotorcalc.unbalance_peaks import response_peaks
 from rotorcalc.unbalance_response import orbit_ellipse, orbit_points
-from tests.figures.charts import check_baseline_is_behind, check_plotly_takes_it, curves_in_window
+from tests.figures.charts import (
+    beside,
+    check_case_is_behind,
+    check_plotly_takes_it,
+    curves_in_window,
+)
 from tests.films.models import BEARINGS
 from tests.machines import machines
 
@@ -78,10 +83,10 @@ def test_every_chart_is_a_plotly_figure(machine: Machine, units: Units) -> None:
             assert axis["range"][0] != axis["range"][1]
 
 
-def test_a_pinned_machine_stands_behind_every_chart() -> None:
+def test_a_case_stands_behind_every_chart() -> None:
     pinned_charts = _charts(MACHINES["damped"], SI)
     for chart, pinned in zip(_charts(SHEET, SI), pinned_charts, strict=True):
-        check_baseline_is_behind(chart, pinned)
+        check_case_is_behind(chart, pinned)
 
 
 def test_the_scrubber_starts_at_the_running_speed_and_moves_the_right_traces() -> None:
@@ -99,7 +104,7 @@ def test_the_scrubber_starts_at_the_running_speed_and_moves_the_right_traces() -
     other = response.scrubber(
         orbits(analyse(MACHINES["damped"], SPEEDS)), orbits(analyse(MACHINES["damped"], SPEED)), SI
     )
-    both = with_baseline(chart, other)
+    both = beside(chart, other)
     place = both["frames"][slider["active"]]["traces"][0]
     assert_allclose(both["data"][place]["x"], start["data"][0]["x"], rtol=1e-6)
 

@@ -1,13 +1,13 @@
-"""What all charts share: round axes, the mark of the running speed, a baseline behind."""
+"""What all charts share: round axes, the mark of the running speed."""
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotorcalc.figures import SI, US, style, text, themed, with_baseline
+from rotorcalc.figures import SI, US, style, text, themed
 from rotorcalc.units import SYSTEMS
-from tests.figures.charts import check_plotly_takes_it
+from tests.figures.charts import beside
 
 
 def drawn(top):
@@ -38,28 +38,6 @@ def test_the_running_speed_has_guides_to_both_axes():
     guide = chart["data"][1]
     assert guide["x"].tolist() == [0.0, 5.0, 5.0]
     assert guide["y"].tolist() == [2.0, 2.0, 0.0]
-
-
-def test_a_baseline_stands_behind_and_stays_in_the_picture():
-    chart = with_baseline(drawn(1.0), drawn(7.5))
-    names = [trace["name"] for trace in chart["data"]]
-    assert names[: len(names) // 2] == [f"A: {name}" for name in names[len(names) // 2 :]]
-    assert chart["layout"]["yaxis"]["range"] == [0.0, 8.0]
-    check_plotly_takes_it(chart)
-
-
-def test_a_baseline_that_draws_the_same_is_not_drawn_twice():
-    assert len(with_baseline(drawn(1.0), drawn(1.0))["data"]) == len(drawn(1.0)["data"])
-
-
-def test_an_axis_that_runs_down_still_runs_down_over_a_baseline():
-    def down(low):
-        chart = drawn(1.0)
-        chart["layout"]["yaxis"] = style.axis("y", 1.0, low)
-        chart["data"][0]["y"] = np.array([0.0, low])
-        return chart
-
-    assert with_baseline(down(-1.0), down(-3.0))["layout"]["yaxis"]["range"] == [1.0, -3.0]
 
 
 def test_text_is_light_on_dark_and_dark_on_light():
@@ -122,7 +100,7 @@ def test_an_axis_that_a_case_widens_has_ticks_for_its_new_range() -> None:
         x = style.axis("x", 0.0, top)
         return style.chart([style.line([0.0, top], [0.0, 1.0], "a", style.BLUE)], x, x)
 
-    both = with_baseline(chart(100.0), chart(1200.0))
+    both = beside(chart(100.0), chart(1200.0))
     assert both["layout"]["xaxis"]["tickvals"][-1] == 1200.0
 
 

@@ -1,1 +1,1 @@
-"""What every page has around its content: title, navigation, sidebar, the pinned machine."""
+"""What every page has around its content: title, navigation, sidebar, and the cases."""

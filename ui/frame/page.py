@@ -11,9 +11,11 @@ import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
 
 from rotorcalc.units import Units
+from ui.cases import Draw, Shown, compared
+from ui.cases import computed as computed_cases
 from ui.computed import Computed, computed_from
-from ui.frame import baseline, history, sidebar
-from ui.preview import Draw, Preview, Text, Words, compared
+from ui.frame import cases, history, sidebar
+from ui.preview import Preview, Text, Words
 from ui.results.row import show_results
 from ui.serving import one_at_a_time, version
 from ui.session import Session, session, write_address_bar
@@ -62,10 +64,10 @@ PAGES = {
 
 @dataclass(frozen=True)
 class Page:
-    """A page's machine, the pinned one beside it, and the units shown."""
+    """A page's machine, the cases beside it, and the units shown."""
 
     computed: Computed
-    baseline: Computed | None
+    cases: tuple[Shown, ...]
     units: Units
     preview: Preview
     # Whether the content runs with the frame as one.
@@ -74,12 +76,13 @@ class Page:
     def chart(
         self, draw: Draw, key: str, *, alt: str, caption: str | Callable[[Computed], str]
     ) -> None:
-        """Show a chart of the live machine, the pinned one thin and grey behind it.
+        """Show a chart of the live machine, the cases thin and in their colours behind it.
 
         A caption that depends on the inputs of sliders is a function of the machine's results.
         """
-        show_chart(compared(draw, self.computed, self.baseline), key=key, alt=alt)
-        self.preview.charts[chart_key(key)] = lambda c: compared(draw, c, self.baseline)
+        both = compared(draw, self.cases)
+        show_chart(both(self.computed), key=key, alt=alt)
+        self.preview.charts[chart_key(key)] = both
         if isinstance(caption, str):
             st.caption(caption)
         else:
@@ -93,9 +96,13 @@ class Page:
                 with tab:
                     draw(self)
 
+    def is_case(self, computed: Computed) -> bool:
+        """Return whether a machine is one of the cases."""
+        return any(computed is shown.computed for shown in self.cases)
+
     def alone(self) -> "Page":
-        """Return the page without the pinned machine, for results too costly to compute twice."""
-        return replace(self, baseline=None)
+        """Return the page without cases, for results too costly to compute for each."""
+        return replace(self, cases=())
 
     def run_whole(self) -> None:
         """Run the whole page: a click can end such a run, but not that of a fragment."""
@@ -104,7 +111,7 @@ class Page:
             st.rerun()
 
     def results(self, *keys: str) -> None:
-        """Show results in a row, each with its equation and its change from the pinned machine."""
+        """Show results in a row, each with its equation and its change from the first case."""
         show_results(self.preview, *keys)
 
     def say(self, key: str, words: Words) -> None:
@@ -158,7 +165,7 @@ def _frame(title: str, sentence: str) -> Places:
     with st.sidebar:
         sidebar.draw_presets()
         past = st.container(key="past")
-        baseline.draw_buttons()
+        cases.draw_buttons()
         sidebar.draw_inputs()
         popover.draw()
         foot = st.container()
@@ -189,7 +196,9 @@ def _content(
         if visitor.drawn != visitor.framed():
             # A button of the content, such as a demonstration's, changed more than sliders show.
             st.rerun()
-        content(replace(_page(places, has_preview=has_preview), whole=whole))
+        page = replace(_page(places, has_preview=has_preview), whole=whole)
+        content(page)
+        cases.draw_table(page.preview, page.cases)
 
 
 def _page(places: Places, *, has_preview: bool) -> Page:
@@ -214,22 +223,22 @@ def _page(places: Places, *, has_preview: bool) -> Page:
         st.stop()
     try:
         computed = computed_from(visitor.values)
-        pinned = None if visitor.baseline is None else computed_from(visitor.baseline)
-        for one in (computed, pinned):
-            _ = one and one.point  # a film may have no answer at the running speed
+        _ = computed.point  # a film may have no answer at the running speed
     except ValueError as error:
         with places.foot:
             show_preview(None)
         st.error(f"{error}", title=NO_MACHINE)
         st.stop()
-    visitor.preview = Preview(dict(visitor.values), computed, pinned, visitor.units, dark=is_dark())
-    units = visitor.units
+    beside, problems = computed_cases(visitor.cases)
+    for problem in problems:
+        st.warning(problem)
+    first, units = (beside[0] if beside else None), visitor.units
+    visitor.preview = Preview(dict(visitor.values), computed, first, units, dark=is_dark())
     visitor.preview.say("verdict", lambda c: verdict.text(c, units))
     with places.foot:
         validity.draw(visitor.preview)
         show_preview(visitor.preview if has_preview else None)
-    baseline.draw_differences(visitor.units)
-    return Page(computed=computed, baseline=pinned, units=visitor.units, preview=visitor.preview)
+    return Page(computed=computed, cases=beside, units=visitor.units, preview=visitor.preview)
 
 
 def _offer_the_rest(visitor: Session) -> None:

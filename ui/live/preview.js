@@ -76,7 +76,7 @@ class Preview {
     if (withEquations) this.katex ??= (await import(location.origin + this.scripts.katex)).default;
   }
 
-  // Overwrites a row of results: of each its number, its change from the pinned machine, and its source.
+  // Overwrites a row of results: of each its number, its change from the first case, and its source.
   result(row, cells) {
     const metrics = row?.querySelectorAll(".stMetric") ?? [];
     const sources = row?.querySelectorAll(".stPopover button") ?? [];
@@ -102,6 +102,10 @@ class Preview {
   }
 
   fill(copy, { words, kind }) {
+    if (kind === "html") {
+      copy.innerHTML = words;
+      return;
+    }
     let frame = copy;
     if (LEVELS[kind]) {
       frame = copy.querySelector("[data-testid=stAlertContainer], .live-alert");

@@ -76,10 +76,17 @@ class Result:
         origin = self.origin(computed)
         return citation.capital(origin.equation) if origin else "Film model"
 
-    def change(self, computed: Computed, baseline: Computed) -> str | None:
-        """Return the change from the baseline's result, or nothing where that is NaN."""
-        live, pinned = self.value(computed), self.value(baseline)
-        if not (math.isfinite(live) and math.isfinite(pinned)) or pinned == 0.0:
-            return None
-        change = (live / pinned - 1.0) * 100.0
-        return f"{'+' if change >= 0.0 else '−'}{digits(abs(change))} % vs A"
+    def change(self, computed: Computed, other: Computed, units: Units) -> str:
+        """Return by how much a result differs from another machine's, in its unit, or nothing."""
+        value, from_value = self.value(computed), self.value(other)
+        if not (math.isfinite(value) and math.isfinite(from_value)):
+            return ""
+        unit = self.unit(units)
+        # A temperature's zero is arbitrary, so it is no part of a difference.
+        change = (value - from_value) * unit.per_si
+        # What digits do not show, such as the rounding of a solved onset, is no difference.
+        if change == 0.0 or abs(change) < 1e-9 * abs(value * unit.per_si):
+            return "no change"
+        # A difference of shares in per cent must not be read as a share of the share.
+        name = {"-": "", "°": "°", "%": " % points"}.get(unit.name, f" {unit.name}")
+        return f"{'+' if change > 0.0 else '−'}{digits(abs(change))}{name}"

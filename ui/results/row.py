@@ -40,15 +40,16 @@ def show_results(preview: Preview, *keys: str) -> None:
 
 
 def _cells(result: Result, preview: Preview, computed: Computed) -> tuple[str, str, str]:
-    """Return a result's number, its change from the pinned machine, and its source."""
-    pinned = preview.baseline
-    change = None if pinned is None else result.change(computed, pinned)
+    """Return a result's number, its change from the first case, and its source."""
+    first, change = preview.first, ""
+    if first and (difference := result.change(computed, first.computed, preview.units)):
+        change = f"{difference} vs {first.case.name}"
     # A column is too narrow for whose calculation sheet it is.
     source = citation.capital(result.cited(computed).removeprefix("The notes' "))
     number = result.shown(computed, preview.units)
     if result.modelled and computed.is_outside:
         number = f"({number})"
-    return number, change or "", source
+    return number, change, source
 
 
 def _explain(result: Result, label: str, preview: Preview) -> None:

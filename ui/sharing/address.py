@@ -2,12 +2,15 @@
 
 A link holds the preset and every value that differs from it, always in SI as engineers write it, so
 it means the same whatever units are shown. A bearing of another kind than the preset's is named,
-with those of its fields that are not at their default.
+with those of its fields that are not at their default. Cases follow in one parameter, each as its
+name, the number of its colour, and what differs from the preset, with ~ between and ~~ between
+cases: letters and ~ stay as they are in an address.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from rotorcalc.figures.cases import COLOURS
 from rotorcalc.units import SYSTEMS
 from ui.bearing import (
     FILM,
@@ -21,8 +24,13 @@ from ui.bearing import (
     without_shape,
     written,
 )
+from ui.cases import Case, added
 from ui.format import quoted, typed_number
 from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, machine_of, tidy
+
+CASES = "cases"
+# Parameters that are no value of the machine.
+_NOT_VALUES = frozenset(("preset", "units", CASES))
 
 
 @dataclass
@@ -33,6 +41,7 @@ class Link:
     values: Values = field(default_factory=lambda: dict(PRESET_VALUES[DEFAULT_PRESET]))
     units: str = "SI"
     problems: list[str] = field(default_factory=list)
+    cases: tuple[Case, ...] = ()
 
 
 def read(params: Mapping[str, str]) -> Link:
@@ -40,13 +49,47 @@ def read(params: Mapping[str, str]) -> Link:
     link = Link()
     link.preset = _word(params, "preset", DEFAULT_PRESET, PRESET_VALUES, link.problems)
     link.units = _word(params, "units", "SI", SYSTEMS, link.problems)
-    given = {key: word for key, word in params.items() if key not in ("preset", "units")}
+    given = {key: word for key, word in params.items() if key not in _NOT_VALUES}
     link.values = checked_values(given, link.preset, link.problems)
+    link.cases = _read_cases(params.get(CASES, ""), link.preset, link.problems)
     return link
 
 
-def write(preset: str, values: Values, units: str) -> dict[str, str]:
+def write(preset: str, values: Values, units: str, cases: Sequence[Case] = ()) -> dict[str, str]:
     """Return the query parameters that `read` turns into the same."""
+    params = _differing(preset, values)
+    if units != "SI":
+        params["units"] = units
+    if cases:
+        params[CASES] = "~~".join(_case(preset, case) for case in cases)
+    return params
+
+
+def _case(preset: str, case: Case) -> str:
+    differing = _differing(preset, case.values)
+    differing.pop("preset", None)
+    parts = [case.name, f"{COLOURS.index(case.colour) + 1}"]
+    return "~".join([*parts, *(part for pair in differing.items() for part in pair)])
+
+
+def _read_cases(text: str, preset: str, problems: list[str]) -> tuple[Case, ...]:
+    """Return the cases of a link; what cannot be used of them is reported."""
+    cases: tuple[Case, ...] = ()
+    for written_case in filter(None, text.split("~~")):
+        name, *rest = written_case.split("~")
+        number, *words = rest or [""]
+        found: list[str] = []
+        values = checked_values(dict(zip(words[::2], words[1::2], strict=False)), preset, found)
+        problems += (f"Case {quoted(name)}: {problem}" for problem in found)
+        try:
+            cases = added(cases, name, values, number)
+        except ValueError as error:
+            problems.append(f"Case {quoted(name)} was left out: {error}.")
+    return cases
+
+
+def _differing(preset: str, values: Values) -> dict[str, str]:
+    """Return the preset, and the values that differ from it, as a link has them."""
     params = {} if preset == DEFAULT_PRESET else {"preset": preset}
     usual = _usual(values[KIND], preset)
     for key, value in values.items():
@@ -54,7 +97,7 @@ def write(preset: str, values: Values, units: str) -> dict[str, str]:
             params[key] = "weight" if key == "load" and value is None else written(value)
     if values[KIND] != PRESET_VALUES[preset][KIND]:
         params[KIND] = str(values[KIND])
-    return params if units == "SI" else params | {"units": units}
+    return params
 
 
 def _usual(kind: object, preset: str) -> Values:

@@ -1,5 +1,6 @@
 """Share and keep: link, machine file, tables and report, each built when asked for."""
 
+from collections.abc import Sequence
 from contextlib import suppress
 from urllib.parse import urlencode, urlsplit, urlunsplit
 
@@ -7,6 +8,8 @@ import streamlit as st
 
 from rotorcalc import Machine, __version__
 from rotorcalc.units import Units
+from ui import cases
+from ui.cases import Shown
 from ui.computed import Computed, computed_from
 from ui.format import literal
 from ui.inputs import speeds_of, values_of
@@ -25,19 +28,18 @@ def draw() -> None:
         st.code(address, language=None, wrap_lines=True)
         visitor = session()
         with suppress(ValueError):  # no machine: said on the page
-            baseline = None if visitor.baseline is None else computed_from(visitor.baseline)
-            _downloads(computed_from(visitor.values), baseline, visitor.units, address)
+            beside, _ = cases.computed(visitor.cases)
+            _downloads(computed_from(visitor.values), beside, visitor.units, address)
         st.file_uploader("Load a machine (JSON)", type="json", key="upload", on_change=_load)
 
 
 def _link() -> str:
-    visitor = session()
     parts = urlsplit(st.context.url or "")
-    query = urlencode(address.write(visitor.preset, visitor.values, visitor.units_name))
+    query = urlencode(session().link())
     return urlunsplit((parts.scheme, parts.netloc, parts.path, query, ""))
 
 
-def _downloads(computed: Computed, baseline: Computed | None, units: Units, address: str) -> None:
+def _downloads(computed: Computed, beside: Sequence[Shown], units: Units, address: str) -> None:
     from ui.sharing import export, report  # noqa: PLC0415
 
     files = (
@@ -55,7 +57,7 @@ def _downloads(computed: Computed, baseline: Computed | None, units: Units, addr
         ),
         (
             "Report (HTML)", "report.html", "text/html",
-            lambda: report.report(computed, baseline, units, address, __version__),
+            lambda: report.report(computed, beside, units, address, __version__),
         ),
     )  # fmt: skip
     for label, name, mime, build in files:

@@ -8,7 +8,7 @@ import functools
 import importlib.resources
 import math
 import string
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from pathlib import Path
 from typing import TypeAlias
@@ -19,10 +19,12 @@ from rotorcalc import modes
 from rotorcalc.arrays import Array
 from rotorcalc.units import Unit, Units
 from rotorcalc.validity import validity
+from ui import comparison
 from ui.bearing import KIND, Values, fields_of
+from ui.cases import Shown
 from ui.computed import Computed
 from ui.format import amount, digits, minus
-from ui.inputs import GROUPS, INPUTS, machine_of, number, values_of
+from ui.inputs import GROUPS, INPUTS, machine_of, values_of
 from ui.results.table import RESULTS
 from ui.sharing import report_charts
 from ui.sharing.report_charts import Figure
@@ -35,19 +37,20 @@ Cell: TypeAlias = tuple[str, str]
 
 
 def report(
-    computed: Computed, baseline: Computed | None, units: Units, link: str, version: str
+    computed: Computed, cases: Sequence[Shown], units: Units, link: str, version: str
 ) -> bytes:
-    """Return the report as HTML: `link` reproduces the machine, `baseline` stands beside it."""
+    """Return the report as HTML: `link` reproduces the machine, cases stand beside it."""
     judged = verdict(computed, units)
-    charts = report_charts.charts(computed, baseline, units)
+    charts = report_charts.charts(computed, cases, units)
     page = string.Template(Path(__file__).with_suffix(".html").read_text(encoding="utf-8"))
     body = (
-        _inputs(computed, baseline, units),
-        _results(computed, baseline, units),
+        _inputs(computed, units),
+        _results(computed, units),
+        _compared(computed, cases, units),
         _matrices(computed, units),
         _modes(computed, units),
         _validity(computed),
-        _reading(computed, baseline),
+        _reading(computed, cases),
         *(
             _section(computed, title, figures, charts)
             for title, figures in report_charts.sections(computed).items()
@@ -55,7 +58,7 @@ def report(
     )
     return page.substitute(
         title="Rotor on two journal bearings",
-        subtitle=escape(_subtitle(computed, baseline, units)),
+        subtitle=escape(_subtitle(computed, cases, units)),
         level=judged.level,
         verdict=escape(judged.sentence),
         body="\n".join(body),
@@ -93,11 +96,12 @@ def _film(computed: Computed) -> str:
     return found.equation if found else f"{model}, of a bearing of another kind than the notes'"
 
 
-def _subtitle(computed: Computed, baseline: Computed | None, units: Units) -> str:
+def _subtitle(computed: Computed, cases: Sequence[Shown], units: Units) -> str:
     speed, bearing = units.speed, computed.machine.bearing
     size = " × ".join(digits(float(units.length.of(x))) for x in (bearing.diameter, bearing.length))
     rotor = amount(units.mass, computed.machine.rotor.mass)
-    beside = "" if baseline is None else " A is the pinned machine that it is compared with."
+    names = ", ".join(shown.case.name for shown in cases)
+    beside = f" It is compared with the cases {names}." if names else ""
     return (
         f"A rotor of {rotor} on bearings of {size} {units.length.name}, at "
         f"{amount(speed, computed.speed)}; charts run to {amount(speed, computed.top_speed)}."
@@ -105,80 +109,55 @@ def _subtitle(computed: Computed, baseline: Computed | None, units: Units) -> st
     )
 
 
-def _inputs(computed: Computed, baseline: Computed | None, units: Units) -> str:
+def _inputs(computed: Computed, units: Units) -> str:
     live = values_of(computed.machine, computed.speed, computed.top_speed)
-    pinned = None
-    if baseline is not None:
-        pinned = values_of(baseline.machine, baseline.speed, baseline.top_speed)
     rows: list[str] = []
     for group in GROUPS:
-        rows.append(f'<tr class="group"><th colspan="5">{escape(group)}</th></tr>')
-        keys = (key for key, item in INPUTS.items() if item.group == group)
-        rows += (_input(key, live, pinned, units) for key in keys)
+        rows.append(f'<tr class="group"><th colspan="4">{escape(group)}</th></tr>')
+        rows += (_input(key, live, units) for key, item in INPUTS.items() if item.group == group)
         if group == "Bearing":
-            rows += _bearing(live, pinned, units)
-    beside = [] if pinned is None else [("A", "n")]
-    head = _head("Input", "Symbol", ("Value", "n"), "Unit", *beside)
+            rows += _bearing(live, units)
+    head = _head("Input", "Symbol", ("Value", "n"), "Unit")
     return f"<h2>Inputs</h2>{_table(head, rows)}"
 
 
-def _bearing(live: Values, pinned: Values | None, units: Units) -> Iterator[str]:
+def _bearing(live: Values, units: Units) -> Iterator[str]:
     """Yield rows of the kind of the bearing, its film model, and the fields of its bore."""
-    fields = fields_of(live[KIND])
     rows = [
-        ("Kind of bearing", "", lambda values: f"{values[KIND]}"),
-        ("Film model", "", lambda values: machine_of(values).bearing.model),
+        ("Kind of bearing", f"{live[KIND]}", "-"),
+        ("Film model", machine_of(live).bearing.model, "-"),
+        *(
+            (field.label, field.shown(live.get(field.key), units), field.unit(units).name)
+            for field in fields_of(live[KIND]).values()
+        ),
     ]
-    rows += [
-        (
-            field.label,
-            field.unit(units).name,
-            lambda values, field=field: field.shown(values.get(field.key), units),
-        )
-        for field in fields.values()
-    ]
-    for label, unit, shown in rows:
-        now, then = shown(live), "" if pinned is None else shown(pinned)
-        differs = pinned is not None and now != then
-        cells = [(label, ""), ("", ""), (minus(now), "n"), ("" if unit == "-" else unit, "")]
-        if pinned is not None:
-            cells.append((minus(then) if differs else "", "n"))
-        yield _row(cells, "differs" if differs else "")
+    for label, text, unit in rows:
+        yield _row([(label, ""), ("", ""), (minus(text), "n"), (unit.removeprefix("-"), "")])
 
 
-def _input(key: str, live: Values, pinned: Values | None, units: Units) -> str:
-    item = INPUTS[key]
-    value, differs = live[key], pinned is not None and pinned[key] != live[key]
+def _input(key: str, live: Values, units: Units) -> str:
+    item, value = INPUTS[key], live[key]
     known = isinstance(value, float | int) and math.isfinite(value)
     unit = item.unit(units).name if known else ""
-    cells = [(item.label, ""), (item.symbol, ""), (_value(key, live, units), "n"), (unit, "")]
-    if pinned is not None:
-        cells.append((_value(key, pinned, units) if differs else "", "n"))
-    return _row(cells, "differs" if differs else "")
+    text = comparison.shown(key, live, units)
+    return _row([(item.label, ""), (item.symbol, ""), (text, "n"), (unit, "")])
 
 
-def _value(key: str, values: Values, units: Units) -> str:
-    if values[key] is None:
-        return "half the weight"
-    item, value = INPUTS[key], number(values, key)
-    return item.infinite if math.isinf(value) else minus(f"{item.shown(value, units):.6g}")
-
-
-def _results(computed: Computed, baseline: Computed | None, units: Units) -> str:
-    rows = (_result(key, computed, baseline, units) for key in RESULTS)
-    compared = [] if baseline is None else [("A", "n"), ("Change", "n")]
-    head = _head("Result", ("Value", "n"), *compared, "Equation")
+def _results(computed: Computed, units: Units) -> str:
+    rows = (
+        _row([
+            (result.label, ""),
+            (minus(result.shown(computed, units)), "n"),
+            (result.cited(computed), ""),
+        ])
+        for result in RESULTS.values()
+    )  # fmt: skip
+    head = _head("Result", ("Value", "n"), "Equation")
     return f"<h2>Results at the running speed</h2>{_table(head, rows)}"
 
 
-def _result(key: str, computed: Computed, baseline: Computed | None, units: Units) -> str:
-    result = RESULTS[key]
-    cells = [(result.label, ""), (minus(result.shown(computed, units)), "n")]
-    if baseline is not None:
-        change = (result.change(computed, baseline) or "").removesuffix(" vs A")
-        cells.append((minus(result.shown(baseline, units)), "n"))
-        cells.append(("" if change == "+0 %" else minus(change), "n"))
-    return _row([*cells, (result.cited(computed), "")])
+def _compared(computed: Computed, cases: Sequence[Shown], units: Units) -> str:
+    return f"<h2>Cases</h2>{comparison.table(computed, cases, units)}" if cases else ""
 
 
 def _matrices(computed: Computed, units: Units) -> str:
@@ -244,11 +223,11 @@ def _validity(computed: Computed) -> str:
     return f"<h2>Where the model holds</h2>{_table(head, rows)}"
 
 
-def _reading(computed: Computed, baseline: Computed | None) -> str:
+def _reading(computed: Computed, cases: Sequence[Shown]) -> str:
     """Return how to read the charts."""
     lines = ["On every chart the yellow point is the running speed"]
-    if baseline is not None:
-        lines.append(", grey lines and rings are the pinned machine A")
+    if cases:
+        lines.append(", thin lines and rings are cases, in the colours of the legend")
     lines.append(".")
     if computed.machine.rotor.imbalance == 0.0:
         lines.append(" The rotor is balanced, so there is no response to show.")

@@ -1,6 +1,6 @@
 """The charts of the report: the pages' own, still, and sized for a sheet of paper."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
@@ -17,9 +17,9 @@ from rotorcalc.figures import (
     response,
     root_locus,
     stability,
-    with_baseline,
 )
 from rotorcalc.units import Units
+from ui.cases import Shown, compared
 from ui.computed import Computed
 from ui.words import stability as ask
 from ui.words.citation import cited
@@ -233,19 +233,17 @@ def left_out(computed: Computed, title: str) -> list[str]:
     return [f"Left out: {', '.join(titles)}. {reason}" for reason, titles in reasons.items()]
 
 
-def charts(computed: Computed, baseline: Computed | None, units: Units) -> Charts:
-    """Return the report's charts by key, another machine's behind the live one's."""
+def charts(computed: Computed, cases: Sequence[Shown], units: Units) -> Charts:
+    """Return the report's charts by key, those of cases behind the live machine's."""
     return {
-        figure.key: _chart(figure, computed, baseline, units)
+        figure.key: _chart(figure, computed, cases, units)
         for figures in sections(computed).values()
         for figure in figures
     }
 
 
-def _chart(figure: Figure, computed: Computed, baseline: Computed | None, units: Units) -> Chart:
-    chart = _still(figure.draw(computed, units))
-    if baseline is not None:
-        chart = with_baseline(chart, _still(figure.draw(baseline, units)))
+def _chart(figure: Figure, computed: Computed, cases: Sequence[Shown], units: Units) -> Chart:
+    chart = compared(lambda c: _still(figure.draw(c, units)), cases)(computed)
     return {
         "data": [_unnamed(trace) for trace in chart["data"]],
         "layout": _layout(figure, chart["layout"], units),

@@ -158,9 +158,9 @@ def three_onsets(computed: Computed) -> tuple[Onsets, GrowthCurve]:
 
 
 def with_onset(page: Page) -> Page:
-    """Return the page without a pinned machine that has no onset."""
-    pinned = page.baseline
-    return page if pinned is None or 0.0 < pinned.onset.speed < math.inf else page.alone()
+    """Return the page without the cases that have no onset."""
+    whirling = (shown for shown in page.cases if 0.0 < shown.computed.onset.speed < math.inf)
+    return replace(page, cases=tuple(whirling))
 
 
 def say_onsets(found: Onsets, units: Units) -> None:

@@ -115,7 +115,7 @@ def _affordable(computed: Computed, ask: Ask) -> Ask:
 
 
 def try_out(page: Page, ask: Ask) -> tuple[Page, Release]:
-    """Return the release, and the page without a pinned machine that allows none.
+    """Return the release, and the page without the cases that allow none.
 
     Say in words why there is none, and stop, where there is none.
     """
@@ -129,12 +129,15 @@ def try_out(page: Page, ask: Ask) -> tuple[Page, Release]:
     finally:
         if bar is not None:
             bar.empty()
-    if page.baseline is not None:
-        try:
-            let_go(page.baseline, ask)
-        except (ValueError, TransientError):
-            return replace(page, baseline=None), found
-    return page, found
+    return replace(page, cases=tuple(s for s in page.cases if _can_let_go(s.computed, ask))), found
+
+
+def _can_let_go(computed: Computed, ask: Ask) -> bool:
+    try:
+        let_go(computed, ask)
+    except (ValueError, TransientError):
+        return False
+    return True
 
 
 def say_outcome(computed: Computed, asked: Ask, found: Release, units: Units) -> None:

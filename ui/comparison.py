@@ -1,0 +1,103 @@
+"""The live machine and the cases side by side: inputs that differ, main results, differences.
+
+Differences are from the first case, in the unit of the quantity.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from html import escape
+
+from rotorcalc.figures import style
+from rotorcalc.units import Units
+from ui.bearing import FILM, KIND, Values, fields_of
+from ui.cases import Shown
+from ui.computed import Computed
+from ui.format import minus
+from ui.inputs import INPUTS, number, values_of
+from ui.results.table import RESULTS
+
+LIVE = "Now"
+MAIN = (
+    "onset_speed", "margin", "whirl_frequency", "damping_ratio", "eccentricity_ratio",
+    "minimum_film_thickness", "power_loss", "disk_amplitude",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Row:
+    """A quantity of each machine: its texts, and by how much they differ from the first case's."""
+
+    label: str
+    texts: tuple[str, ...]
+    changes: tuple[str, ...] = ()
+
+
+def inputs(machines: Sequence[Values], units: Units) -> Iterator[Row]:
+    """Yield the inputs in which machines differ."""
+    for key, item in INPUTS.items():
+        if _differ(machines, key):
+            yield Row(item.name(units), tuple(shown(key, values, units) for values in machines))
+    for key in (KIND, FILM):
+        if _differ(machines, key):
+            texts = (f"{values[key] or 'as usual'}" for values in machines)
+            yield Row(key.capitalize(), tuple(texts))
+    # Bearings of two kinds have different fields: one that is missing is shown as a dash.
+    fields = {key: field for values in machines for key, field in fields_of(values[KIND]).items()}
+    for key, field in fields.items():
+        if _differ(machines, key):
+            texts = (field.shown(values.get(key), units) for values in machines)
+            yield Row(field.name_in(units), tuple(texts))
+
+
+def results(machines: Sequence[Computed], units: Units) -> Iterator[Row]:
+    """Yield the main results of machines, of which the second is the first case."""
+    reference = machines[1]
+    for result in (RESULTS[key] for key in MAIN):
+        texts = tuple(result.shown(computed, units) for computed in machines)
+        changes = (
+            "" if computed is reference else result.change(computed, reference, units)
+            for computed in machines
+        )
+        yield Row(result.label, texts, tuple(changes))
+
+
+def shown(key: str, values: Values, units: Units) -> str:
+    """Return an input's value as text."""
+    if values[key] is None:
+        return "half the weight"
+    item, value = INPUTS[key], number(values, key)
+    return item.infinite if math.isinf(value) else minus(f"{item.shown(value, units):.6g}")
+
+
+def table(computed: Computed, cases: Sequence[Shown], units: Units) -> str:
+    """Return the live machine and cases, of which there is one at least, as a table in HTML."""
+    machines = (computed, *(shown.computed for shown in cases))
+    values = [values_of(one.machine, one.speed, one.top_speed) for one in machines]
+    names = [LIVE, *(shown.case.name for shown in cases)]
+    colours = (style.HERE, *(shown.case.colour for shown in cases))
+    head = "".join(
+        f'<th scope="col"><span class="swatch" style="background:{colour}"></span>'
+        f"{escape(name)}</th>"
+        for name, colour in zip(names, colours, strict=True)
+    )
+    rows = (*inputs(values, units), *results(machines, units))
+    body = "".join(_row(row, names) for row in rows)
+    return (
+        f'<table class="cases"><caption>Differences are from {escape(names[1])}.</caption>'
+        f"<thead><tr><td></td>{head}</tr></thead><tbody>{body}</tbody></table>"
+    )
+
+
+def _row(row: Row, names: Sequence[str]) -> str:
+    changes = row.changes or ("",) * len(names)
+    cells = "".join(
+        f'<td data-case="{escape(name)}">{escape(text)}'
+        f"{f'<small>{escape(change)}</small>' if change else ''}</td>"
+        for name, text, change in zip(names, row.texts, changes, strict=True)
+    )
+    return f'<tr><th scope="row">{escape(row.label)}</th>{cells}</tr>'
+
+
+def _differ(machines: Sequence[Values], key: str) -> bool:
+    return any(values.get(key) != machines[0].get(key) for values in machines)
