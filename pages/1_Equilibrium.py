@@ -2,6 +2,7 @@ import streamlit as st
 
 from rotorcalc.figures import equilibrium as place
 from rotorcalc.figures import film
+from ui.choices import choose
 from ui.frame.page import Page, show
 from ui.words import equilibrium as words
 from ui.words.citation import cited, remark
@@ -33,10 +34,7 @@ def locus(page: Page) -> None:
             ),
         )  # fmt: skip
     with right:
-        over = st.segmented_control(
-            "Abscissa", ["Over σ", "Over speed"], default="Over σ", required=True,
-            label_visibility="collapsed", key="equilibrium_over", persist_state="session",
-        )  # fmt: skip
+        over = choose("Abscissa", ["Over σ", "Over speed"], "equilibrium_over", hidden=True)
         page.chart(
             lambda c: (
                 place.position_over_speed(c.sweep, c.point, units)

@@ -1,11 +1,12 @@
 from functools import partial
-from typing import Literal
+from typing import Literal, cast
 
 import streamlit as st
 
 from rotorcalc.analysis import Axes
 from rotorcalc.coefficients import BULK_FLOW, LAMINAR
 from rotorcalc.figures import coefficients as draw
+from ui.choices import choose
 from ui.frame.page import Page, show
 from ui.words import coefficients as words
 from ui.words.citation import cited, remark
@@ -13,11 +14,10 @@ from ui.words.citation import cited, remark
 
 def content(page: Page) -> None:
     page.results("sommerfeld", "eccentricity_ratio", "attitude_angle", "equivalent_stiffness")
-    axes: Axes = st.segmented_control(
-        "Frame", list(words.FRAMES), format_func=words.FRAMES.__getitem__, key="coefficient_axes",
-        default="XY", required=True, persist_state="session",
-    )  # fmt: skip
-    page.tabs("coefficient_tabs", {
+    axes = cast("Axes", choose(
+        "Frame", list(words.FRAMES), "coefficients_axes", format_func=words.FRAMES.__getitem__
+    ))  # fmt: skip
+    page.tabs("coefficients_tab", {
         "Against speed": partial(against_speed, axes=axes),
         "Against ε": partial(dimensionless, axes=axes, against="ε"),
         "Against σ": partial(dimensionless, axes=axes, against="σ"),

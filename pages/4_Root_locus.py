@@ -4,6 +4,7 @@ import streamlit as st
 
 from rotorcalc.figures import modes as figures
 from rotorcalc.figures import root_locus as locus_figures
+from ui.choices import choice
 from ui.frame.page import Page, show
 from ui.preview import Text
 from ui.words import root_locus as words
@@ -68,7 +69,10 @@ def mode_shape(page: Page, *, bends: bool) -> None:
     left, right = st.columns([2, 3])
     with left:
         mode = words.choose_mode(locus)
-        spiral = st.toggle("Show growth or decay over three turns", key="locus_spiral")
+        spiral = st.toggle(
+            "Show growth or decay over three turns", key="locus_spiral",
+            value=bool(choice("locus_spiral", default=False, allowed=lambda _: True)),
+        )  # fmt: skip
         st.markdown(words.ABOUT_MODES)
     with right:
         page.chart(

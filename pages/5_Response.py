@@ -1,8 +1,9 @@
-from typing import Literal
+from typing import Literal, cast
 
 import streamlit as st
 
 from rotorcalc.figures import response as draw
+from ui.choices import choose
 from ui.frame.page import Page, show
 from ui.preview import Text
 from ui.words import response as words
@@ -14,7 +15,7 @@ def content(page: Page) -> None:
         return
     page.say("unstable", words.unstable)
     page.say("wall", lambda c: words.wall(c, page.units))
-    page.tabs("response_tabs", {
+    page.tabs("response_tab", {
         "Against speed": against_speed,
         "Orbits": orbits,
         "What damping and journal mass do": family,
@@ -23,10 +24,9 @@ def content(page: Page) -> None:
 
 def against_speed(page: Page) -> None:
     units = page.units
-    shown: Literal["axes", "XY"] = st.segmented_control(
-        "Amplitudes of", list(words.SHOWN), format_func=words.SHOWN.__getitem__,
-        key="response_shown", default="axes", required=True, persist_state="session",
-    )  # fmt: skip
+    shown = cast('Literal["axes", "XY"]', choose(
+        "Amplitudes of", list(words.SHOWN), "response_shown", format_func=words.SHOWN.__getitem__
+    ))  # fmt: skip
     left, right = st.columns(2)
     with left:
         page.chart(
@@ -75,10 +75,9 @@ def orbits(page: Page) -> None:
 
 def family(page: Page) -> None:
     units = page.units
-    varied: Literal["damping", "mass"] = st.segmented_control(
-        "Vary", list(words.VARIED), format_func=words.VARIED.__getitem__,
-        key="response_varied", default="damping", required=True, persist_state="session",
-    )  # fmt: skip
+    varied = cast('Literal["damping", "mass"]', choose(
+        "Vary", list(words.VARIED), "response_varied", format_func=words.VARIED.__getitem__
+    ))  # fmt: skip
     page.say("family", lambda c: Text(words.explain_family(c, varied)))
     left, right = st.columns(2)
     with left:

@@ -7,7 +7,7 @@ survives a change of page, whether it was moved or came with a link.
 import secrets
 from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import Any, TypeVar
+from typing import Any
 
 import streamlit as st
 
@@ -15,12 +15,11 @@ from rotorcalc.units import SYSTEMS, Units
 from ui import cases
 from ui.bearing import KIND, Value, Values
 from ui.cases import Case
+from ui.choices import choices
 from ui.history import History
 from ui.inputs import PRESET_VALUES
 from ui.preview import Preview
 from ui.sharing import address
-
-Number = TypeVar("Number", int, float)
 
 _KEY = "rotorcalc"
 
@@ -63,8 +62,6 @@ class Session:
     # Long computations: those requested, by button, and those that have begun and not ended.
     asked: dict[str, str] = field(default_factory=dict)
     begun: set[str] = field(default_factory=set)
-    # Choices beside the machine, such as a release's length, kept while another page is shown.
-    chosen: dict[str, float] = field(default_factory=dict)
     # The page whose sidebar was drawn last, and whether the visitor has just come to another.
     page: str = ""
     arriving: bool = True
@@ -158,7 +155,8 @@ class Session:
 
     def link(self) -> dict[str, str]:
         """Return the query parameters of a link to what is shown."""
-        return address.write(self.preset, self.values, self.units_name, self.cases)
+        shown = address.write(self.preset, self.values, self.units_name, self.cases)
+        return shown | choices().link()
 
     def ask_for(self, work: str, name: str) -> None:
         """Request a long computation; `name` distinguishes it from others of its kind."""
@@ -175,11 +173,9 @@ class Session:
 
         All of it is text and finite numbers, which JSON can hold.
         """
-        shown = {key: st.session_state[key] for key in self.chosen if key in st.session_state}
-        self.chosen |= shown
         return {
             "typed": self.typed, "image_format": self.image_format,
-            "asked": self.asked, "chosen": self.chosen,
+            "asked": self.asked, "chosen": choices().kept(),
         }  # fmt: skip
 
     def recall(self, kept: object) -> None:
@@ -189,15 +185,7 @@ class Session:
         self.image_format = "svg" if given.get("image_format") == "svg" else "png"
         self.asked = _words(given.get("asked"), str)
         self.begun = set(self.asked)
-        self.chosen = _words(given.get("chosen"), (int, float))
-
-    def choice(self, key: str, default: Number, low: Number, high: Number) -> Number | None:
-        """Return the initial value of a widget; None where the widget already has one."""
-        if key in st.session_state:
-            return None
-        value = self.chosen.setdefault(key, default)
-        # The browser's value is untrusted, and may lie outside a widget's range, which is an error.
-        return type(default)(value) if low <= value <= high else default
+        choices().recall(given.get("chosen"))
 
 
 def _words(given: object, kind: type | tuple[type, ...]) -> dict[str, Any]:
@@ -215,6 +203,7 @@ def session() -> Session:
         preset=given.preset, values=given.values, units_name=given.units, refused=given.problems,
         cases=given.cases,
     )  # fmt: skip
+    choices().words = given.choices
     return visitor
 
 

@@ -262,13 +262,11 @@ def test_a_lost_session_is_restored_from_what_its_browser_kept() -> None:
     visitor = session_of(at)
     visitor.typed, visitor.image_format = True, "svg"
     visitor.ask_for("orbits_run_up", "name")
-    visitor.chosen["orbits_kick"] = 0.5
     kept = json.loads(json.dumps(visitor.kept(), allow_nan=False))
     other = session_of(visit(HOME, C="72"))
     other.recall(kept)
     assert (other.typed, other.image_format) == (True, "svg")
     assert (other.asked, other.begun) == ({"orbits_run_up": "name"}, {"orbits_run_up"})
-    assert other.choice("orbits_kick", 0.3, 0.0, 1.2) == 0.5
 
 
 @pytest.mark.parametrize(
@@ -283,7 +281,6 @@ def test_state_kept_by_a_browser_is_checked_like_any_input(kept: object) -> None
     visitor = session_of(visit(HOME, C="72"))
     visitor.recall(kept)
     assert (visitor.typed, visitor.image_format, visitor.asked) == (False, "png", {})
-    assert visitor.choice("orbits_kick", 0.3, 0.0, 1.2) == 0.3
 
 
 def test_the_reason_a_file_is_refused_stands_whole_and_without_markup() -> None:

@@ -11,8 +11,10 @@ import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
 
 from rotorcalc.units import Units
+from ui import choices
 from ui.cases import Draw, Shown, compared
 from ui.cases import computed as computed_cases
+from ui.choices import choice
 from ui.computed import Computed, computed_from
 from ui.frame import cases, history, sidebar
 from ui.preview import Preview, Text, Words
@@ -90,7 +92,11 @@ class Page:
 
     def tabs(self, key: str, contents: Mapping[str, Callable[["Page"], object]]) -> None:
         """Show tabs by their labels, of which only the open one's content is drawn."""
-        tabs = st.tabs(list(contents), on_change="rerun", key=key)
+        labels = list(contents)
+        if (first := choice(key, labels[0], contents.__contains__)) not in (None, labels[0]):
+            # Another default would be another widget to Streamlit.
+            st.session_state[key] = first
+        tabs = st.tabs(labels, on_change="rerun", key=key)
         for tab, draw in zip(tabs, contents.values(), strict=True):
             if tab.open:
                 with tab:
@@ -161,6 +167,8 @@ def _frame(title: str, sentence: str) -> Places:
     _run_when_reconnected()
     visitor.frame += 1
     visitor.arriving = visitor.page != title
+    if visitor.arriving and visitor.page:
+        choices.choices().arrive()
     visitor.drawn = visitor.framed()
     with st.sidebar:
         sidebar.draw_presets()
@@ -199,6 +207,7 @@ def _content(
         page = replace(_page(places, has_preview=has_preview), whole=whole)
         content(page)
         cases.draw_table(page.preview, page.cases)
+        write_address_bar()  # the widgets drawn now have taken their choices
 
 
 def _page(places: Places, *, has_preview: bool) -> Page:
@@ -213,7 +222,7 @@ def _page(places: Places, *, has_preview: bool) -> Page:
         history.draw(visitor)
     params = write_address_bar()
     with places.navigation:
-        _navigation(params)
+        _navigation({key: word for key, word in params.items() if key not in choices.NAMES})
     for problem in (*visitor.refused, *visitor.problems):
         st.warning(problem)
     if visitor.refused:

@@ -25,6 +25,7 @@ from ui.bearing import (
     written,
 )
 from ui.cases import Case, added
+from ui.choices import NAMES
 from ui.format import quoted, typed_number
 from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, machine_of, tidy
 
@@ -42,6 +43,7 @@ class Link:
     units: str = "SI"
     problems: list[str] = field(default_factory=list)
     cases: tuple[Case, ...] = ()
+    choices: dict[str, str] = field(default_factory=dict)
 
 
 def read(params: Mapping[str, str]) -> Link:
@@ -49,7 +51,8 @@ def read(params: Mapping[str, str]) -> Link:
     link = Link()
     link.preset = _word(params, "preset", DEFAULT_PRESET, PRESET_VALUES, link.problems)
     link.units = _word(params, "units", "SI", SYSTEMS, link.problems)
-    given = {key: word for key, word in params.items() if key not in _NOT_VALUES}
+    link.choices = {key: word for key, word in params.items() if key in NAMES}
+    given = {key: word for key, word in params.items() if key not in _NOT_VALUES | NAMES}
     link.values = checked_values(given, link.preset, link.problems)
     link.cases = _read_cases(params.get(CASES, ""), link.preset, link.problems)
     return link

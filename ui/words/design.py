@@ -10,6 +10,7 @@ import streamlit as st
 from rotorcalc import Machine, design, variation
 from rotorcalc.figures.design import Quantity
 from rotorcalc.units import SI, Units
+from ui.choices import choice
 from ui.computed import Computed
 from ui.format import amount, digits
 from ui.inputs import INPUTS
@@ -49,13 +50,14 @@ def quantity(key: str, machine: Machine, units: Units) -> Quantity:
 def choose_input(label: str, default: str, key: str, without: str = "") -> str:
     """Show a choice of the inputs that affect the onset; return the chosen one's key."""
     options = [name for name in FIELDS if name != without]
+    default = default if default in options else options[0]
+    first = choice(key, default, options.__contains__)
     chosen = st.selectbox(
         label,
         options,
-        index=options.index(default if default in options else options[0]),
+        index=options.index(first or default),
         format_func=lambda name: f"{INPUTS[name].label} {INPUTS[name].symbol}",
         key=key,
-        persist_state="session",
     )
     return chosen or default
 

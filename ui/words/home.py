@@ -4,6 +4,7 @@ import streamlit as st
 
 from rotorcalc import whirl_energy
 from rotorcalc.figures import equilibrium, machine, response, stability, style
+from ui.choices import choose
 from ui.computed import Computed
 from ui.frame.page import Page, show
 from ui.preview import Text
@@ -16,10 +17,7 @@ def content(page: Page) -> None:
     units = page.units
     bearing, results = st.columns([3, 4], gap="medium")
     with bearing:
-        scale = st.segmented_control(
-            "Film drawn", ["exaggerated", "to scale"], key="film_scale", default="exaggerated",
-            required=True, persist_state="session", label_visibility="collapsed",
-        )  # fmt: skip
+        scale = choose("Film drawn", ["exaggerated", "to scale"], "machine_scale", hidden=True)
         page.chart(
             lambda c: machine.cross_section(
                 c.point, c.middle_film, units, to_scale=scale == "to scale"

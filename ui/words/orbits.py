@@ -9,6 +9,7 @@ import streamlit as st
 from rotorcalc import TransientError
 from rotorcalc.figures import Units
 from rotorcalc.nonlinear.release import Release, affordable_revolutions
+from ui.choices import choice
 from ui.computed import Computed, computed_from
 from ui.format import amount, digits
 from ui.frame.page import Page
@@ -58,7 +59,6 @@ _long_release = cache.Cached(work.release, entries=16, megabytes=40)
 
 def choose_release(computed: Computed) -> Ask:
     """Show the demonstrations, displacement and length; return the chosen release."""
-    visitor = session()
     with st.container(horizontal=True, gap="small"):
         for demo, (label, _, _) in _DEMOS.items():
             st.button(
@@ -69,13 +69,13 @@ def choose_release(computed: Computed) -> Ask:
     with left:
         kick = st.slider(
             "Initial displacement over clearance [-]", 0.0, 1.2,
-            visitor.choice(_KICK, 0.30, 0.0, 1.2), 0.01, key=_KICK, persist_state="session",
+            choice(_KICK, 0.30, lambda kick: 0.0 <= kick <= 1.2), 0.01, key=_KICK,
             help="Above the equilibrium, against the load; released at rest.",
         )  # fmt: skip
     with right:
         turns = st.slider(
-            "Revolutions [-]", 20, 600, visitor.choice(_REVOLUTIONS, 40, 20, 600), 20,
-            key=_REVOLUTIONS, persist_state="session",
+            "Revolutions [-]", 20, 600,
+            choice(_REVOLUTIONS, 40, lambda turns: 20 <= turns <= 600), 20, key=_REVOLUTIONS,
         )  # fmt: skip
     return Ask(kick, turns)
 

@@ -11,6 +11,7 @@ from rotorcalc.onset import Onset
 from rotorcalc.root_locus import Locus
 from rotorcalc.unbalance_response import orbit_ellipse
 from rotorcalc.units import Units
+from ui.choices import choose
 from ui.computed import Computed
 from ui.format import minus
 from ui.words.citation import capital, source, without_load
@@ -65,16 +66,8 @@ def choose_shaft(computed: Computed) -> bool:
     if computed.machine.rotor.is_rigid:
         st.caption("The shaft is rigid: disk and journals move as one.")
         return False
-    st.session_state.setdefault("locus_shaft", "flexible")
-    chosen = st.segmented_control(
-        "Shaft",
-        ["flexible", "rigid"],
-        key="locus_shaft",
-        required=True,
-        persist_state="session",
-        help="The shaft of the sidebar, or the same rotor on a rigid shaft.",
-    )
-    return chosen != "rigid"
+    about = "The shaft of the sidebar, or the same rotor on a rigid shaft."
+    return choose("Shaft", ["flexible", "rigid"], "locus_shaft", help=about) != "rigid"
 
 
 def caption(key: str, computed: Computed) -> str:

@@ -13,6 +13,7 @@ from rotorcalc.figures.stability import Crossing, Energies, FilmFigure
 from rotorcalc.films import film_of
 from rotorcalc.onset import closed_form
 from rotorcalc.units import Units
+from ui.choices import choose
 from ui.computed import Computed
 from ui.format import amount
 from ui.preview import Text
@@ -163,12 +164,4 @@ def _end_of_whirl(bearing: JournalBearing) -> FilmCurves:
 
 def choose_abscissa() -> bool:
     """Show the choice of the notes' figures' abscissa; return whether it is the eccentricity."""
-    chosen = st.segmented_control(
-        "Over",
-        ["σ", "ε"],
-        default="σ",
-        required=True,
-        key="stability_over",
-        persist_state="session",
-    )
-    return chosen == "ε"
+    return choose("Over", ["σ", "ε"], "stability_over") == "ε"
