@@ -3,8 +3,8 @@ from functools import partial
 import streamlit as st
 
 from rotorcalc.figures import orbits as draw
-from rotorcalc.nonlinear.release import Release
 from ui.frame.page import Page, show
+from ui.preview import Draw, not_at_once
 from ui.words import on_demand
 from ui.words import orbits as ask
 from ui.words.citation import cited, remark
@@ -14,39 +14,53 @@ def content(shown: Page) -> None:
     answer = st.container()
     with st.container(key="release"):
         asked = ask.choose_release(shown.computed)
-    page, found = ask.try_out(shown, asked)
+    page = ask.try_out(shown, asked)
     with answer:
-        ask.say_outcome(page.computed, asked, found, page.units)
+        ask.say_outcome(page.preview, asked)
     page.tabs("orbits_tab", {
         "Orbit": partial(orbit, asked=asked),
         "In time": partial(in_time, asked=asked),
-        "Spectrum": partial(spectrum, asked=asked, found=found),
-        "Run-up": run_up,
-        "Limit cycles": limit_cycles,
-        "Onset three ways": onset_three_ways,
+        "Spectrum": partial(spectrum, asked=asked),
+        "Run-up": on_release(run_up),
+        "Limit cycles": on_release(limit_cycles),
+        "Onset three ways": on_release(onset_three_ways),
     })  # fmt: skip
     page.results("onset_speed", "whirl_frequency", "margin", "damping_ratio")
 
 
-def of_release(draw_release, page: Page, asked: ask.Ask):
+def on_release(content):
+    """Return a tab's content that takes too long to follow a slider: it is dimmed meanwhile."""
+
+    def dimmed(page: Page) -> None:
+        with page.preview.dimmed(content.__name__):
+            content(page)
+
+    return dimmed
+
+
+def of_release(draw_release, page: Page, asked: ask.Ask) -> dict[str, Draw]:
+    """Return the functions that draw a release, and a coarser one while a slider is dragged."""
     units = page.units
-    return lambda c: draw_release(ask.let_go(c, asked), units)
+    return {
+        "draw": lambda c: draw_release(ask.let_go(c, asked), units),
+        "while_dragging": lambda c: draw_release(ask.coarse(c, asked), units),
+    }
 
 
 def orbit(page: Page, asked: ask.Ask) -> None:
     left, right = st.columns([4, 5])
     with left:
         page.chart(
-            of_release(draw.orbit, page, asked),
-            "orbits_path",
+            key="orbits_path",
+            **of_release(draw.orbit, page, asked),
             alt="The journal's path in its clearance, with an animation.",
             caption="Play it, or move the slider. Blue: M ẍ = F(x, ẋ) + load + imbalance (Eq. 5.1, "
             "forward); purple: the linear theory from the same start (Eq. 5.38).",
         )
     with right:
         page.chart(
-            of_release(draw.over_time, page, asked),
-            "orbits_time",
+            key="orbits_time",
+            **of_release(draw.over_time, page, asked),
             alt="X and Y of the journal over revolutions, and the linear ones.",
             caption="X along the load, Y at 90° with the rotation. The linear motion ends where it "
             "leaves the bearing.",
@@ -57,15 +71,15 @@ def in_time(page: Page, asked: ask.Ask) -> None:
     left, right = st.columns(2)
     with left:
         page.chart(
-            of_release(draw.growth, page, asked),
-            "orbits_growth",
+            key="orbits_growth",
+            **of_release(draw.growth, page, asked),
             alt="Distance from equilibrium over revolutions, logarithmic.",
             caption="Largest distance over each two revolutions; dashed: e^(Re λ t). Eq. 5.38.",
         )
     with right:
         page.chart(
-            of_release(draw.film, page, asked),
-            "orbits_film",
+            key="orbits_film",
+            **of_release(draw.film, page, asked),
             alt="Thinnest film over revolutions.",
             caption=cited(
                 remark(
@@ -80,21 +94,21 @@ def in_time(page: Page, asked: ask.Ask) -> None:
         )
 
 
-def spectrum(page: Page, asked: ask.Ask, found: Release) -> None:
-    ask.show_measured(page.computed, found, page.units)
+def spectrum(page: Page, asked: ask.Ask) -> None:
+    ask.show_measured(page.preview, asked)
     left, right = st.columns([3, 2])
     with left:
         page.chart(
-            of_release(draw.spectrum, page, asked),
-            "orbits_spectrum",
+            key="orbits_spectrum",
+            **of_release(draw.spectrum, page, asked),
             alt="Spectrum of the motion over orders, ½× and 1× marked.",
             caption="Of X + jY over the last quarter, Hann window; negative orders turn against "
             "the shaft.",
         )
     with right:
         page.chart(
-            of_release(draw.once_a_revolution, page, asked),
-            "orbits_points",
+            key="orbits_points",
+            **of_release(draw.once_a_revolution, page, asked),
             alt="Positions of the journal once per revolution.",
             caption="Once per revolution (Poincaré): synchronous one point, exact half-speed whirl "
             "two.",
@@ -106,6 +120,7 @@ def run_up(page: Page) -> None:
     if (run := on_demand.ask_run_up(page)) is not None:
         page.alone().chart(
             lambda _, run=run: draw.waterfall(run, units), "orbits_waterfall",
+            while_dragging=not_at_once,
             alt="Spectra over running speed: imbalance at 1×, whirl near ½× past the "
             "onset.",
             caption=on_demand.run_up_caption(computed),
@@ -119,6 +134,7 @@ def limit_cycles(page: Page) -> None:
         page.alone().chart(
             lambda c, branch=branch: draw.cycles(branch, on_demand.swept(branch), c.speed, units),
             "orbits_cycles",
+            while_dragging=not_at_once,
             alt="Size of the limit cycles over speed, stable and unstable, and two sweeps.",
             caption="Without imbalance: harmonic balance, stability by Floquet. At the "
             "onset ȧ = (Re λ) a + ℓ (a/C)² a decides.",
@@ -131,6 +147,7 @@ def onset_three_ways(page: Page) -> None:
         on_demand.say_onsets(three[0], units)
         on_demand.with_onset(page).chart(
             lambda c: draw.onset_growth(*on_demand.three_onsets(c), units), "orbits_onset",
+            while_dragging=not_at_once,
             alt="Growth rate over speed: eigenvalues as a line, measured rates as points.",
             caption="Each point: eight whirls of the nonlinear motion from a whirl of C/10000, "
             "exponentials fitted to them. Without imbalance. Eqs. 5.38, 5.45 to 5.50.",
@@ -141,5 +158,4 @@ show(
     "Nonlinear orbits",
     "Release the journal: its motion under the film's full force, the linear theory beside it.",
     content,
-    has_preview=False,
 )

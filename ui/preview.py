@@ -8,9 +8,10 @@ dragged the same functions answer, and the browser writes over what the run drew
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
-from typing import Any, Literal, TypeVar
+from typing import Any, Literal, NoReturn, TypeVar
 
 import streamlit as st
+from streamlit.delta_generator import DeltaGenerator
 
 from rotorcalc.figures import Chart, themed
 from rotorcalc.units import Units
@@ -53,10 +54,13 @@ class Preview:
     rows: dict[str, list[Cells]] = field(default_factory=dict)
     texts: dict[str, Words] = field(default_factory=dict)
 
-    def say(self, key: str, words: Words) -> None:
-        """Show a text that depends on the machine; nothing where it has no words for it."""
+    def say(self, key: str, words: Words, *, while_dragging: Words | None = None) -> None:
+        """Show a text that depends on the machine; nothing where it has no words for it.
+
+        While a slider is dragged it may have other words, as of a coarser result.
+        """
         key = f"said_{key}"
-        self.texts[key] = words
+        self.texts[key] = while_dragging or words
         text = words(self.computed)
         with st.container(key=key):
             if text is None:
@@ -64,6 +68,12 @@ class Preview:
                 st.html('<span class="unsaid"></span>')
             else:
                 getattr(st, text.kind)(text.words)
+
+    def dimmed(self, key: str) -> DeltaGenerator:
+        """Return a container whose content is dimmed while a slider is dragged."""
+        key = f"dimmed_{key}"
+        self.texts[key] = not_at_once
+        return st.container(key=key)
 
     def at(self, name: str, value: str) -> dict[str, Any]:
         """Return charts and texts by key, and the texts of each row of results, at a value.
@@ -94,6 +104,11 @@ class Preview:
         chart = dict(draw(computed))
         chart.pop("frames", None)
         return themed(chart, dark=self.dark)
+
+
+def not_at_once(_: Computed) -> NoReturn:
+    """Raise the ValueError of what takes too long to be computed while a slider is dragged."""
+    raise ValueError("computed when the slider is released")
 
 
 def _given(ask: Callable[[], T]) -> T | None:

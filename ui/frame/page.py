@@ -76,15 +76,21 @@ class Page:
     whole: bool = False
 
     def chart(
-        self, draw: Draw, key: str, *, alt: str, caption: str | Callable[[Computed], str]
+        self,
+        draw: Draw,
+        key: str,
+        *,
+        alt: str,
+        caption: str | Callable[[Computed], str],
+        while_dragging: Draw | None = None,
     ) -> None:
         """Show a chart of the live machine, the cases thin and in their colours behind it.
 
         A caption that depends on the inputs of sliders is a function of the machine's results.
+        While one is dragged a chart that takes long has another function, quicker and coarser.
         """
-        both = compared(draw, self.cases)
-        show_chart(both(self.computed), key=key, alt=alt)
-        self.preview.charts[chart_key(key)] = both
+        show_chart(compared(draw, self.cases)(self.computed), key=key, alt=alt)
+        self.preview.charts[chart_key(key)] = compared(while_dragging or draw, self.cases)
         if isinstance(caption, str):
             st.caption(caption)
         else:
@@ -120,9 +126,9 @@ class Page:
         """Show results in a row, each with its equation and its change from the first case."""
         show_results(self.preview, *keys)
 
-    def say(self, key: str, words: Words) -> None:
+    def say(self, key: str, words: Words, *, while_dragging: Words | None = None) -> None:
         """Show a text that depends on the machine."""
-        self.preview.say(key, words)
+        self.preview.say(key, words, while_dragging=while_dragging)
 
 
 class Places(NamedTuple):
@@ -133,22 +139,19 @@ class Places(NamedTuple):
     foot: DeltaGenerator
 
 
-def show(
-    title: str, sentence: str, content: Callable[[Page], None], *, has_preview: bool = True
-) -> None:
+def show(title: str, sentence: str, content: Callable[[Page], None]) -> None:
     """Draw a page: its frame, then its content, which alone is redrawn when a slider moves.
 
-    While a slider is dragged, charts and results have a preview, unless `has_preview` is false:
-    then the content runs for each value, for charts that take long and show their progress.
+    While a slider is dragged, what depends on the machine has a preview.
     """
     with one_at_a_time.PAGES.through():
         places = _frame(title, sentence)
         visitor = session()
         whole, visitor.whole = visitor.whole, False
         if whole:
-            _content(content, places, has_preview=has_preview, whole=True)
+            _content(content, places, whole=True)
         else:
-            st.fragment(_content)(content, places, has_preview=has_preview, whole=False)
+            st.fragment(_content)(content, places, whole=False)
 
 
 def _frame(title: str, sentence: str) -> Places:
@@ -196,21 +199,19 @@ def _run_when_reconnected() -> None:
     """
 
 
-def _content(
-    content: Callable[[Page], None], places: Places, *, has_preview: bool, whole: bool
-) -> None:
+def _content(content: Callable[[Page], None], places: Places, *, whole: bool) -> None:
     with one_at_a_time.PAGES.through():
         visitor = session()
         if visitor.drawn != visitor.framed():
             # A button of the content, such as a demonstration's, changed more than sliders show.
             st.rerun()
-        page = replace(_page(places, has_preview=has_preview), whole=whole)
+        page = replace(_page(places), whole=whole)
         content(page)
         cases.draw_table(page.preview, page.cases)
         write_address_bar()  # the widgets drawn now have taken their choices
 
 
-def _page(places: Places, *, has_preview: bool) -> Page:
+def _page(places: Places) -> Page:
     """Return the page's machine and draw what depends on it everywhere; stop where there is none.
 
     A fragment may write into the places where it has done so when the whole page ran; the
@@ -246,7 +247,7 @@ def _page(places: Places, *, has_preview: bool) -> Page:
     visitor.preview.say("verdict", lambda c: verdict.text(c, units))
     with places.foot:
         validity.draw(visitor.preview)
-        show_preview(visitor.preview if has_preview else None)
+        show_preview(visitor.preview)
     return Page(computed=computed, cases=beside, units=visitor.units, preview=visitor.preview)
 
 

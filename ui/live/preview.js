@@ -10,6 +10,7 @@
 
 const STYLE = `
 .live-unknown {opacity: 0.35;}
+.live-unknown .live-unknown {opacity: 1;}
 .live-overwritten > :not(.live-said) {display: none;}
 .live-refused :is(.live-chart, .stMetric, [class*="st-key-said_"]:not(.st-key-said_verdict)) {opacity: 0.35;}
 .live-alert {padding: 1rem; border-radius: 0.5rem;}
@@ -91,8 +92,9 @@ class Preview {
   say(place, text) {
     place.classList.toggle("live-unknown", text === null);
     const said = JSON.stringify(text);
+    if (text === null) return;
     const copy = place.querySelector(":scope > .live-said") ?? place.firstElementChild.cloneNode(true);
-    if (text === null || copy.dataset.said === said) return;
+    if (copy.dataset.said === said) return;
     copy.classList.add("live-said");
     copy.dataset.said = said;
     copy.hidden = text.words === "";

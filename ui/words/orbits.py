@@ -2,11 +2,12 @@
 
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Literal, TypeVar
 
 import streamlit as st
 
-from rotorcalc import TransientError
+from rotorcalc import Machine, TransientError
 from rotorcalc.figures import Units
 from rotorcalc.nonlinear.release import Release, affordable_revolutions
 from ui.choices import choice
@@ -16,6 +17,7 @@ from ui.frame.page import Page
 from ui.inputs import INPUTS, PRESET_VALUES
 from ui.jobs import cache, queue, work
 from ui.jobs.work import Progress
+from ui.preview import Preview, Text
 from ui.session import session
 
 T = TypeVar("T")
@@ -25,6 +27,9 @@ _KICK, _REVOLUTIONS = "orbits_kick", "orbits_revolutions"
 _AT_REST, _WHIRLS = 2e-3, 0.02
 # Between these ratios of late to early size a motion neither dies nor grows.
 _STAYS = (0.8, 1.25)
+# Revolutions of a release while a slider is dragged: some 20 ms.
+_COARSE = 20
+_COARSELY = f"Coarse while dragging, {_COARSE} revolutions at most. "
 # A rigid rotor just below a subcritical onset: ε = 0.06, p² one per cent below critical.
 _SUBCRITICAL = PRESET_VALUES["sheet-1e8"] | {
     "mass": 660.0, "load": 948.0, "k": math.inf, "u": 0.0, "rpm": 5730.0, "rpm_max": 8000.0,
@@ -108,28 +113,47 @@ def let_go(computed: Computed, ask: Ask, tell: Progress | None = None) -> Releas
     return release(computed.machine, computed.speed, ask.kick, ask.revolutions, tell=tell)
 
 
+def coarse(computed: Computed, ask: Ask) -> Release:
+    """Return the first revolutions of a release, coarsely, for each value of a dragged slider.
+
+    Raises ValueError where it cannot be computed.
+    """
+    ask = _affordable(computed, ask)
+    turns = min(ask.revolutions, _COARSE)
+    try:
+        return _coarse(computed.machine, computed.speed, ask.kick, turns)
+    except TransientError as error:
+        raise ValueError(f"{error}") from error
+
+
+# A page asks for the same release for each of its charts and texts.
+@lru_cache(maxsize=16)
+def _coarse(machine: Machine, speed: float, kick: float, revolutions: int) -> Release:
+    return work.release(machine, speed, kick, revolutions)
+
+
 def _affordable(computed: Computed, ask: Ask) -> Ask:
     """Return the release, shorter where the machine vibrates many times in a revolution."""
     most = affordable_revolutions(computed.point)
     return ask if ask.revolutions <= most else replace(ask, revolutions=most)
 
 
-def try_out(page: Page, ask: Ask) -> tuple[Page, Release]:
-    """Return the release, and the page without the cases that allow none.
+def try_out(page: Page, ask: Ask) -> Page:
+    """Return the page without the cases that allow no such release.
 
-    Say in words why there is none, and stop, where there is none.
+    Say in words why there is none, and stop, where the live machine allows none.
     """
     ask = _affordable(page.computed, ask)
     bar = st.progress(0.0, "Integrating …") if ask.revolutions >= work.LONG else None
     try:
-        found = let_go(page.computed, ask, None if bar is None else bar.progress)
+        let_go(page.computed, ask, None if bar is None else bar.progress)
     except (ValueError, TransientError) as error:
         st.error(f"{error}", title="This release cannot be computed")
         st.stop()
     finally:
         if bar is not None:
             bar.empty()
-    return replace(page, cases=tuple(s for s in page.cases if _can_let_go(s.computed, ask))), found
+    return replace(page, cases=tuple(s for s in page.cases if _can_let_go(s.computed, ask)))
 
 
 def _can_let_go(computed: Computed, ask: Ask) -> bool:
@@ -140,19 +164,45 @@ def _can_let_go(computed: Computed, ask: Ask) -> bool:
     return True
 
 
-def say_outcome(computed: Computed, asked: Ask, found: Release, units: Units) -> None:
+def say_outcome(preview: Preview, asked: Ask) -> None:
     """Show what the journal did, and what the linear theory predicts."""
+    units = preview.units
+    preview.say("followed", lambda c: _followed(asked, let_go(c, asked)), while_dragging=_unsaid)
+    preview.say(
+        "stopped",
+        lambda c: _stopped(let_go(c, asked)),
+        while_dragging=lambda c: _stopped(coarse(c, asked)),
+    )
+    preview.say(
+        "outcome",
+        lambda c: _judged(c, let_go(c, asked), units),
+        while_dragging=lambda c: _judged(c, coarse(c, asked), units, _COARSELY),
+    )
+
+
+def _unsaid(_: Computed) -> None:
+    return None
+
+
+def _followed(asked: Ask, found: Release) -> Text | None:
     followed = round(float(found.revolutions[-1]))
-    if followed < asked.revolutions and not found.stopped:
-        st.info(
-            f"This machine vibrates so many times per revolution that only {followed} revolutions "
-            "are computed."
-        )
-    if found.stopped:
-        st.warning(f"The integration ended early: {found.stopped}.")
-    whirls = _is_whirling(found)
-    show = st.warning if whirls else st.success
-    show(f"{_outcome(found, units)} {_theory(computed, found)}")
+    if followed >= asked.revolutions or found.stopped:
+        return None
+    return Text(
+        f"This machine vibrates so many times per revolution that only {followed} revolutions "
+        "are computed.",
+        "info",
+    )
+
+
+def _stopped(found: Release) -> Text | None:
+    words = f"The integration ended early: {found.stopped}."
+    return Text(words, "warning") if found.stopped else None
+
+
+def _judged(computed: Computed, found: Release, units: Units, before: str = "") -> Text:
+    words = f"{before}{_outcome(found, units)} {_theory(computed, found)}"
+    return Text(words, "warning" if _is_whirling(found) else "success")
 
 
 def _is_whirling(found: Release) -> bool:
@@ -203,18 +253,26 @@ def _theory(computed: Computed, found: Release) -> str:
     return f"{said}."
 
 
-def show_measured(computed: Computed, found: Release, units: Units) -> None:
+def show_measured(preview: Preview, asked: Ask) -> None:
     """Show whirl ratio and amplitudes, measured and by the linear theory."""
+    units = preview.units
+    preview.say(
+        "measured",
+        lambda c: _measured(c, let_go(c, asked), units),
+        while_dragging=lambda c: _measured(c, coarse(c, asked), units),
+    )
+
+
+def _measured(computed: Computed, found: Release, units: Units) -> Text:
     seen, C = found.spectrum, found.clearance
     ratio = "no whirl" if math.isnan(seen.whirl_ratio) else f"{seen.whirl_ratio:.4f}"
     predicted = found.whirl.imag / computed.speed
-    rows = [
-        ("Whirl ratio, measured", ratio),
-        ("Whirl ratio, linear", "none" if math.isnan(predicted) else f"{predicted:.4f}"),
-        ("Whirl's circle", amount(units.film, seen.whirl)),
-        ("1× circle", amount(units.film, seen.synchronous)),
-        ("Ends within", f"{found.last_size / C:.3g} C of equilibrium"),
-    ]
-    with st.container(horizontal=True):
-        for label, value in rows:
-            st.metric(label, value)
+    rows = {
+        "Whirl ratio, measured": ratio,
+        "Whirl ratio, linear": "none" if math.isnan(predicted) else f"{predicted:.4f}",
+        "Whirl's circle": amount(units.film, seen.whirl),
+        "1× circle": amount(units.film, seen.synchronous),
+        "Ends within": f"{found.last_size / C:.3g} C of equilibrium",
+    }
+    lines = (rows, ["--:"] * len(rows), rows.values())
+    return Text("\n".join(f"| {' | '.join(line)} |" for line in lines))

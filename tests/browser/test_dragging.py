@@ -1,0 +1,155 @@
+"""While a slider is held everything on the page answers, and nothing contradicts anything else."""
+
+import math
+import re
+
+import pytest
+from playwright.sync_api import Locator, expect
+
+import rotorcalc as rc
+from rotorcalc.units import SI
+from tests.browser.app_page import PATHS, AppPage
+from tests.browser.test_live import _drag
+from ui.computed import computed_from
+from ui.inputs import PRESET_VALUES
+from ui.words.verdict import verdict
+
+RPM = math.pi / 30
+VALUES = PRESET_VALUES["sheet-1e8"]
+# Every text that depends on the machine, as it is read: of an equation its TeX.
+_SAID = """() => Object.fromEntries([...document.querySelectorAll('[class*="st-key-said_"]')]
+  .filter(place => place.checkVisibility())
+  .map(place => {
+    const read = place.cloneNode(true);
+    if (read.querySelector('.live-said'))
+      [...read.children].forEach(one => one.classList.contains('live-said') || one.remove());
+    read.querySelectorAll('.katex').forEach(
+      one => one.replaceWith(one.querySelector('annotation').textContent));
+    return [place.className.match(/st-key-said_\\S+/)[0],
+            read.textContent.replaceAll(/\\s+/g, ' ').trim()];
+  }).filter(([, words]) => words))"""
+_MARKED = """key => window.rotorcalcCharts.get(key).element.data
+  .filter(trace => trace.name === 'running speed').map(trace => trace.x.at(-1))"""
+
+
+def _hold(app: AppPage, label: str, share: float) -> str:
+    """Drag a slider, hold it until the page shows its value, and return that."""
+    _drag(app, label, share)
+    app.page.wait_for_function("() => !document.querySelector('.live-slider[data-busy]')")
+    app.page.wait_for_function("() => !document.querySelector('.live-chart[data-moved]')")
+    return app.slider(label).get_attribute("aria-valuetext") or ""
+
+
+def _release(app: AppPage) -> None:
+    with app.run():
+        app.page.mouse.up()
+    app.page.wait_for_function("() => !document.body.classList.contains('rotorcalc-dragging')")
+
+
+def test_a_thumb_held_beyond_the_onset_is_answered_by_the_whole_page(app: AppPage) -> None:
+    app.open("Machine")
+    with app.run():
+        app.page.get_by_role("button", name="Pin this machine").click()
+    place = app.page.locator(".st-key-said_verdict")
+    expect(place).to_contain_text("Stable at 6000 rpm")
+    before = _changes(app)
+    rpm = float(_hold(app, "Running speed", 0.15))
+    machine = rc.PRESETS["sheet-1e8"].machine
+    onset = rc.onset_speed(machine).speed / RPM
+    assert rpm > onset  # else the test holds nothing
+    mode = max(rc.analyse(machine, rpm * RPM).flexible_eigenvalues, key=lambda value: value.real)
+
+    # The words, and their colour: more red than green.
+    expect(place).to_contain_text(f"Unstable at {rpm:.0f} rpm")
+    expect(place).to_contain_text(f"whirls at {abs(mode.imag) / RPM:.0f} rpm")
+    expect(place).to_contain_text(f"growing at {mode.real:.4g} 1/s")
+    red, green, _ = _colour(place.locator(".live-said .stAlertContainer"))
+    assert red > green
+    expect(app.page.locator(".st-key-said_imbalance")).to_contain_text("if it were stable")
+    # Numbers, and their change from the pinned machine.
+    margin = 100.0 * (onset / rpm - 1.0)
+    numbers = app.metrics()
+    assert numbers["Margin to onset"].startswith(f"−{abs(margin):.4g} %")
+    changes = _changes(app)
+    assert changes[2] not in ("", before[2])
+    # The charts' points.
+    for chart in ("chart_home_threshold", "chart_home_response"):
+        assert set(app.page.evaluate(_MARKED, chart)) == {rpm}
+
+    held = app.page.evaluate(_SAID)
+    _release(app)
+    assert app.page.evaluate(_SAID) == held
+    assert app.metrics() == numbers
+    assert _changes(app) == changes
+    assert verdict(computed_from(VALUES | {"rpm": rpm}), SI).sentence in held["st-key-said_verdict"]
+
+
+def _changes(app: AppPage) -> list[str]:
+    """Return the changes from the pinned machine."""
+    texts = app.page.get_by_test_id("stMetricDelta").all_inner_texts()
+    return [text.strip("\u200b") for text in texts]
+
+
+def _colour(element: Locator) -> list[float]:
+    colour = element.evaluate("one => getComputedStyle(one).backgroundColor")
+    return [float(part) for part in re.findall(r"[\d.]+", colour)[:3]]
+
+
+@pytest.mark.parametrize("page", [page for page in PATHS if page not in ("Orbits", "Notes")])
+def test_what_is_shown_while_held_is_what_a_run_shows(app: AppPage, page: str) -> None:
+    """On every tab, with damping and a pinned machine, and with all of the model's assumptions."""
+    app.open(page, rpm="8000", cs="500")
+    with app.run():
+        app.page.get_by_role("button", name="Pin this machine").click()
+    app.page.get_by_text("Where the model holds").click()
+    for tab in app.tabs() or [""]:
+        if tab:
+            app.open_tab(tab)
+        before = app.page.evaluate(_SAID)
+        _hold(app, "Film temperature", 0.1)
+        held, numbers = app.page.evaluate(_SAID), app.metrics()
+        assert held["st-key-said_verdict"] != before["st-key-said_verdict"]
+        _release(app)
+        assert app.page.evaluate(_SAID) == held, tab
+        assert app.metrics() == numbers, tab
+
+
+def test_an_open_explanation_follows_the_thumb(app: AppPage) -> None:
+    app.open("Stability")
+    with app.run():
+        app.page.locator(".st-key-explain_onset_speed button").click()
+    body = app.page.get_by_test_id("stPopoverBody")
+    expect(body).to_contain_text("8919 rpm")
+    _hold(app, "Radial clearance", 0.1)
+    (onset,) = [one for label, one in app.metrics().items() if label.startswith("Onset")]
+    expect(body.locator(".live-said")).to_contain_text(onset)
+    expect(body.locator(".live-said .katex")).to_have_count(3)
+    app.page.mouse.up()
+
+
+def test_a_release_is_coarse_while_held_and_says_so(app: AppPage) -> None:
+    app.open("Orbits")
+    outcome = app.page.locator(".st-key-said_outcome")
+    expect(outcome).not_to_contain_text("Coarse")
+    drawn = app.drawn()
+    _hold(app, "Running speed", 0.15)
+    assert app.drawn() != drawn
+    expect(outcome).to_contain_text("Coarse while dragging, 20 revolutions at most. After 20 rev")
+    expect(app.page.locator(".st-key-said_verdict")).to_contain_text("Unstable")
+    _release(app)
+    expect(outcome).to_contain_text("After 40 revolutions")
+
+
+def test_a_value_that_makes_no_machine_is_refused_while_held(app: AppPage) -> None:
+    app.open("Machine", mass="300")
+    app.page.get_by_text("Shaft and disk").click()
+    verdicts = app.page.locator(".st-key-said_verdict")
+    app.slider("Journal mass").hover()  # once the group has opened
+    _hold(app, "Journal mass", 0.6)
+    expect(verdicts).to_contain_text("Journal mass Mⱼ")
+    expect(verdicts.locator(".live-said")).not_to_contain_text("Stable at")
+    assert (
+        app.page.locator(".stMetric").first.evaluate("one => getComputedStyle(one).opacity") < "1"
+    )
+    _release(app)
+    expect(app.page.get_by_test_id("stAlert").filter(has_text="Journal mass Mⱼ")).to_be_visible()
