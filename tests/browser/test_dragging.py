@@ -49,7 +49,7 @@ def _release(app: AppPage) -> None:
 def test_a_thumb_held_beyond_the_onset_is_answered_by_the_whole_page(app: AppPage) -> None:
     app.open("Machine")
     with app.run():
-        app.page.get_by_role("button", name="Pin this machine").click()
+        app.page.get_by_role("button", name="Keep as A").click()
     place = app.page.locator(".st-key-said_verdict")
     expect(place).to_contain_text("Stable at 6000 rpm")
     before = _changes(app)
@@ -66,7 +66,7 @@ def test_a_thumb_held_beyond_the_onset_is_answered_by_the_whole_page(app: AppPag
     red, green, _ = _colour(place.locator(".live-said .stAlertContainer"))
     assert red > green
     expect(app.page.locator(".st-key-said_imbalance")).to_contain_text("if it were stable")
-    # Numbers, and their change from the pinned machine.
+    # Numbers, and their change from the first case.
     margin = 100.0 * (onset / rpm - 1.0)
     numbers = app.metrics()
     assert numbers["Margin to onset"].startswith(f"−{abs(margin):.4g} %")
@@ -85,7 +85,7 @@ def test_a_thumb_held_beyond_the_onset_is_answered_by_the_whole_page(app: AppPag
 
 
 def _changes(app: AppPage) -> list[str]:
-    """Return the changes from the pinned machine."""
+    """Return the changes from the first case."""
     texts = app.page.get_by_test_id("stMetricDelta").all_inner_texts()
     return [text.strip("\u200b") for text in texts]
 
@@ -97,10 +97,10 @@ def _colour(element: Locator) -> list[float]:
 
 @pytest.mark.parametrize("page", [page for page in PATHS if page not in ("Orbits", "Notes")])
 def test_what_is_shown_while_held_is_what_a_run_shows(app: AppPage, page: str) -> None:
-    """On every tab, with damping and a pinned machine, and with all of the model's assumptions."""
+    """On every tab, with damping and a case, and with all of the model's assumptions."""
     app.open(page, rpm="8000", cs="500")
     with app.run():
-        app.page.get_by_role("button", name="Pin this machine").click()
+        app.page.get_by_role("button", name="Keep as A").click()
     app.page.get_by_text("Where the model holds").click()
     for tab in app.tabs() or [""]:
         if tab:
