@@ -73,7 +73,7 @@ BENDING = log_uniform(1e6, 1e10)
 
 @st.composite
 def machines(draw, *, stiffness=RIGID | BENDING, damped=False, journals=False, load=None):
-    """Draw a machine from the ranges of the app's sliders.
+    """Draw a machine of ordinary size; `drawn` has those of the app's whole ranges.
 
     Midspan damping reaches from next to nothing to ten times what leaves the disk on its shaft
     without oscillation, journal mass from next to nothing to nearly the whole rotor.
@@ -106,7 +106,7 @@ def machines(draw, *, stiffness=RIGID | BENDING, damped=False, journals=False, l
 
 
 def drawn(seed):
-    """Return a machine and a top speed from far beyond the sliders' ranges, the same ever again.
+    """Return a machine and a top speed from the sliders' whole ranges, the same ever again.
 
     Rotors of 50 g to 100 t, journals of 3 mm to 1.2 m, clearances of 3 µm to 2 mm, any shaft.
     """

@@ -1,6 +1,7 @@
 """Display of numbers, with digits and unit, in LaTeX; and safe display of a visitor's input."""
 
 import math
+import re
 import reprlib
 
 from numpy.typing import ArrayLike
@@ -56,16 +57,58 @@ def literal(message: str, most: int = 400) -> str:
     return f"`{' '.join(shown.split()).replace('`', chr(39))}`"
 
 
+def short(value: float) -> str:
+    """Return a number to six digits, as a field shows it."""
+    mantissa, _, power = f"{value:.6g}".partition("e")
+    return mantissa + (f"e{int(power)}" if power else "")
+
+
 def typed_number(word: object) -> float:
     """Return a visitor's input as a number, or raise ValueError with a clear message.
 
-    Infinity is written as such: a number too large for this program is not meant so.
+    A decimal comma and separators of thousands are understood where only one number can be meant.
+    One dot alone is a decimal point, as everywhere in this program.
     """
-    try:
-        value = float(str(word))
-    except ValueError:
-        raise ValueError("is not a number") from None
-    # float("1e999") is infinite too, which for a shaft would mean rigid.
-    if math.isinf(value) and any(digit.isdigit() for digit in str(word)):
+    text = re.sub(r"\s", " ", str(word).strip()).replace("\N{MINUS SIGN}", "-")
+    if text.lower().lstrip("+-") in ("inf", "infinity", "nan"):
+        return float(text)
+    found = _NUMBER.fullmatch(text)
+    sign, mantissa, power = found.groups(default="") if found else ("", "", "")
+    meant = sorted(f"{sign}{reading}{power}" for reading in _readings(mantissa))
+    if not meant:
+        raise ValueError("is not a number")
+    if len(meant) > 1:
+        raise ValueError(f"can mean {' or '.join(meant)}: type the one you mean")
+    value = float(meant[0])
+    if math.isinf(value):  # 1e999, which for a shaft would mean rigid
         raise ValueError("is too large a number for this program")
+    if value == 0.0 and re.search("[1-9]", mantissa):
+        raise ValueError("is too small a number for this program")
     return value
+
+
+_NUMBER = re.compile(r"([+-]?)([0-9.,' ’_]+)(e[+-]?[0-9]+)?", re.IGNORECASE)
+# 1,334.5 and 1.334,5 and 1 334,5 and 1'334.5: separator of thousands, decimal separator.
+_GROUPED = [
+    re.compile(
+        rf"(?P<whole>[1-9][0-9]{{0,2}}(?:{thousands}[0-9]{{3}})+)({decimal}(?P<rest>[0-9]*))?"
+    )
+    for thousands, decimal in ((",", r"\."), (r"\.", ","), (" ", "[.,]"), ("['’_]", "[.,]"))
+]
+
+
+def _readings(mantissa: str) -> set[str]:
+    """Return the numbers that digits with separators can mean, as Python writes them."""
+    if re.fullmatch(r"[0-9]+\.?[0-9]*|\.[0-9]+", mantissa):
+        return {mantissa}
+    found = set[str]()
+    if re.fullmatch(r"[0-9]+,[0-9]*|,[0-9]+", mantissa):
+        found.add(mantissa.replace(",", "."))
+    for grouped in _GROUPED:
+        if match := grouped.fullmatch(mantissa):
+            found.add(
+                re.sub("[^0-9]", "", match["whole"])
+                + "." * bool(match["rest"])
+                + (match["rest"] or "")
+            )
+    return found

@@ -10,11 +10,13 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
+from scipy.constants import g
+
 from rotorcalc import PRESETS, JournalBearing, Machine, Oil, Preset, Rotor
 from rotorcalc.figures import style
 from rotorcalc.units import SI, Unit, Units
 from ui.bearing import Values, bearing_values, shape_of
-from ui.format import quoted, typed_number
+from ui.format import quoted, short, typed_number
 
 # Smallest positive value: quotients by a smaller one would overflow.
 _LEAST = 1e-290
@@ -24,9 +26,10 @@ _LEAST = 1e-290
 class Input:
     """An input that a visitor sets.
 
-    `field` is its place in the core's records; `kind` names its unit in `Units`; `low`, `high` and
-    `step` are in SI as engineers write it. A logarithmic input has `step` values a decade.
-    `infinite` admits one value beyond `high`.
+    `field` is its place in the core's records; `kind` names its unit in `Units`; `low` to `high` is
+    what is admitted, in SI as engineers write it. Its scale is logarithmic, from `least` where
+    `low` is zero, or linear where it has a `step`: a temperature, whose zero is arbitrary.
+    `infinite` is the word for one value beyond `high`.
     """
 
     key: str
@@ -36,10 +39,10 @@ class Input:
     kind: str
     low: float
     high: float
-    step: float
     group: str
     help: str
-    log: bool = False
+    least: float = 0.0
+    step: float = 0.0
     infinite: str = ""
 
     def unit(self, units: Units) -> Unit:
@@ -50,7 +53,7 @@ class Input:
         """Return a kept value in a visitor's unit."""
         # Kept as it is: a change of unit and back would change its last digit.
         if units is SI:
-            return value
+            return float(value)
         return float(self.unit(units).of(self.unit(SI).to_si(value)))
 
     def stored(self, reading: float, units: Units) -> float:
@@ -75,12 +78,12 @@ class Input:
         except ValueError as error:
             raise ValueError(f"{self.label}: {quoted(sent)} {error}") from None
         value = self.stored(reading, units)
-        if problem := self.problem(value):
-            raise ValueError(f"{self.name(units)} = {reading:g} {problem}")
+        if problem := self.problem(value, units):
+            raise ValueError(f"{self.name(units)} = {short(reading)} {problem}")
         return value
 
-    def problem(self, value: float | None) -> str:
-        """Return the fault of a value as a text, empty where there is none."""
+    def problem(self, value: float | None, units: Units = SI) -> str:
+        """Return the fault of a kept value as a text, empty where there is none."""
         if value is None:
             return "" if self.key == "load" else "is missing"
         if self.infinite and value == math.inf:
@@ -90,95 +93,100 @@ class Input:
             return f"lies between 0 and {_LEAST:g}, where floating-point numbers lose precision"
         if self.low <= value <= self.high:
             return ""
-        unit = self.unit(SI).name
-        return f"lies outside {self.low:g} to {self.high:g} {unit}"
+        low, high = (short(self.shown(end, units)) for end in (self.low, self.high))
+        return f"lies outside {low} to {high} {self.unit(units).name}"
+
+    def words(self, value: float, units: Units) -> str:
+        """Return a kept value as a field shows it, in a visitor's unit."""
+        return self.infinite if math.isinf(value) else short(self.shown(value, units))
 
 
-GROUPS = ("Speed", "Load", "Oil", "Bearing", "Shaft and disk")
-OPEN_GROUPS = ("Speed", "Load", "Oil", "Bearing")
+# What moves an onset of whirl stands together at the top.
+GROUPS = ("Speed and whirl", "Bearing", "Oil", "Rotor")
+OPEN_GROUPS = ("Speed and whirl", "Bearing")
 
 INPUTS: dict[str, Input] = {
     item.key: item
     for item in (
         Input(
-            "mass", "rotor.mass",
-            "Rotor mass", "2M", "mass", 10, 2000, 1, "Load",
-            "The whole rotor's; each bearing carries half of it.",
+            "rpm", "speed",
+            "Running speed", "Ω", "speed", 10, 300_000, "Speed and whirl",
+            "Every chart marks the point at this speed.",
         ),
         Input(
             "load", "load",
-            "Load per bearing", "Fₒ", "force", 0, 20000, 10, "Load",
+            "Load per bearing", "Fₒ", "force", 0, 2e6, "Speed and whirl",
             "Static load on one bearing; without a value of its own, half the rotor's weight.",
+            least=0.01,
         ),
         Input(
             "T", "temperature",
-            "Film temperature", "T", "temperature", 0, 150, 0.5, "Oil",
-            "μ = μᵣ exp(−α(T − Tᵣ))",
-        ),
-        Input(
-            "mu", "oil.reference_viscosity",
-            "Reference viscosity", "μᵣ", "viscosity", 1, 500, 40, "Oil",
-            "Viscosity at the reference temperature.", log=True,
-        ),
-        Input(
-            "TR", "oil.reference_temperature",
-            "Reference temperature", "Tᵣ", "temperature", 0, 150, 0.5, "Oil",
-            "Temperature of the reference viscosity.",
-        ),
-        Input(
-            "alpha", "oil.temperature_coefficient",
-            "Viscosity coefficient", "α", "per_temperature", 0, 0.08, 0.001, "Oil",
-            "Rate at which viscosity falls with temperature.",
-        ),
-        Input(
-            "rho", "oil.density",
-            "Oil density", "ρ", "density", 500, 1500, 5, "Oil",
-            "Affects the film's Reynolds number and added mass only.",
+            "Film temperature", "T", "temperature", 0, 150, "Speed and whirl",
+            "μ = μᵣ exp(−α(T − Tᵣ))", step=1,
         ),
         Input(
             "C", "bearing.radial_clearance",
-            "Radial clearance", "C", "film", 10, 500, 1, "Bearing",
+            "Radial clearance", "C", "film", 3, 2000, "Speed and whirl",
             "Half the difference of the diameters of bearing and journal.",
         ),
         Input(
+            "k", "rotor.shaft_stiffness",
+            "Shaft stiffness", "Kᵣₒₜ", "shaft_stiffness", 1e3, 1e11, "Speed and whirl",
+            "Of one side of the shaft; the right end is a rigid shaft.", infinite="rigid",
+        ),
+        Input(
             "D", "bearing.diameter",
-            "Diameter", "D", "length", 20, 600, 1, "Bearing",
+            "Diameter", "D", "length", 3, 1200, "Bearing",
             "Of the journal, D = 2R.",
         ),
         Input(
             "L", "bearing.length",
-            "Length", "L", "length", 5, 300, 1, "Bearing",
+            "Length", "L", "length", 1, 1200, "Bearing",
             "Axial length of the bearing.",
         ),
         Input(
-            "k", "rotor.shaft_stiffness",
-            "Shaft stiffness", "Kᵣₒₜ", "shaft_stiffness", 1e5, 1e10, 20, "Shaft and disk",
-            "Of one side of the shaft; the right end is a rigid shaft.",
-            log=True, infinite="rigid",
+            "mu", "oil.reference_viscosity",
+            "Reference viscosity", "μᵣ", "viscosity", 0.1, 5000, "Oil",
+            "Viscosity at the reference temperature.",
+        ),
+        Input(
+            "TR", "oil.reference_temperature",
+            "Reference temperature", "Tᵣ", "temperature", 0, 150, "Oil",
+            "Temperature of the reference viscosity.", step=1,
+        ),
+        Input(
+            "alpha", "oil.temperature_coefficient",
+            "Viscosity coefficient", "α", "per_temperature", 0, 0.15, "Oil",
+            "Rate at which viscosity falls with temperature.", least=0.005,
+        ),
+        Input(
+            "rho", "oil.density",
+            "Oil density", "ρ", "density", 500, 1500, "Oil",
+            "Affects the film's Reynolds number and added mass only.",
+        ),
+        Input(
+            "mass", "rotor.mass",
+            "Rotor mass", "2M", "mass", 0.05, 1e5, "Rotor",
+            "The whole rotor's; each bearing carries half of it.",
         ),
         Input(
             "u", "rotor.imbalance",
-            "Imbalance", "u", "film", 0, 100, 0.1, "Shaft and disk",
-            "Distance of the disk's mass centre from the shaft's axis.",
+            "Imbalance", "u", "film", 0, 1000, "Rotor",
+            "Distance of the disk's mass centre from the shaft's axis.", least=0.001,
         ),
         Input(
             "cs", "rotor.disk_damping",
-            "Midspan damping", "Cₛ", "shaft_damping", 0, 1e5, 100, "Shaft and disk",
-            "External damping at the disk, one side.",
+            "Midspan damping", "Cₛ", "shaft_damping", 0, 1e7, "Rotor",
+            "External damping at the disk, one side.", least=0.001,
         ),
         Input(
             "mj", "rotor.journal_mass",
-            "Journal mass", "Mⱼ", "mass", 0, 500, 0.5, "Shaft and disk",
-            "Mass lumped at each journal, subtracted from the disk's.",
-        ),
-        Input(
-            "rpm", "speed",
-            "Running speed", "Ω", "speed", 100, 30000, 10, "Speed",
-            "Every chart marks the point at this speed.",
+            "Journal mass", "Mⱼ", "mass", 0, 4e4, "Rotor",
+            "Mass lumped at each journal, subtracted from the disk's.", least=1e-4,
         ),
         Input(
             "rpm_max", "top_speed",
-            "Top speed", "Ωₘₐₓ", "speed", 1000, 40000, 100, "Speed",
+            "Top speed", "Ωₘₐₓ", "speed", 100, 400_000, "Rotor",
             "Charts run to this speed, or to the running speed where that is higher.",
         ),
     )
@@ -259,6 +267,23 @@ def _machine_of(values: Values) -> Machine:
         rotor=Rotor(**records["rotor"]),
         **records[""],
     )
+
+
+def usual(key: str, values: Values) -> float:
+    """Return the kept value about which an input's slider lies while it is zero or infinite.
+
+    An estimate from the machine, so that one drag leads from zero to an effect that can be seen.
+    """
+    item, half_mass = INPUTS[key], number(values, "mass") / 2
+    speed = SI.speed.to_si(number(values, "rpm"))
+    found = {
+        "load": half_mass * g,
+        "k": 2 * half_mass * speed**2,
+        "u": 0.1 * number(values, "C"),
+        "cs": 0.2 * half_mass * speed,
+        "mj": 0.1 * half_mass,
+    }.get(key, math.sqrt((item.least or item.low) * item.high))
+    return min(max(float(f"{found:.2g}"), item.least or item.low), item.high)
 
 
 def speeds_of(values: Values) -> tuple[float, float]:

@@ -10,17 +10,20 @@ from functools import cache, lru_cache, partial
 from types import ModuleType
 from typing import Any
 
-import numpy as np
 import streamlit as st
 from plotly.basedatatypes import BaseFigure
 
 from rotorcalc.figures import Chart, themed
 from rotorcalc.units import Units
 from ui.bearing import Values
-from ui.inputs import INPUTS, Input, input_named, number
+from ui.format import short
+from ui.inputs import INPUTS, PRESET_VALUES, Input, input_named, number, usual
 from ui.preview import Preview
 from ui.serving import settings
 from ui.session import Session, session
+
+# Width of the window of a linear scale: so that a pixel is a fifth of a degree.
+_SPAN = 60.0
 
 
 class _Checked(BaseFigure):
@@ -90,7 +93,7 @@ def show_inputs(group: str, items: Sequence[Input]) -> None:
 
 
 def _own(item: Input, visitor: Session) -> None:
-    """Show one of Streamlit's own sliders or fields."""
+    """Show one of Streamlit's own sliders, or a field."""
     units = visitor.units
     shown = _shown(item, visitor.values, units)
     key = f"input_{item.key}_{units.name}_{'typed' if visitor.typed else 'slider'}"
@@ -98,21 +101,34 @@ def _own(item: Input, visitor: Session) -> None:
         "label": item.name(units), "key": key, "help": item.help, "on_change": _keep,
         "args": (item, key, units),
     }  # fmt: skip
-    draw = _typed if visitor.typed else _log_slider if item.log else _slider
+    if visitor.typed:
+        _typed(item, visitor, common)
+        return
+    draw = _slider if item.step else _log_slider
     found = draw(item, shown, visitor, common)
     # What a browser brings to a server without its session is no change to Streamlit.
     if visitor.frame == 1 and not math.isclose(found, shown):
         visitor.set_value(item.key, item.stored(found, units))
 
 
+def _typed(item: Input, visitor: Session, common: dict[str, Any]) -> None:
+    """Show a field whose text `_keep` reads, and which shows the kept value again after that."""
+    text = item.words(_kept(item, visitor.values), visitor.units)
+    found = st.text_input(value=_begin(visitor, common["key"], text, "") or "", **common)
+    if visitor.frame == 1 and found != text:  # as above
+        _moved(item.key, visitor.units, found, dragging=False)
+
+
 def _shown(item: Input, values: Values, units: Units) -> float:
-    if values[item.key] is None:
-        return item.low
-    return item.shown(number(values, item.key), units)
+    return item.shown(_kept(item, values), units)
+
+
+def _kept(item: Input, values: Values) -> float:
+    return item.low if values[item.key] is None else number(values, item.key)
 
 
 def _keep(item: Input, key: str, units: Units) -> None:
-    session().set_value(item.key, item.stored(float(st.session_state[key]), units))
+    _moved(item.key, units, st.session_state[key], dragging=False)
 
 
 def _live() -> ModuleType:
@@ -124,10 +140,15 @@ def _live_sliders(group: str, items: Sequence[Input], visitor: Session) -> None:
     live, values, units = _live(), visitor.values, visitor.units
 
     def slider(item: Input) -> object:
-        low, high, step = _range(item, units)
+        start = PRESET_VALUES[visitor.preset]
         return live.Slider(
             item.key, item.name(units), item.help, _sent(item, values, units),
-            low, high, item.step if item.log else step, item.log, item.infinite,
+            item.shown(item.low, units), item.shown(item.high, units),
+            usual=item.shown(usual(item.key, values), units),
+            preset=None if start[item.key] is None else _sent(item, start, units),
+            least=item.shown(item.least, units) if item.least else 0.0,
+            step=_step(item, units), span=_difference(item, _SPAN, units) if item.step else 0.0,
+            beyond=item.infinite,
         )  # fmt: skip
 
     live.show_sliders(
@@ -161,7 +182,7 @@ def _moved(name: str, units: Units, value: object, *, dragging: bool) -> None:
         visitor.problems[:] = [f"{error}; it was left as it is."]
 
 
-def _begin(visitor: Session, key: str, value: float, default: float | None) -> float | None:
+def _begin(visitor: Session, key: str, value: Any, default: Any) -> Any:
     """Return with what a widget begins.
 
     In a session's first run it begins with what the browser shows, or with a value. Later the value
@@ -173,54 +194,54 @@ def _begin(visitor: Session, key: str, value: float, default: float | None) -> f
 
 
 def _slider(item: Input, shown: float, visitor: Session, common: dict[str, Any]) -> float:
-    low, high, step = _range(item, visitor.units)
-    decimals = max(0, -math.floor(math.log10(step)))
+    units = visitor.units
+    low, high = item.shown(item.low, units), item.shown(item.high, units)
+    step = 0.5 * _step(item, units)
     value = float(min(max(shown, low), high))
     return st.slider(
-        min_value=low, max_value=high, step=step, format=f"%.{decimals}f",
+        min_value=low, max_value=high, step=step, format="%.1f",
         # Without a value Streamlit looks through the whole session for one.
         value=_begin(visitor, common["key"], value, low), **common,
     )  # fmt: skip
 
 
 def _log_slider(item: Input, shown: float, visitor: Session, common: dict[str, Any]) -> float:
-    low, high, _ = _range(item, visitor.units)
-    beyond = {math.inf} if item.infinite else set[float]()
-    options = sorted(_stops(low, high, item.step) | beyond | {shown})
+    units = visitor.units
+    ends = [item.shown(end, units) for end in (item.low, item.least, item.high)]
+    beyond = [math.inf] if item.infinite else []
+    start = _shown(item, PRESET_VALUES[visitor.preset], units)
+    # Of several values with one text the last: Streamlit knows its options by their texts.
+    stops = {_word(item.infinite, one): one for one in (*_stops(*ends), *beyond, start, shown)}
+    options = sorted(stops.values())
     return st.select_slider(
         options=options, value=_begin(visitor, common["key"], shown, None),
         format_func=partial(_word, item.infinite), **common,
     )  # fmt: skip
 
 
-def _typed(item: Input, shown: float, visitor: Session, common: dict[str, Any]) -> float:
-    low, high, step = _range(item, visitor.units)
-    value = _begin(visitor, common["key"], float(min(shown, high)), None)
-    return st.number_input(
-        min_value=low, max_value=high, step=low if item.log else step, format="%.6g",
-        value="min" if value is None else value, **common,
-    )  # fmt: skip
+def _step(item: Input, units: Units) -> float:
+    """Return a round step of a linear scale; 0 for a logarithmic one."""
+    return _round_step(_difference(item, item.step, units)) if item.step else 0.0
 
 
-def _range(item: Input, units: Units) -> tuple[float, float, float]:
-    """Return the ends of an input's range, and a round step."""
-    low, high = float(item.shown(item.low, units)), float(item.shown(item.high, units))
-    return low, high, _round_step(item.shown(item.low + item.step, units) - low)
+def _difference(item: Input, by: float, units: Units) -> float:
+    """Return a difference of two values in a visitor's unit."""
+    return item.shown(item.low + by, units) - item.shown(item.low, units)
 
 
 @cache
-def _stops(low: float, high: float, per_decade: float) -> frozenset[float]:
-    """Return the values at which a logarithmic slider stops."""
-    number = round(math.log10(high / low) * per_decade) + 1
-    return frozenset(float(f"{value:.3g}") for value in np.geomspace(low, high, number))
+def _stops(low: float, least: float, high: float) -> frozenset[float]:
+    """Return where Streamlit's own slider stops: its ends, and numbers of two digits between."""
+    start = least if low == 0.0 else low
+    powers = range(math.floor(math.log10(start)), math.ceil(math.log10(high)))
+    inside = (float(f"{digits}e{power - 1}") for power in powers for digits in range(10, 100))
+    return frozenset((low, high, *(value for value in inside if start <= value <= high)))
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=16384)
 def _word(infinite: str, value: float) -> str:
     """Return a stop's text, or the input's word for an infinite one."""
-    if math.isinf(value):
-        return infinite
-    return f"{value:.4g}".replace("e+0", "e").replace("e+", "e")
+    return infinite if math.isinf(value) else short(value)
 
 
 def _round_step(step: float) -> float:

@@ -75,14 +75,12 @@ def slider(at: AppTest, key: str) -> tuple[Any, Any, Any]:
     if found:
         return found[0], found[0].min, found[0].max
     item = INPUTS[key.split("_", 1)[1].rsplit("_", 2)[0]]
-    chosen = at.select_slider(key=key)
     units = session_of(at).units
-    low = float(f"{item.shown(item.low, units):.3g}")
-    high = float("inf") if item.infinite else float(f"{item.shown(item.high, units):.3g}")
-    return chosen, low, high
+    low, high = (item.shown(end, units) for end in (item.low, item.high))
+    return at.select_slider(key=key), low, float("inf") if item.infinite else high
 
 
-def move(at: AppTest, key: str, value: Any) -> None:
+def move(at: AppTest, key: str, value: float) -> None:
     """Move an input, given in the unit of the link, by its slider in SI."""
     slider(at, f"input_{key}_SI_slider")[0].set_value(value).run()
 

@@ -65,9 +65,9 @@ def test_every_page_gives_the_same_verdict(page: str) -> None:
 
 def test_the_onset_separates_stable_from_unstable_speeds() -> None:
     at = visit(HOME)
-    move(at, "rpm", 8910.0)
+    move(at, "rpm", 8900.0)
     assert len(at.success) == 1
-    move(at, "rpm", 8920.0)
+    move(at, "rpm", 9000.0)
     assert not at.success
     assert at.error[0].value.startswith("Unstable")
 

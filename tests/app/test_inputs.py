@@ -2,13 +2,25 @@
 
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from rotorcalc import PRESETS
 from rotorcalc.units import SI, SYSTEMS, US
-from ui.inputs import GROUPS, INPUTS, PRESET_VALUES, machine_of, speeds_of, values_of
+from ui.bearing import Values
+from ui.computed import computed_from
+from ui.inputs import (
+    GROUPS,
+    INPUTS,
+    PRESET_VALUES,
+    Input,
+    machine_of,
+    speeds_of,
+    usual,
+    values_of,
+)
 
 
 def _flat(tree: object) -> list[object]:
@@ -105,3 +117,54 @@ def test_the_charts_run_to_a_round_number_above_the_running_speed(rpm: int, top_
     speed, top = speeds_of(PRESET_VALUES["sheet-1e8"] | {"rpm": rpm})
     assert speed == pytest.approx(rpm * math.pi / 30)
     assert top == pytest.approx(top_rpm * math.pi / 30)
+
+
+# Of the smallest and the largest machines that are known to run in such bearings.
+@pytest.mark.parametrize(
+    "machine",
+    [
+        {"mass": 0.05, "D": 3.0, "L": 1.5, "C": 3.0, "rpm": 300000.0},
+        {"mass": 0.1, "D": 7.0, "L": 5.0, "C": 15.0, "rpm": 150000.0, "k": 1e6},
+        {"mass": 23000.0, "load": 112814.91, "D": 400.0, "L": 263.1, "C": 195.0, "rpm": 3000.0},
+        {"mass": 100000.0, "D": 1200.0, "L": 900.0, "C": 2000.0, "load": 2e6, "rpm": 1500.0},
+    ],
+)
+def test_small_and_large_machines_lie_within_the_sliders(machine: dict[str, float]) -> None:
+    assert all(not INPUTS[key].problem(value) for key, value in machine.items())
+    values = PRESET_VALUES["sheet-1e8"] | machine
+    assert computed_from(values).onset.speed > 0.0
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_any_machine_of_the_whole_ranges_is_analysed(seed: int) -> None:
+    values = _drawn(np.random.default_rng(seed))
+    computed = computed_from(values)
+    assert isinstance(computed.is_stable, bool | np.bool_)
+    assert computed.onset.speed >= 0.0
+    assert not np.any(np.isnan(computed.point.flexible_eigenvalues))
+
+
+def _drawn(random: np.random.Generator) -> Values:
+    """Draw values of the sliders, their ends and zeros included, that make a machine."""
+    while True:
+        values = PRESET_VALUES["sheet-1e8"] | {k: _place(i, random) for k, i in INPUTS.items()}
+        try:
+            machine_of(values)
+        except ValueError:  # no disk, or too wide a clearance
+            continue
+        return values
+
+
+def _place(item: Input, random: np.random.Generator) -> float:
+    if random.random() < 0.3:
+        return float(random.choice([item.low, math.inf if item.infinite else item.high]))
+    if item.step:
+        return random.uniform(item.low, item.high)
+    low = item.least or item.low
+    return low * (item.high / low) ** random.random()
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_a_slider_at_a_stop_lies_about_a_value_of_its_range(preset: str) -> None:
+    for key, item in INPUTS.items():
+        assert (item.least or item.low) <= usual(key, PRESET_VALUES[preset]) <= item.high

@@ -70,7 +70,7 @@ def test_typed_inputs_at_every_preset(path: str, units: str) -> None:
         at.selectbox(key="preset").set_value(preset).run()
         assert faults(at) == [], preset
     assert slider_keys(at) == []
-    assert any(field.key == f"input_C_{units}_typed" for field in at.number_input)
+    assert any(field.key == f"input_C_{units}_typed" for field in at.text_input)
 
 
 @every_page

@@ -6,6 +6,7 @@ import math
 import pytest
 
 from rotorcalc import Machine
+from rotorcalc.units import US
 from tests.app.session import (
     HOME,
     NOTES,
@@ -33,7 +34,7 @@ def test_a_value_survives_a_change_of_page() -> None:
     move(at, "C", 85.0)
     for path in (*OTHERS, HOME):
         at.switch_page(path).run()
-        assert at.slider(key="input_C_SI_slider").value == 85.0, path
+        assert at.select_slider(key="input_C_SI_slider").value == 85.0, path
         assert session_of(at).values["C"] == 85.0
         assert at.query_params == {"C": "85"}
 
@@ -94,7 +95,7 @@ def test_us_units_are_shown() -> None:
 
 def test_moving_a_slider_in_us_units_keeps_si() -> None:
     at = visit(HOME, units="US")
-    at.slider(key="input_C_US_slider").set_value(4.0).run()
+    at.select_slider(key="input_C_US_slider").set_value(4.0).run()
     assert session_of(at).values["C"] == pytest.approx(4 * 25.4, rel=1e-12)
 
 
@@ -162,7 +163,7 @@ def test_a_broken_machine_file_gets_a_message(text: str, word: str) -> None:
 
 def test_a_value_out_of_a_files_range_is_reported_by_name() -> None:
     document = json.loads(machine_of(PRESET_VALUES["sheet-1e8"]).to_json())
-    document["bearing"]["radial_clearance"] = 1e-3
+    document["bearing"]["radial_clearance"] = 1e-6
     document["temperature"] = 70.0
     at = visit(HOME)
     open_part(at, "share")
@@ -211,10 +212,10 @@ def test_every_grade_of_the_oil_library_can_be_used(temperature: float) -> None:
 def test_a_fitted_oil_passes_through_its_two_viscosities() -> None:
     at = visit(HOME)
     open_part(at, "oil_library")
-    at.number_input(key="fit_T1").set_value(40.0)
-    at.number_input(key="fit_mu1").set_value(40.0)
-    at.number_input(key="fit_T2").set_value(100.0)
-    at.number_input(key="fit_mu2").set_value(5.0)
+    at.number_input(key="fit_T1_SI").set_value(40.0)
+    at.number_input(key="fit_μ1_SI").set_value(40.0)
+    at.number_input(key="fit_T2_SI").set_value(100.0)
+    at.number_input(key="fit_μ2_SI").set_value(5.0)
     at.run()
     at.button(key="use_fit").click().run()
     oil = machine_of(session_of(at).values).oil
@@ -225,9 +226,25 @@ def test_a_fitted_oil_passes_through_its_two_viscosities() -> None:
 def test_oils_without_a_valid_law_raise_a_valueerror() -> None:
     at = visit(HOME)
     open_part(at, "oil_library")
-    at.number_input(key="fit_T2").set_value(40.0).run()
-    assert any("must differ" in box.value for box in at.error)
+    at.number_input(key="fit_T2_SI").set_value(40.0).run()
+    assert any("two different temperatures" in box.value for box in at.error)
     assert at.exception == []
+
+
+def test_the_oil_library_is_in_the_units_shown() -> None:
+    at = visit(HOME, units="US")
+    open_part(at, "oil_library")
+    assert {"T1 [°F]", "μ1 [µreyn]"} <= {field.label for field in at.number_input}
+    assert any("140 °F" in caption.value for caption in at.caption)
+    at.number_input(key="fit_T1_US").set_value(104.0)
+    at.number_input(key="fit_T2_US").set_value(212.0)
+    at.run()
+    at.button(key="use_fit").click().run()
+    oil = machine_of(session_of(at).values).oil
+    assert oil.reference_temperature == pytest.approx(40.0)
+    thick, thin = (at.number_input(key=f"fit_μ{place}_US").value for place in "12")
+    for T, shown in ((40.0, thick), (100.0, thin)):
+        assert US.viscosity.of(oil.viscosity(T)) == pytest.approx(shown, rel=1e-4)
 
 
 LIMITS: tuple[dict[str, float], ...] = (

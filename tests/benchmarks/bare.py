@@ -15,7 +15,7 @@ way, number = params.get("chart", "streamlit"), int(params.get("charts", "4"))
 if params.get("slider", "streamlit") == "live":
     now = st.session_state.get("value", 50.0)
     live.show_sliders(
-        [live.Slider("value", "Value", "", now, 0.0, 100.0, 1.0, log=False)],
+        [live.Slider("value", "Value", "", now, 0.0, 100.0, 50.0, step=1.0, span=100.0)],
         key="slider",
         frame=0,
         on_move=lambda name, value, _: st.session_state.update({name: value}),

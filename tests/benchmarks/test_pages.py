@@ -15,12 +15,11 @@ import pytest
 from streamlit.runtime.scriptrunner import script_runner
 
 from rotorcalc.figures import Chart
-from tests.app.session import PAGES, slider, tours, visit
+from tests.app.session import PAGES, session_of, tours, visit
 from ui.computed import Computed
 from ui.frame.page import Page
 
 ROUNDS, WARMUP = 30, 3
-CLEARANCE = "input_C_SI_slider"
 # A clearance is never tried twice, whatever page it was for: no result comes from a cache.
 CLEARANCES = map(float, itertools.count(61))
 
@@ -67,7 +66,7 @@ def test_script(path: str, script_clock: None, benchmark: Any) -> None:
     at = visit(path)
 
     def move() -> None:
-        slider(at, CLEARANCE)[0].set_value(next(CLEARANCES))
+        session_of(at).set_value("C", next(CLEARANCES))
 
     benchmark.pedantic(at.run, setup=move, rounds=ROUNDS, warmup_rounds=WARMUP)
     assert not at.exception

@@ -124,6 +124,10 @@ class AppPage:
         """Return a slider by the first words of its label."""
         return self.page.get_by_role("slider", name=re.compile(f"^{re.escape(label)}"))
 
+    def value(self, label: str) -> str:
+        """Return the value at which a slider stands."""
+        return self.slider(label).get_attribute("aria-valuetext") or ""
+
     def changes(self, read: Callable[[], Any], before: Any) -> bool:
         """Wait until what is read differs from what it was."""
         end = time.monotonic() + TIMEOUT / 1000

@@ -38,7 +38,7 @@ def test_inputs_on_a_phone(app: AppPage) -> None:
     app.page.get_by_test_id("stExpandSidebarButton").click()
     app.slider("Radial clearance").scroll_into_view_if_needed()
     app.press("Radial clearance", "ArrowRight")
-    assert app.query() == {"C": "61"}
+    assert app.query() == {"C": "60.5"}
     assert _violations(app) == []
 
 

@@ -50,7 +50,7 @@ def test_dragging_changes_charts_and_numbers_and_release_the_address(app: AppPag
     assert app.query() == {}
     with app.run():
         app.page.mouse.up()
-    assert float(app.query()["C"]) > 100
+    assert float(app.query()["C"]) > 70
 
 
 def test_a_slider_dragged_back_leaves_the_page_as_it_was(app: AppPage) -> None:
@@ -100,7 +100,7 @@ def test_value_typed_beside_the_slider(app: AppPage) -> None:
     with app.run():
         field.press("Enter")
     assert app.query() == {"C": "83.5"}
-    assert app.slider("Radial clearance").input_value() == "84"
+    assert app.value("Radial clearance") == "83.5"
     expect(field).to_have_value("83.5")
 
 
@@ -108,7 +108,7 @@ def test_typed_value_out_of_range_gets_a_message_and_the_old_one_stays(app: AppP
     app.open("Machine")
     field = app.page.get_by_role("textbox", name=re.compile("^Radial clearance"))
     for word, answer in (
-        ("5000", "5000 lies outside 10 to 500"),
+        ("5000", "5000 lies outside 3 to 2000"),
         ("much", "much' is not a number"),
     ):
         field.fill(word)
@@ -121,11 +121,10 @@ def test_typed_value_out_of_range_gets_a_message_and_the_old_one_stays(app: AppP
 
 def test_shaft_can_be_made_rigid_at_the_sliders_end_and_by_its_word(app: AppPage) -> None:
     app.open("Machine")
-    app.page.get_by_text("Shaft and disk").click()
     app.press("Shaft stiffness", "End")
     assert app.query() == {"k": "inf"}
     app.press("Shaft stiffness", "ArrowLeft")
-    assert app.query() == {"k": "1e+10"}
+    assert app.query() == {"k": "2e+08"}
     field = app.page.get_by_role("textbox", name=re.compile("^Shaft stiffness"))
     field.fill("rigid")
     with app.run():
@@ -138,9 +137,9 @@ def test_preset_moves_the_live_sliders(app: AppPage) -> None:
     with app.run():
         app.page.get_by_role("combobox", name=re.compile("Preset")).click()
         app.page.get_by_role("option", name=re.compile("Friswell")).click()
-    assert app.slider("Radial clearance").input_value() == "100"
+    assert app.value("Radial clearance") == "100"
     app.go("Stability")
-    assert app.slider("Radial clearance").input_value() == "100"
+    assert app.value("Radial clearance") == "100"
 
 
 def test_the_validity_panel_judges_a_moved_value_and_the_sidebar_keeps_it_when_the_page_runs(
@@ -153,16 +152,16 @@ def test_the_validity_panel_judges_a_moved_value_and_the_sidebar_keeps_it_when_t
     expect(verdict).to_contain_text("The model holds")
     expect(panel).not_to_contain_text("strained")
     app.press("Radial clearance", "End")
-    expect(verdict).to_contain_text("The model is strained")
-    expect(panel).to_contain_text("strained")
-    assert app.query() == {"C": "500"}
+    expect(verdict).to_contain_text("The model is outside")
+    expect(panel).to_contain_text("outside")
+    assert app.query() == {"C": "2000"}
     for button in ("Keep as A", "Keep as B"):
         with app.run():
             app.page.get_by_role("button", name=button).click()
-        assert app.slider("Radial clearance").input_value() == "500"
+        assert app.value("Radial clearance") == "2000"
     app.press("Radial clearance", "Home")
-    assert app.slider("Radial clearance").input_value() == "10"
-    assert app.query()["C"] == "10"
+    assert app.value("Radial clearance") == "3"
+    assert app.query()["C"] == "3"
 
 
 def test_a_slider_without_a_preview_sends_by_itself(app: AppPage) -> None:
@@ -171,7 +170,7 @@ def test_a_slider_without_a_preview_sends_by_itself(app: AppPage) -> None:
     numbers = app.metrics()
     app.page.evaluate("() => { window.rotorcalcPreview = undefined; }")
     app.press("Radial clearance", "ArrowRight")
-    assert app.query() == {"C": "61"}
+    assert app.query() == {"C": "60.5"}
     assert app.metrics() != numbers
 
 
@@ -227,4 +226,4 @@ def test_a_slider_whose_page_the_server_has_lost_sends_through_streamlit(app: Ap
     assert app.changes(app.metrics, numbers)
     with app.run():
         app.page.mouse.up()
-    assert float(app.query()["C"]) > 100
+    assert float(app.query()["C"]) > 70

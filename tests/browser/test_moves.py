@@ -80,7 +80,7 @@ def test_values_can_be_typed(app: AppPage) -> None:
     with app.run():
         body.get_by_text("Type values instead of sliding").click()
     app.close_popover()
-    field = app.page.get_by_role("spinbutton", name=re.compile("^Radial clearance"))
+    field = app.page.get_by_role("textbox", name=re.compile("^Radial clearance"))
     field.fill("83.5")
     with app.run():
         field.press("Enter")

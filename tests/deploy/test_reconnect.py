@@ -60,7 +60,7 @@ def type_a_value(tab: AppPage) -> None:
 
 def fill_in(tab: AppPage, value: float) -> None:
     """Write into the field of the clearance, and leave it."""
-    field = tab.page.get_by_role("spinbutton", name=CLEARANCE)
+    field = tab.page.get_by_role("textbox", name=CLEARANCE)
     field.fill(f"{value:g}")
     field.press("Enter")
 
@@ -100,7 +100,7 @@ def compared(tab: AppPage) -> object:
 
 
 def field(tab: AppPage) -> object:
-    return tab.page.get_by_role("spinbutton", name=CLEARANCE).input_value()
+    return tab.page.get_by_role("textbox", name=CLEARANCE).input_value()
 
 
 def height(tab: AppPage) -> object:

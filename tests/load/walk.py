@@ -7,6 +7,7 @@ with the next action. Without that a third of all runs would be of pages that on
 import asyncio
 import random
 import time
+from typing import Any
 
 from tests.load.client import ServerError, Visitor
 from ui.frame.page import NO_MACHINE, PAGES
@@ -56,9 +57,9 @@ def is_refused(visitor: Visitor) -> bool:
     return any(element.alert.title == NO_MACHINE for element in visitor.elements("alert"))
 
 
-def place(data: dict[str, float], share: float) -> float:
-    """Return the value at a share of a live slider's range."""
-    low, high, step = data["low"], data["high"], data["step"]
-    if data["log"]:
-        return float(f"{low * (high / low) ** share:.3g}")
-    return min(low + round(share * (high - low) / step) * step, high)
+def place(data: dict[str, Any], share: float) -> float:
+    """Return the value at a share of a live slider's track, as it lies about the preset's value."""
+    preset = data["preset"]
+    about = preset if isinstance(preset, float | int) and preset > 0.0 else data["usual"]
+    value = about + (share - 0.5) * data["span"] if data["span"] else about * 4.0 ** (share - 0.5)
+    return min(max(float(f"{value:.3g}"), data["low"]), data["high"])

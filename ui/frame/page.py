@@ -160,6 +160,7 @@ def _frame(title: str, sentence: str) -> Places:
         page_title=f"{title} · rotorcalc",
         page_icon=_ICON,
         layout="wide",
+        initial_sidebar_state=sidebar.WIDTH,
         menu_items={"About": _ABOUT},
     )
     st.html(_STYLE)

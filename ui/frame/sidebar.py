@@ -4,20 +4,43 @@ import streamlit as st
 
 from rotorcalc import PRESETS, Oil
 from rotorcalc.oils import ISO_VG, fitted_oil, iso_oil
-from rotorcalc.units import SI, SYSTEMS
+from rotorcalc.units import SI, SYSTEMS, Unit, Units
+from ui.format import amount
 from ui.inputs import GROUPS, INPUTS, OPEN_GROUPS, machine_of, number
 from ui.session import session
 from ui.widgets import show_inputs
 
+# Pixels: its sliders are then so long that one pixel changes no input by more than 0.5 %.
+WIDTH = 384
+# On a narrower screen the sidebar leaves more to the page; where it covers the page, none.
+_STYLE = """<style>
+[data-testid=stSidebarContent] {padding-left: 0.75rem; padding-right: 0.75rem;}
+[data-testid=stSidebarUserContent] {padding-left: 0; padding-right: 0;}
+[data-testid=stSidebar] [data-testid=stExpanderDetails] {
+  padding-left: 0.5rem; padding-right: 0.5rem;}
+@media (max-width: 900px) {[data-testid=stSidebar] {max-width: 300px;}}
+@media (max-width: 640px) {
+  [data-testid=stSidebar][data-collapsed=false] {
+    width: 100vw !important; min-width: 100vw; max-width: 100vw;}
+}
+</style>"""
+
+_LOAD = INPUTS["load"]
+
 
 def draw_inputs() -> None:
     """Draw the inputs in their groups, and the display settings."""
+    st.html(_STYLE)
     for group in GROUPS:
         with st.expander(group, expanded=group in OPEN_GROUPS):
-            items = [i for i in INPUTS.values() if i.group == group and i.key != "load"]
-            show_inputs(group, items)
-            if group == "Load":
+            items = [item for item in INPUTS.values() if item.group == group]
+            if _LOAD in items:
+                place = items.index(_LOAD)
+                show_inputs(f"{group}, above the load", items[:place])
                 _load()
+                show_inputs(group, items[place + 1 :])
+            else:
+                show_inputs(group, items)
             if group == "Oil":
                 _oil_library()
     _settings()
@@ -43,7 +66,7 @@ def _load() -> None:
     visitor.mirror("load_follows", follows)
     st.toggle("Load is half the rotor's weight", key="load_follows", on_change=_toggle_load)
     if not follows:
-        show_inputs("Static load", [INPUTS["load"]])
+        show_inputs("Static load", [_LOAD])
 
 
 def _toggle_load() -> None:
@@ -53,7 +76,7 @@ def _toggle_load() -> None:
     else:
         # The weight does not depend on the journals' mass, which may leave no disk: no machine.
         weight = machine_of(visitor.values | {"load": None, "mj": 0.0}).static_load
-        visitor.set_value("load", min(round(weight, 1), INPUTS["load"].high))
+        visitor.set_value("load", float(f"{weight:.5g}"))
 
 
 def _oil_library() -> None:
@@ -67,11 +90,13 @@ def _oil_library() -> None:
 
 
 def _grades() -> None:
-    temperature = number(session().values, "T")
+    visitor = session()
+    temperature = number(visitor.values, "T")
     grade = st.selectbox("ISO viscosity grade", list(ISO_VG), key="grade", persist_state="session")
+    shown = amount(visitor.units.temperature, temperature)
     st.caption(
         "Mineral oil of viscosity index 100, by Walther's law (ASTM D341). The exponential law "
-        f"here takes its viscosity and its slope at the film's temperature, {temperature:g} °C."
+        f"here takes its viscosity and its slope at the film's temperature, {shown}."
     )
     st.button(
         "Use this grade",
@@ -83,36 +108,48 @@ def _grades() -> None:
 def _fit() -> None:
     st.markdown("Fit α from two viscosities")
     columns = st.columns(2)
+    units = session().units
     readings: list[tuple[float, float]] = []
-    for column, place, T, mu in zip(columns, "12", (40.0, 80.0), (30.0, 9.0), strict=True):
+    for column, place, T, mu in zip(columns, "12", (40.0, 80.0), (30e-3, 9e-3), strict=True):
         with column:
-            warm = st.number_input(f"T{place} [°C]", 0.0, 150.0, T, key=f"fit_T{place}")
-            thick = st.number_input(f"μ{place} [mPa·s]", 0.1, 5000.0, mu, key=f"fit_mu{place}")
-            readings.append((warm, thick * 1e-3))
-    (T_1, mu_1), (T_2, mu_2) = readings
-    try:
-        oil = fitted_oil(temperatures=(T_1, T_2), viscosities=(mu_1, mu_2))
-    except ValueError as error:
-        st.error(str(error))
+            warm = _reading(f"T{place}", units.temperature, T, (0.0, 150.0), units)
+            thick = _reading(f"μ{place}", units.viscosity, mu, (1e-4, 5.0), units)
+            readings.append((warm, thick))
+    (T_1, mu_1), (T_2, mu_2) = sorted(readings)
+    if not (T_1 < T_2 and mu_1 >= mu_2):
+        st.error("An oil is thinner at the higher one of two different temperatures.")
         return
-    st.caption(f"α = ln(μ1/μ2)/(T2 − T1) = {oil.temperature_coefficient:.4g} 1/°C")
+    oil = fitted_oil(temperatures=(T_1, T_2), viscosities=(mu_1, mu_2))
+    slope = amount(units.per_temperature, oil.temperature_coefficient)
+    st.caption(f"α = ln(μ1/μ2)/(T2 − T1) = {slope}")
     st.button("Use this fit", key="use_fit", on_click=lambda: _take_over(oil))
+
+
+def _reading(name: str, unit: Unit, usual: float, ends: tuple[float, float], units: Units) -> float:
+    """Show a field of the fit, and return its value in SI."""
+    low, high = (float(unit.of(end)) for end in ends)
+    start = float(f"{float(unit.of(usual)):.3g}")
+    key = f"fit_{name}_{units.name}"
+    return unit.to_si(st.number_input(f"{name} [{unit.name}]", low, high, start, key=key))
 
 
 def _take_over(oil: Oil) -> None:
     """Set the inputs to an oil's values, and report those outside their ranges."""
     visitor = session()
+    units = visitor.units
     visitor.problems.clear()
     for key, item in INPUTS.items():
         record, _, name = item.field.rpartition(".")
         if record != "oil" or name == "density":  # the library has no density
             continue
         # Six digits are more than a grade is known to, and short in a link.
-        reading = float(f"{float(item.unit(SI).of(getattr(oil, name))):.6g}")
-        if problem := item.problem(reading):
-            visitor.problems.append(f"{item.label} = {reading:g} {problem}; it was left as it is.")
+        value = float(f"{float(item.unit(SI).of(getattr(oil, name))):.6g}")
+        if problem := item.problem(value, units):
+            visitor.problems.append(
+                f"{item.name(units)} = {item.words(value, units)} {problem}; it was left as it is."
+            )
         else:
-            visitor.values[key] = reading
+            visitor.values[key] = value
 
 
 def _settings() -> None:

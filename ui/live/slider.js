@@ -1,49 +1,134 @@
 // Sliders that send while they are dragged, each with a field for typing its value.
 //
+// A track is a window on an input's range, logarithmic and four times wide, or linear where the quantity's zero is
+// arbitrary. Dropped near its end, or at a value from elsewhere, the slider begins a window about the value; dragged
+// past the end and held there, it moves its window on. So a pixel changes a value by half of one per cent at most, over
+// any range. A track of an input that may be zero begins with a stop at zero; one with a word for infinity ends with it.
+//
 // While a slider is dragged its values go to the page's preview, if there is one. Otherwise, and on release, the
 // slider sends {name, value, dragging, number}, and the server returns `number` as `echo`. It sends through the
 // preview's component; where there is none yet, or the page is running, it sends itself, which ends that run and
-// starts one of the whole page.
+// starts one of the whole page. What is typed goes as text: the server reads it.
 //
 // The next value is sent only when the answer to the last one is drawn: a slow server makes fewer updates, never a
 // queue. The final value is always sent, with dragging = false.
 
 const STYLE = `
-.live-slider {display: grid; grid-template-columns: 1fr 4.6rem; gap: 0.2rem 0.6rem; align-items: center;
+.live-slider {display: grid; grid-template-columns: 1fr 5.2rem; gap: 0 0.6rem; align-items: center;
   font-family: var(--st-font); font-size: 0.875rem; color: var(--st-text-color);}
-.live-slider + .live-slider {margin-top: 1rem;}
-.live-slider label {grid-column: 1 / -1;}
-.live-slider input[type=text] {width: 100%; padding: 0.1rem 0.35rem; text-align: right; font: inherit;
+.live-slider + .live-slider {margin-top: 0.45rem;}
+.live-slider label {grid-area: 1 / 1;}
+.live-slider input[type=text] {grid-area: 1 / 2; width: 100%; padding: 0.1rem 0.35rem; text-align: right; font: inherit;
   color: inherit; background: var(--st-background-color); border: 1px solid var(--st-border-color);
   border-radius: var(--st-base-radius); box-sizing: border-box;}
-.live-slider input[type=range] {width: 100%; margin: 0; height: 1.25rem;
+.live-slider input[type=range] {grid-area: 2 / 1 / auto / -1; width: 100%; margin: 0.15rem 0 0; height: 1.1rem;
   accent-color: var(--st-primary-color); cursor: pointer;}
+.live-slider div {grid-area: 3 / 1 / auto / -1; display: flex; justify-content: space-between; font-size: 0.75rem;
+  line-height: 1; opacity: 0.8;}
 .live-slider input:focus-visible {outline: 2px solid var(--st-primary-color); outline-offset: 2px;}
 .live-slider input:disabled {opacity: 0.5;}
 `;
 
-// Conversion between a value and a position of the range input.
-function scale({ low, high, step, log, beyond }) {
-  if (log) {
-    const last = Math.round(Math.log10(high / low) * step);
-    const at = (place) => Number((low * (high / low) ** (place / last)).toPrecision(3));
-    return {
-      min: 0, max: beyond ? last + 1 : last, step: 1,
-      value: (place) => (place > last ? beyond : Math.min(Math.max(at(place), low), high)),
-      place: (value) => (value === beyond ? last + 1
-        : Math.round((Math.log10(value / low) / Math.log10(high / low)) * last)),
-      text: (value) => (typeof value === "string" ? value
-        : value >= 1e5 || value < 1e-3 ? value.toExponential(2).replace(/\.?0+e\+?/, "e")
-        : String(Number(value.toPrecision(4)))),
-    };
+const PLACES = 100000; // of the range input, finer than pixels
+const WIDTH = 4; // of a logarithmic window: its high end over its low one
+const ROOM = 0.03; // share of a track that belongs to a stop at its end
+const MARGIN = 0.15; // share of a track, at either end, in which a dropped slider begins another window
+const GRID = 0.0003; // a dragged value is rounded to less than this share of itself
+const STEP = 0.01; // a step by key is no more than this share of the value
+const SPEED = 0.5; // windows a second, held past a track's end
+const PATIENCE = 300; // milliseconds to hold there first
+
+const STEPS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 };
+
+const between = (value, low, high) => Math.min(Math.max(value, low), high);
+
+// The largest of 1, 2, 5 times a power of ten that is not above a size.
+function roundStep(size) {
+  const power = 10 ** Math.floor(Math.log10(size) + 1e-9);
+  return power * [5, 2, 1].find((factor) => factor * power <= size * (1 + 1e-9));
+}
+
+// A multiple of a step, without the rounding of the multiplication.
+const multiple = (count, step) => Number((count * step).toPrecision(12));
+
+function textOf(value) {
+  if (typeof value === "string") return value;
+  const size = Math.abs(value);
+  if (size >= 1e6 || (size < 1e-3 && size > 0)) return value.toExponential(5).replace(/\.?0*e\+?/, "e");
+  return String(Number(value.toPrecision(6)));
+}
+
+// A window on the range of an input, and the values at the places along it, from 0 to 1.
+class Track {
+  constructor(data, centre) {
+    const { low, high, least, span, beyond } = data;
+    Object.assign(this, { data, log: !span, first: least ? ROOM : 0, last: beyond ? 1 - ROOM : 1 });
+    const start = least || low;
+    const width = this.log ? Math.min(WIDTH, high / start) : Math.min(span, high - low);
+    const middle = centre === beyond || (least && centre === 0) ? data.usual : centre;
+    this.low = this.log ? between(middle / Math.sqrt(width), start, high / width)
+      : between(middle - width / 2, low, high - width);
+    this.high = this.log ? this.low * width : this.low + width;
   }
-  const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
-  return {
-    min: low, max: high, step,
-    value: (place) => Math.min(Number(Number(place).toFixed(decimals)), high),
-    place: (value) => value,
-    text: (value) => String(Number(value.toPrecision(6))),
-  };
+
+  // The window moved on by a share of its width.
+  shifted(share) {
+    const { low, high } = this;
+    return new Track(this.data, this.log ? Math.sqrt(low * high) * (high / low) ** share
+      : (low + high) / 2 + share * (high - low));
+  }
+
+  place(value) {
+    const { least, beyond } = this.data;
+    if (value === beyond) return 1;
+    if (least && value <= 0) return 0;
+    const { low, high } = this;
+    const share = this.log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low);
+    return this.first + between(share, 0, 1) * (this.last - this.first);
+  }
+
+  value(place) {
+    const { low, high } = this;
+    if (place < this.first) return 0;
+    if (place > this.last) return this.data.beyond;
+    const share = (place - this.first) / (this.last - this.first);
+    const value = this.log ? low * (high / low) ** share : low + share * (high - low);
+    const grid = this.log ? roundStep(GRID * value) : this.data.step / 10;
+    return this.admitted(multiple(Math.round(value / grid), grid));
+  }
+
+  admitted(value) {
+    return between(value, this.data.low, this.data.high);
+  }
+
+  holds(value) {
+    return value >= this.low && value <= this.high;
+  }
+
+  // Whether a slider that rests at a value needs another window.
+  isLeft(value) {
+    const place = this.place(value);
+    const isStop = value === this.data.beyond || (this.data.least && value === 0);
+    return !isStop && (place < MARGIN || place > 1 - MARGIN);
+  }
+
+  // What a key leads to: a round number, the preset's value, or an end; undefined for other keys.
+  stepped(value, key, fine) {
+    const { low, high, least, step, beyond, preset } = this.data;
+    if (key === "Home") return low;
+    if (key === "End") return beyond || high;
+    const count = STEPS[key];
+    if (count === undefined) return undefined;
+    if (value === beyond) return count < 0 ? this.high : value;
+    if (least && value === 0) return count > 0 ? this.low : 0;
+    // Downwards the step of the values below: a step back leads to where it came from.
+    const size = this.log ? roundStep(STEP * value * (count < 0 ? 1 - 1e-6 : 1)) : step;
+    const by = (size * Math.abs(count)) / (fine ? 10 : 1);
+    const next = multiple(count > 0 ? Math.floor(value / by + 1e-6) + 1 : Math.ceil(value / by - 1e-6) - 1, by);
+    if (preset !== null && (preset - value) * (next - preset) > 0) return preset;
+    if (next > high && beyond) return beyond;
+    return next < least ? low : this.admitted(next);
+  }
 }
 
 function running() {
@@ -70,31 +155,29 @@ class Slider {
     this.label = Object.assign(document.createElement("label"), { htmlFor: id });
     this.field = Object.assign(document.createElement("input"),
       { type: "text", inputMode: "decimal", autocomplete: "off" });
-    this.range = Object.assign(document.createElement("input"), { type: "range", id });
-    this.root.append(this.label, this.range, this.field);
-    // A step by key fires input and change together: one of them is enough.
-    this.range.addEventListener("keydown", () => { this.keyed = true; });
-    this.range.addEventListener("pointerdown", () => { this.keyed = false; });
-    this.range.addEventListener("input", () => this.keyed || this.moved(true));
-    this.range.addEventListener("change", () => this.moved(false));
+    this.range = Object.assign(document.createElement("input"), { type: "range", id, min: 0, max: PLACES, step: 1 });
+    this.ends = Object.assign(document.createElement("div"), { ariaHidden: "true" });
+    this.ends.append(document.createElement("span"), document.createElement("span"));
+    this.root.append(this.label, this.range, this.field, this.ends);
+    this.range.addEventListener("keydown", (event) => this.pressed(event));
+    this.range.addEventListener("pointerdown", () => this.hold());
+    this.range.addEventListener("input", () => this.dragged());
+    this.range.addEventListener("change", () => this.dropped());
     // The browser fires no change event for a slider that is released at its old value.
     for (const end of ["pointerup", "pointercancel"])
-      this.range.addEventListener(end, () => setTimeout(() => this.grasped && this.moved(false)));
+      this.range.addEventListener(end, () => setTimeout(() => this.grasped && this.dropped()));
     this.field.addEventListener("change", () => this.typed());
     // While typing, Ctrl+Z takes back what was typed, not the machine's last change.
     this.field.addEventListener("keydown", (event) => event.key.toLowerCase() === "z" && event.stopPropagation());
     this.waiting = null; // the next message to send
     this.previewed = null; // the last value previewed
     this.out = false; // whether a message is on its way or its answer being drawn
+    this.past = 0; // -1 or 1 while the thumb is held past an end of its track
   }
 
   update(data, send) {
     this.data = data;
     this.send = send;
-    this.scale = scale(data);
-    const { min, max, step } = this.scale;
-    // The bounds first, as the input clips its value to them.
-    Object.assign(this.range, { min, max, step });
     this.label.textContent = data.label;
     this.label.title = data.help;
     this.range.ariaLabel = data.label;
@@ -110,30 +193,100 @@ class Slider {
   }
 
   rest() {
-    if (!this.out && !this.grasped) this.show(this.value);
+    if (this.out || this.grasped) return;
+    const { value } = this;
+    // A change of unit and back changes a number's last digits.
+    const same = value === this.shown || Math.abs(value - this.shown) <= 1e-9 * Math.abs(value);
+    if (!same) this.track = new Track(this.data, value);
+    this.show(value);
+    this.root.dataset.shown = textOf(value);
   }
 
   show(value) {
-    this.range.value = this.scale.place(value);
-    const text = this.scale.text(value);
-    this.range.ariaValueText = text;
-    this.root.dataset.shown = text;
-    if (document.activeElement !== this.field) this.field.value = text;
+    if (this.track.isLeft(value)) this.track = new Track(this.data, value);
+    this.range.value = PLACES * this.track.place(value);
+    this.write(value);
   }
 
-  moved(dragging) {
-    this.grasped = dragging;
-    const value = this.scale.value(Number(this.range.value));
-    const text = this.scale.text(value);
+  write(value) {
+    this.shown = value;
+    const text = textOf(value);
     this.range.ariaValueText = text;
-    this.field.value = text;
-    if (!dragging || this.data.whileDragging) this.want({ value, dragging });
+    if (document.activeElement !== this.field) this.field.value = text;
+    const { low, high, data } = this.track;
+    const ends = [data.least ? 0 : low, data.beyond || high];
+    [...this.ends.children].forEach((end, i) => {
+      end.textContent = typeof ends[i] === "string" ? ends[i] : textOf(Number(ends[i].toPrecision(3)));
+    });
+  }
+
+  pressed(event) {
+    const value = this.track.stepped(this.shown, event.key, event.shiftKey);
+    if (value === undefined || event.ctrlKey || event.altKey || event.metaKey) return;
+    event.preventDefault();
+    if (value === this.shown) return;
+    this.show(value);
+    this.want({ value, dragging: false });
+  }
+
+  // The value under the thumb.
+  get held() {
+    return this.track.value(Number(this.range.value) / PLACES);
+  }
+
+  // The value to rest at: the preset's where the thumb is dropped on its pixel.
+  get rested() {
+    const { track, range, data: { preset } } = this;
+    const pixel = 1 / (range.clientWidth || 1);
+    const isThere = track.holds(preset) && Math.abs(track.place(preset) - range.value / PLACES) <= pixel / 2;
+    return isThere ? preset : this.held;
+  }
+
+  hold() {
+    const follow = (event) => this.follow(event);
+    const leave = () => {
+      this.past = 0;
+      removeEventListener("pointermove", follow);
+    };
+    addEventListener("pointermove", follow);
+    for (const end of ["pointerup", "pointercancel"]) addEventListener(end, leave, { once: true });
+  }
+
+  // Held past an end of its track that is no stop, the slider moves its window on.
+  follow({ clientX }) {
+    const { left, right } = this.range.getBoundingClientRect();
+    const past = clientX > right && !this.data.beyond ? 1 : clientX < left && !this.data.least ? -1 : 0;
+    if (past && !this.past) this.run(performance.now() + PATIENCE);
+    this.past = past;
+  }
+
+  run(then) {
+    requestAnimationFrame((now) => {
+      if (!this.past) return;
+      if (now > then) {
+        this.track = this.track.shifted((this.past * SPEED * (now - then)) / 1000);
+        this.dragged();
+      }
+      this.run(Math.max(now, then));
+    });
+  }
+
+  dragged() {
+    this.grasped = true;
+    const value = this.held;
+    this.write(value);
+    if (this.data.whileDragging) this.want({ value, dragging: true });
+  }
+
+  dropped() {
+    this.grasped = false;
+    const value = this.rested;
+    this.show(value);
+    this.want({ value, dragging: false });
   }
 
   typed() {
-    const text = this.field.value.trim();
-    const value = text !== "" && text === this.data.beyond ? text : Number(text.replace(",", "."));
-    this.want({ value: text === "" || Number.isNaN(value) ? text : value, dragging: false });
+    this.want({ value: this.field.value.trim(), dragging: false });
     this.field.blur();
   }
 

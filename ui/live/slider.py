@@ -15,8 +15,10 @@ _component = component("rotorcalc.sliders", js=assets.module("slider"), isolate_
 class Slider:
     """A slider as it is shown.
 
-    `step` is the distance between two stops, or the number of stops per decade where `log`;
-    `beyond` is the word for one more stop above `high`.
+    `low` to `high` is the range; its track is a window on it, logarithmic, or linear of width
+    `span` where there is one, with a key's `step`. `least` is the lowest value beside zero of a
+    range that begins there; `beyond` is the word for one more stop above `high`. At such a stop the
+    window lies about `usual`. `preset` is a value that no drag or key passes unseen.
     """
 
     name: str
@@ -25,8 +27,11 @@ class Slider:
     value: float | str
     low: float
     high: float
-    step: float
-    log: bool
+    usual: float
+    preset: float | str | None = None
+    least: float = 0.0
+    step: float = 0.0
+    span: float = 0.0
     beyond: str = ""
 
 

@@ -7,13 +7,13 @@ import math
 
 import streamlit as st
 
-from rotorcalc import Machine, design, variation
+from rotorcalc import Machine, design, rpm, variation
 from rotorcalc.figures.design import Quantity
 from rotorcalc.units import SI, Units
 from ui.choices import choice
 from ui.computed import Computed
 from ui.format import amount, digits
-from ui.inputs import INPUTS
+from ui.inputs import INPUTS, usual, values_of
 from ui.jobs import cache, work
 
 # The core's names for the inputs that move an onset.
@@ -21,7 +21,12 @@ FIELDS = {key: item.field for key, item in INPUTS.items() if item.field in desig
 _KEYS = {name: key for key, name in FIELDS.items()}
 # Whose effect goes by ratios: drawn and searched over a logarithmic axis.
 _BY_RATIO = {"mass", "load", "mu", "C", "D", "L", "k"}
-_SMALLEST_LOAD = 10.0  # N, the end of a logarithmic axis
+# How far an axis reaches from the machine's value, as a factor.
+_REACH = 10.0
+# The widest clearance of a valid bearing over its radius, to rounding.
+_WIDEST = 0.1 * (1.0 - 1e-9)
+# Where a zero or infinite input depends on a running speed [rad/s], which an onset does not.
+_SPEED = 6000 * rpm
 # Cells a side of a map: where the onset has a closed form, and where it has none.
 _FINE, _COARSE = 60, 11
 _onset_map = cache.Cached(work.onset_map, entries=32, megabytes=8)
@@ -35,16 +40,31 @@ TORNADO = (
 
 
 def quantity(key: str, machine: Machine, units: Units) -> Quantity:
-    """Return an input as an axis over its slider's range, where that gives valid machines."""
-    item, in_si = INPUTS[key], INPUTS[key].unit(SI)
-    low, high = in_si.to_si(item.low), in_si.to_si(item.high)
-    if key == "load":
-        low = _SMALLEST_LOAD
-    if key == "mj":
-        high = min(high, 0.95 * machine.rotor.half_mass)
+    """Return an input as an axis about the machine's value, where that gives valid machines."""
+    item, is_log = INPUTS[key], key in _BY_RATIO
+    low, high = item.low, item.high
+    if not item.step:
+        values = values_of(machine, _SPEED, _SPEED)
+        now = values[key]
+        about = now if isinstance(now, float) and 0.0 < now < math.inf else usual(key, values)
+        low, high = max(low, about / _REACH if is_log else 0.0), min(high, about * _REACH)
+    low, high = (item.unit(SI).to_si(end) for end in (low, high))
+    least, most = _valid(key, machine)
+    return Quantity(
+        item.label, item.symbol, item.unit(units), max(low, least), min(high, most), log=is_log
+    )
+
+
+def _valid(key: str, machine: Machine) -> tuple[float, float]:
+    """Return between which values [SI] an input leaves a disk, and a clearance that is small."""
+    rotor, bearing = machine.rotor, machine.bearing
     if key == "mass":
-        low = max(low, 2.1 * machine.rotor.journal_mass)
-    return Quantity(item.label, item.symbol, item.unit(units), low, high, log=key in _BY_RATIO)
+        return 2.1 * rotor.journal_mass, math.inf
+    if key == "mj":
+        return 0.0, 0.95 * rotor.half_mass
+    if key == "D":
+        return 2.0 / _WIDEST * bearing.radial_clearance, math.inf
+    return -math.inf, _WIDEST * bearing.radius if key == "C" else math.inf
 
 
 def choose_input(label: str, default: str, key: str, without: str = "") -> str:
@@ -67,7 +87,7 @@ def choose_target(computed: Computed, units: Units) -> float:
     key = "stability_target"
     if not st.session_state.get("stability_target_typed"):
         st.session_state[key] = float(round(1.2 * float(units.speed.of(computed.speed)), -1))
-    rpm = st.number_input(
+    target = st.number_input(
         f"Target onset [{units.speed.name}]",
         min_value=10.0,
         max_value=1e6,
@@ -78,7 +98,7 @@ def choose_target(computed: Computed, units: Units) -> float:
         on_change=lambda: st.session_state.update(stability_target_typed=True),
         help="By default 1.2 times the running speed.",
     )
-    return units.speed.to_si(rpm)
+    return units.speed.to_si(target)
 
 
 def value(computed: Computed, key: str) -> float:

@@ -33,7 +33,7 @@ def say_balanced(computed: Computed) -> bool:
         st.info(
             "The rotor is perfectly balanced (u = 0): nothing drives a synchronous motion, and "
             "disk and journal stay in equilibrium. Move the slider **Imbalance u** in the "
-            "sidebar's group Shaft and disk to see a response."
+            "sidebar's group Rotor to see a response."
         )
     return balanced
 
