@@ -136,22 +136,23 @@ def follower_force(page: Page) -> None:
 
 
 def onset_map(page: Page) -> None:
-    computed, units = page.computed, page.units
+    units = page.units
     left, right = st.columns(2)
     with left:
         x = design.choose_input("Across", "C", "stability_x")
     with right:
         y = design.choose_input("Up", "T", "stability_y", without=x)
-    onsets = design.onset_map(computed, x, y, units)
-    axes = (
-        design.quantity(x, computed.machine, units),
-        design.quantity(y, computed.machine, units),
-    )
+
+    def map_of(c, onsets):
+        axes = (design.quantity(x, c.machine, units), design.quantity(y, c.machine, units))
+        here = design.value(c, x), design.value(c, y)
+        return what_if.onset_map(onsets, axes, here, c.speed, units)
+
+    onsets = design.onset_map(page.computed, x, y, units)
     page.chart(
-        lambda c: what_if.onset_map(
-            onsets, axes, (design.value(c, x), design.value(c, y)), c.speed, units
-        ),
+        lambda c: map_of(c, onsets),
         "onset_map",
+        while_dragging=lambda c: map_of(c, design.coarse_map(c, x, y, units)),
         alt="Contour map of the onset speed over two inputs, with this machine and the "
         "line on which the onset is the running speed.",
         caption="Onset of this machine with two inputs changed, all others kept. On the "

@@ -4,6 +4,7 @@ Inputs go here by their keys in `ui.inputs`; the core names them by the fields o
 """
 
 import math
+from functools import lru_cache
 
 import streamlit as st
 
@@ -29,6 +30,7 @@ _WIDEST = 0.1 * (1.0 - 1e-9)
 _SPEED = 6000 * rpm
 # Cells a side of a map: where the onset has a closed form, and where it has none.
 _FINE, _COARSE = 60, 11
+_WHILE_DRAGGING = 30
 _onset_map = cache.Cached(work.onset_map, entries=32, megabytes=8)
 _sensitivities = cache.Cached(design.sensitivities, entries=64, megabytes=4)
 _solution = cache.Cached(work.solution, entries=64, megabytes=4)
@@ -117,14 +119,34 @@ def names(units: Units) -> dict[str, str]:
 def onset_map(computed: Computed, x: str, y: str, units: Units) -> design.OnsetMap:
     """Return the onset over two inputs, with its progress shown where each cell takes long."""
     machine = computed.machine
-    axes = [(FIELDS[key], q.low, q.high, q.log)
-            for key in (x, y) for q in [quantity(key, machine, units)]]  # fmt: skip
+    axes = [_axis(key, machine, units) for key in (x, y)]
     if computed.onset.method == "closed form" and "cs" not in {x, y}:
         return _onset_map(machine, *axes, _FINE)
     bar = st.progress(0.0, "The onset at every point of the map …")
     found = _onset_map(machine, *axes, _COARSE, tell=bar.progress)
     bar.empty()
     return found
+
+
+def coarse_map(computed: Computed, x: str, y: str, units: Units) -> design.OnsetMap:
+    """Return a coarser map for each value of a dragged slider, some 40 ms.
+
+    Raises ValueError where the onset has no closed form, and a map takes too long.
+    """
+    if computed.onset.method != "closed form" or "cs" in {x, y}:
+        raise ValueError("the map is computed when the slider is released")
+    machine = computed.machine
+    return _coarse_map(machine, *(_axis(key, machine, units) for key in (x, y)))
+
+
+@lru_cache(maxsize=8)
+def _coarse_map(machine: Machine, x: work.Axis, y: work.Axis) -> design.OnsetMap:
+    return work.onset_map(machine, x, y, _WHILE_DRAGGING)
+
+
+def _axis(key: str, machine: Machine, units: Units) -> work.Axis:
+    axis = quantity(key, machine, units)
+    return FIELDS[key], axis.low, axis.high, axis.log
 
 
 def sensitivities(computed: Computed) -> design.Sensitivities:
