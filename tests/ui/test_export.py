@@ -80,7 +80,9 @@ def test_csv_agrees_with_the_sweep(case: str, units: Units) -> None:
         f"Stiffness K_XY [{units.stiffness.name}]": units.stiffness.of(sweep.stiffness[:, 0, 1]),
         f"Stiffness K_YX [{units.stiffness.name}]": units.stiffness.of(sweep.stiffness[:, 1, 0]),
         f"Damping C_YY [{units.damping.name}]": units.damping.of(sweep.damping[:, 1, 1]),
-        f"Critical mass per bearing M_c [{units.mass.name}]": units.mass.of(sweep.critical_mass),
+        f"Critical mass per bearing of the rigid rotor M_c [{units.mass.name}]": units.mass.of(
+            sweep.critical_mass
+        ),
         f"Threshold of the flexible rotor Ω_sf [{units.speed.name}]": units.speed.of(
             sweep.flexible_threshold
         ),

@@ -94,8 +94,8 @@ def _columns(computed: Computed, units: Units) -> Iterator[Column]:
     yield from _matrix("Stiffness K", units.stiffness, sweep.stiffness)
     yield from _matrix("Damping C", units.damping, sweep.damping)
     yield "Equivalent stiffness K_eq", units.stiffness, sweep.equivalent_stiffness
-    yield "Whirl ratio ω_s/Ω", units.number, sweep.whirl_ratio
-    yield "Critical mass per bearing M_c", units.mass, sweep.critical_mass
+    yield "Whirl ratio of the film ω_s/Ω_s", units.number, sweep.whirl_ratio
+    yield "Critical mass per bearing of the rigid rotor M_c", units.mass, sweep.critical_mass
     yield "Threshold of the rigid rotor Ω_s", units.speed, sweep.rigid_threshold
     yield "Threshold of the flexible rotor Ω_sf", units.speed, sweep.flexible_threshold
     if not computed.machine.rotor.is_rigid:

@@ -166,7 +166,7 @@ def with_onset(page: Page) -> Page:
 def say_onsets(found: Onsets, units: Units) -> None:
     """Show the three results side by side, and whether they agree."""
     rows = (
-        ("Closed form", found.closed_form, "Eqs. 5.45 to 5.50, Ω = Ωₛ(ε(Ω))"),
+        ("Closed form", found.closed_form, r"Eqs. 5.45 to 5.50, $Ω_{on} = Ω_{sf}(ε(Ω_{on}))$"),
         ("Eigenvalues", found.eigenvalues, "max Re λ = 0"),
         ("Measured growth in time", found.measured, "the motion neither grows nor decays"),
     )
