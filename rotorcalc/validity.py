@@ -23,6 +23,8 @@ Level: TypeAlias = Literal["good", "caution", "outside"]
 _LEVELS = np.array(["good", "caution", "outside"])
 # Composite roughness of ground or honed surfaces [m]; assumed, as no input gives it.
 ROUGHNESS = 1e-6
+# The name of the one check that depends on the imbalance.
+IMBALANCE_ORBIT = "Imbalance orbit over clearance"
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +99,7 @@ def validity(sweep: Sweep) -> tuple[Check, ...]:
                "surface asperities touch through the film"),
         _below("Smallest film over clearance, h/C", film / C, 0.1, 0.03,
                "so thin a film is heated and deforms the bearing, which the model neglects"),
-        _above("Imbalance orbit over clearance", swing, np.minimum(0.1, film / C), film / C,
+        _above(IMBALANCE_ORBIT, swing, np.minimum(0.1, film / C), film / C,
                "linear coefficients hold for small orbits; at the limit it touches the wall"),
         _above("Static sag over clearance, Γ/C", machine.static_sag / C * everywhere, 1.0, 10.0,
                "so flexible a shaft is inclined in its bearings, which the model takes as aligned"),

@@ -48,7 +48,7 @@ from rotorcalc.unbalance_curves import (
     response_family,
 )
 from rotorcalc.unbalance_peaks import ResponsePeaks, both_peaks
-from rotorcalc.validity import Check, validity
+from rotorcalc.validity import IMBALANCE_ORBIT, Check, validity
 from ui.bearing import Values
 from ui.inputs import machine_of, speeds_of
 
@@ -91,6 +91,15 @@ class Computed:
     def is_outside(self) -> bool:
         """Whether the machine lies outside the model's range."""
         return any(check.worst == "outside" for check in self.checks)
+
+    @cached_property
+    def onset_is_outside(self) -> bool:
+        """Whether the film lies outside the model's range at the onset of whirl."""
+        if not 0.0 < self.onset.speed < math.inf:
+            return False
+        there = validity(analyse(self.machine, self.onset.speed))
+        # The onset is that of a small motion, whatever the imbalance.
+        return any(one.worst == "outside" and one.name != IMBALANCE_ORBIT for one in there)
 
     @property
     def sweep(self) -> Sweep:

@@ -98,3 +98,13 @@ def test_the_margin_agrees_with_the_verdict(preset: str) -> None:
     onset = onset_speed(PRESETS[preset].machine).speed / RPM
     margin = 100 * (onset / PRESET_VALUES[preset]["rpm"] - 1)
     assert f"{margin:.4g} %" in _said(at)
+
+
+def test_an_onset_outside_the_models_range_is_marked() -> None:
+    """Thin oil in a wide gap: turbulent at the onset, at over twice the running speed."""
+    at = visit(HOME, C="200", mu="4", rpm="1000", L="100", load="3000")
+    said = next(box.value for box in (*at.success, *at.warning))
+    assert "(outside the model's range)" in said
+    numbers = {metric.label: metric.value for metric in at.metric}
+    assert numbers["Margin to onset"].startswith("(")
+    assert not numbers["Power loss"].startswith("(")

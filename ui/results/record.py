@@ -22,8 +22,9 @@ class Result:
     where `equation` follows from it, `filled` its right-hand side with
     this machine's SI values, `remark` what the equation does not say, `nought` words for zero,
     `unknown` for no number. `modelled` is false of what follows from the inputs without the film's
-    model. `source` names the result among those of the film, where another film
-    has another equation; `solved` returns what was solved where that depends on the machine.
+    model, `at_onset` true of what holds at the onset of whirl. `source` names the result among
+    those of the film, where another film has another equation; `solved` returns what was solved
+    where that depends on the machine.
     """
 
     key: str
@@ -38,6 +39,7 @@ class Result:
     unknown: str = "none"
     modelled: bool = True
     cites: str = ""
+    at_onset: bool = False
     source: str = ""
     solved: Callable[[Computed], Source] | None = None
 
@@ -65,6 +67,11 @@ class Result:
         if self.source:
             return citation.source(computed, self.source)
         return Source(self.number, self.equation)
+
+    def is_doubtful(self, computed: Computed) -> bool:
+        """Return whether the model does not hold where it gives this result."""
+        outside = computed.is_outside or (self.at_onset and computed.onset_is_outside)
+        return self.modelled and outside
 
     def is_own(self, computed: Computed) -> bool:
         """Return whether it was the result's equation that was solved for this machine."""

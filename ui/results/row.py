@@ -47,7 +47,7 @@ def _cells(result: Result, preview: Preview, computed: Computed) -> tuple[str, s
     # A column is too narrow for whose calculation sheet it is.
     source = citation.capital(result.cited(computed).removeprefix("The notes' "))
     number = result.shown(computed, preview.units)
-    if result.modelled and computed.is_outside:
+    if result.is_doubtful(computed):
         number = f"({number})"
     return number, change, source
 

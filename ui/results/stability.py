@@ -189,7 +189,7 @@ STABILITY: tuple[Result, ...] = (
         "onset_speed", "Onset of whirl Ωₒₙ", "speed", lambda c: c.onset.speed, _FLEXIBLE,
         r"\Omega_{on} = \Omega_{sf}(\varepsilon(\Omega_{on}))",
         lambda c: _onset(c, flexible=True), _ONSET_REMARK, nought=lambda _: "any speed",
-        cites=_CITED[_FLEXIBLE], solved=lambda c: _solved(c, True),
+        cites=_CITED[_FLEXIBLE], solved=lambda c: _solved(c, True), at_onset=True,
     ),
     Result(
         "rigid_onset", "Onset if the shaft were rigid", "speed", lambda c: c.rigid_onset.speed,
@@ -202,7 +202,7 @@ STABILITY: tuple[Result, ...] = (
         lambda c: c.onset.whirl_frequency, _RATIO,
         r"\omega_{on} = \bar\omega\,\Omega_{on}",
         _whirl, "Whirl frequency of the machine at its onset. " + _ONSET_REMARK,
-        nought=whirl_without_load, cites=_CITED[_RATIO], solved=_solved_frequency,
+        nought=whirl_without_load, cites=_CITED[_RATIO], solved=_solved_frequency, at_onset=True,
     ),
     Result(
         "onset_ratio", "Whirl ratio at onset", "number", _onset_ratio, "ωₒₙ/Ωₒₙ",
@@ -210,11 +210,13 @@ STABILITY: tuple[Result, ...] = (
         lambda c: rf"\frac{{{tex(c.onset.whirl_frequency)}}}{{{tex(c.onset.speed)}}} = "
         rf"{tex(_onset_ratio(c))}",
         "Of the machine itself. Without midspan damping it is the film's whirl ratio there.",
+        at_onset=True,
     ),
     Result(
         "margin", "Margin to onset", "percent", _margin, "Ωₒₙ/Ω − 1",
         r"\frac{\Omega_{on}}{\Omega}-1",
         lambda c: rf"\frac{{{tex(c.onset.speed)}}}{{{tex(c.speed)}}}-1 = {tex(_margin(c))}",
+        at_onset=True,
     ),
     Result(
         "damping_ratio", "Damping ratio ζ", "number",

@@ -27,7 +27,9 @@ _SHOWN_AS: dict[str, Kind] = {"stable": "success", "unstable": "error", "outside
 def text(computed: Computed, units: Units) -> Text:
     """Return the verdict as a page shows it, with the headline of the model's assumptions."""
     judged = verdict(computed, units)
-    return Text(f"{judged.sentence} {validity.badge(computed)}", _SHOWN_AS[judged.level])
+    marked = computed.is_outside or computed.onset_is_outside
+    note = " Numbers in brackets lie outside the model's range." if marked else ""
+    return Text(f"{judged.sentence}{note} {validity.badge(computed)}", _SHOWN_AS[judged.level])
 
 
 def verdict(computed: Computed, units: Units) -> Verdict:
@@ -39,7 +41,7 @@ def verdict(computed: Computed, units: Units) -> Verdict:
     return Verdict(
         "outside",
         "No verdict: the model does not hold for this machine. By the model it is "
-        f"{_lower(sentence)} Numbers in brackets are not to be trusted.",
+        f"{_lower(sentence)}",
     )
 
 
@@ -64,7 +66,8 @@ def _outlook(computed: Computed, units: Units) -> str:
         return "no speed makes this machine whirl."
     if onset.speed > computed.speed:
         margin = (onset.speed / computed.speed - 1.0) * 100.0
-        where = f"{amount(units.speed, onset.speed)}, {digits(margin)} % above"
+        beyond = " (outside the model's range)" if computed.onset_is_outside else ""
+        where = f"{amount(units.speed, onset.speed)}{beyond}, {digits(margin)} % above"
         return f"it goes unstable at {where}, {_whirl(computed, units)}."
     return (
         f"it is above its range of whirl, which begins at {amount(units.speed, onset.speed)}, "
