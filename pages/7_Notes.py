@@ -29,9 +29,9 @@ def signs(page: Page) -> None:
 
 def live_validation(_: Page) -> None:
     with st.spinner("Computing the checks …"):
-        cases, seconds = notes.checked()
+        cases, when = notes.checked()
     say = st.success if all(case.holds for case in cases) else st.error
-    say(notes.verdict(cases, seconds))
+    say(notes.verdict(cases, when))
     st.markdown(
         "Each row is computed by the code behind the other pages, and compared with an "
         "independent reference. Recorded: from a separate calculation."

@@ -21,6 +21,8 @@ from rotorcalc.records import Bound, Choice, Record, from_tree, parsed, to_tree
 
 # Version 2 added the bearing's geometry and leaves defaults out; version 1 is still read.
 FORMAT_VERSION = 2
+# Where a program may keep what it shows of a machine; no field of the machine has this name.
+APP = "app"
 _PLAIN = Plain()
 # Largest C/R accepted. Bearings have 0.0005 to 0.005, and Reynolds' equation assumes a film thin
 # against the radius; a larger ratio is nearly always a clearance in the wrong unit.
@@ -286,11 +288,13 @@ class Machine(Record):
         Raises
         ------
         ValueError
-            Where the text is not JSON, a key is unknown, missing or given twice, a value has the
-            wrong type or lies outside its bound, or the version is unknown.
+            Where the text is not JSON, a key but "app" is unknown, missing or given twice, a value
+            has the wrong type or lies outside its bound, or the version is unknown.
         """
         document = parsed(text)
         version = document.pop("version", None)
+        # What a program shows of the machine, such as units and speeds, is not the machine's.
+        document.pop(APP, None)
         if isinstance(version, bool) or version not in (1, FORMAT_VERSION):  # True == 1
             raise ValueError(
                 f"version = {shown(version)}: this program reads versions 1 and {FORMAT_VERSION}"

@@ -1,5 +1,6 @@
 """The live validation: every verdict true, and each of the formulas able to turn one false."""
 
+import datetime as dt
 import functools
 import math
 from dataclasses import replace
@@ -101,8 +102,11 @@ def test_tables_and_verdict_say_what_failed():
     assert table.count("✓ holds") == 1
     assert table.count("✗ **fails**") == 1
     assert r"a\|b" in table
-    assert notes.verdict((good,), 0.1).startswith("All 1 checks hold")
-    assert notes.verdict((good, bad), 0.1).startswith("1 of 2 checks fail")
+    when = dt.datetime(2031, 5, 7, 14, 30, tzinfo=dt.UTC)
+    said = notes.verdict((good,), when)
+    assert said.startswith("All 1 checks hold")
+    assert "07 May 2031 at 14:30 UTC" in said
+    assert notes.verdict((good, bad), when).startswith("1 of 2 checks fail")
 
 
 def test_every_function_named_beside_an_equation_exists():

@@ -13,17 +13,20 @@ from xml.etree import ElementTree as ET
 import numpy as np
 import pytest
 
-from rotorcalc import Machine
+from rotorcalc import __version__
 from rotorcalc.figures.cases import COLOURS
 from rotorcalc.onset import whirl
 from rotorcalc.units import SI, US, Units
 from ui.cases import Case, Shown
 from ui.computed import Computed, computed_from
+from ui.format import digits
 from ui.inputs import INPUTS, PRESET_VALUES, Values, values_of
 from ui.results.table import RESULTS
 from ui.sharing import export, report
+from ui.sharing.labels import Labels
 from ui.sharing.report_charts import sections
 
+LABELS = Labels("Pump 3", "Trip at 80 µm.\n<b>&", "Survey of the boiler feed pumps", "A. Nother")
 LINK = 'https://host.example/Stability?preset=sheet-1e7&C=80&u="><script>alert(1)</script>'
 DEFAULT = PRESET_VALUES["sheet-1e8"]
 CASES: dict[str, Values] = {
@@ -49,7 +52,8 @@ def kept(case: str) -> Shown:
 
 def sheet(case: str, units: Units) -> tuple[list[str], np.ndarray]:
     text = export.sweep_csv(computed(case), units).decode("utf-8-sig")
-    header, *rows = csv.reader(io.StringIO(text, newline=""))
+    lines = [line for line in text.splitlines() if not line.startswith(("#", '"#'))]
+    header, *rows = csv.reader(lines)
     return header, np.array(rows, dtype=float)
 
 
@@ -112,17 +116,19 @@ def test_csv_follows_the_units_shown() -> None:
 def test_csv_holds_every_eigenvalue_of_the_sweep(case: str) -> None:
     header, numbers = sheet(case, SI)
     for name, values in (
-        ("Rotor", computed(case).sweep.flexible_eigenvalues),
-        ("Rigid rotor", computed(case).sweep.rigid_eigenvalues),
+        ("Mode", computed(case).sweep.flexible_eigenvalues),
+        ("Rigid rotor, mode", computed(case).sweep.rigid_eigenvalues),
     ):
-        if name == "Rotor" and case == "rigid":
-            assert not any(title.startswith("Rotor:") for title in header)
+        if name == "Mode" and case == "rigid":
+            assert not any(title.startswith("Mode ") for title in header)
             continue
-        columns = [i for i, title in enumerate(header) if title.startswith(f"{name}:")]
-        real, imaginary = numbers[:, columns[::2]], numbers[:, columns[1::2]]
-        apart = abs((real + 1j * imaginary)[:, :, None] - values[:, None, :])
+        columns = [i for i, title in enumerate(header) if title.startswith(f"{name} ")]
+        found = numbers[:, columns[::2]] + 1j * numbers[:, columns[1::2]]
+        # Of two that are mirror images the upper one is there, at some speeds in another column.
+        both = np.nan_to_num(np.concatenate([found, found.conj()], axis=1), nan=np.inf)
+        apart = abs(both[:, :, None] - values[:, None, :])
         assert np.all(apart.min(axis=1) <= 1e-9 * abs(values))
-        assert np.all(apart.min(axis=2) <= 1e-9 * abs(values).max(axis=1, keepdims=True))
+        assert not np.any(found.imag < 0.0)
 
 
 def test_csv_writes_nan_and_infinity_as_python_reads_them() -> None:
@@ -130,17 +136,31 @@ def test_csv_writes_nan_and_infinity_as_python_reads_them() -> None:
     assert ",inf," in text
     still = export.sweep_csv(computed("no imbalance"), SI).decode("utf-8-sig")
     assert ",0,nan," in still  # nothing moves, so nothing lags
-    assert "nan" not in export.sweep_csv(computed("sheet-1e8"), SI).decode("utf-8-sig")
+    header, numbers = sheet("sheet-1e8", SI)
+    missing = {
+        name for name, column in zip(header, numbers.T, strict=True) if np.isnan(column).any()
+    }
+    # A mode is blank where it is the mirror image of another.
+    assert all("mode" in name.lower() for name in missing)
 
 
-# JSON
+@either_system
+def test_csv_begins_with_inputs_and_onset(units: Units) -> None:
+    text = export.sweep_csv(computed("rigid"), units).decode("utf-8-sig")
+    head = dict(row for row in csv.reader(text.splitlines()) if row[0].startswith("#"))
+    for item in INPUTS.values():
+        assert f"# {item.name(units)}" in head
+    assert head["# Shaft stiffness Kᵣₒₜ" + f" [{units.shaft_stiffness.name}]"] == "rigid"
+    onset = float(head["# Onset of whirl [rpm]"])
+    assert onset == pytest.approx(units.speed.of(computed("rigid").onset.speed), rel=1e-9)
 
 
-@every_case
-def test_json_loads_back_equal(case: str) -> None:
-    text = export.machine_json(computed(case)).decode()
-    assert Machine.from_json(text) == computed(case).machine
-    assert json.loads(text)["version"] == 2
+def test_csv_numbers_modes_as_the_page_does() -> None:
+    header, numbers = sheet("sheet-1e8", SI)
+    shown = computed("sheet-1e8").locus(True)
+    for mode, branch in enumerate(shown.branches.T, start=1):
+        frequency = numbers[:, header.index(f"Mode {mode}: whirl frequency Im λ [1/s]")]
+        np.testing.assert_allclose(frequency, branch.imag, rtol=1e-9)
 
 
 # ROSS
@@ -259,7 +279,7 @@ class Reader(HTMLParser):
 @cache
 def read(case: str, pinned: str | None, units_name: str = "SI") -> Reader:
     beside = [] if pinned is None else [kept(pinned)]
-    page = report.report(computed(case), beside, {"SI": SI, "US": US}[units_name], LINK, "9.8.7")
+    page = report.report(computed(case), beside, {"SI": SI, "US": US}[units_name], LINK, LABELS)
     return Reader(page.decode())
 
 
@@ -272,7 +292,7 @@ def test_report_is_complete_and_shows_no_nan(case: str, pinned: str | None) -> N
     page = read(case, pinned)
     text = " ".join(page.text)
     assert not re.search(r"\b(nan|None|Traceback)\b", text)
-    assert "9.8.7" in text
+    assert __version__ in text
     assert text.count("Eq. 5.") > 10
     ids = [attributes["id"] for _, attributes in page.tags if "id" in attributes]
     assert ids == [
@@ -293,6 +313,24 @@ def test_report_shows_every_input_and_result(case: str, units: Units) -> None:
             assert f"{item.shown(value, units):.6g}".replace("-", "−") in text
     for result in RESULTS.values():
         assert result.label in text
+
+
+def test_report_has_title_case_author_and_remarks_as_they_were_written() -> None:
+    text = read("sheet-1e8", None).text
+    for words in (LABELS.title, f" {LABELS.name}", f" {LABELS.author}", f" {LABELS.note}"):
+        assert words in text
+    plain = Reader(report.report(computed("rigid"), [], SI, LINK, Labels()).decode()).text
+    assert "Rotor on two journal bearings" in plain
+    assert "Author:" not in plain
+
+
+def test_report_holds_coefficients_over_speed() -> None:
+    text, sweep = read("sheet-1e8", None).text, computed("sheet-1e8").sweep
+    start = text.index("Force coefficients over speed")
+    for matrix, unit in ((sweep.stiffness, SI.stiffness), (sweep.damping, SI.damping)):
+        for i in (11, 239):
+            value = float(unit.of(matrix[i, 0, 1]))
+            assert digits(value).replace("-", "−") in text[start:]
 
 
 def test_report_names_rigid_shaft_weight_and_missing_onset() -> None:
@@ -329,7 +367,7 @@ def test_report_escapes_the_link() -> None:
 
 
 def test_report_links_web_addresses_only() -> None:
-    page = report.report(computed("rigid"), [], SI, "javascript:alert(1)", "1").decode()
+    page = report.report(computed("rigid"), [], SI, "javascript:alert(1)", Labels()).decode()
     reader = Reader(page)
     assert not any(tag == "a" for tag, _ in reader.tags)
     assert "javascript:alert(1)" in reader.text

@@ -1,7 +1,7 @@
 """The texts of the notes page, and its tables of equations and of checks."""
 
+import datetime as dt
 import functools
-import time
 from itertools import groupby
 from pathlib import Path
 
@@ -41,18 +41,17 @@ def _equation(item: Equation) -> str:
 
 
 @functools.lru_cache(maxsize=1)
-def checked() -> tuple[tuple[Case, ...], float]:
-    """Return all checks, computed once per process, and the seconds that they took."""
-    start = time.perf_counter()
-    return validate(), time.perf_counter() - start
+def checked() -> tuple[tuple[Case, ...], dt.datetime]:
+    """Return all checks, computed once per process, and when that was."""
+    return validate(), dt.datetime.now(dt.UTC)
 
 
-def verdict(cases: tuple[Case, ...], seconds: float) -> str:
-    """Return how many checks hold, in a sentence."""
+def verdict(cases: tuple[Case, ...], when: dt.datetime) -> str:
+    """Return how many checks hold, and when they were computed, in a sentence."""
     failed = sum(not case.holds for case in cases)
     if failed:
         return f"{failed} of {len(cases)} checks fail. Do not trust this copy of the program."
-    return f"All {len(cases)} checks hold, computed by this server in {seconds:.1f} s."
+    return f"All {len(cases)} checks hold, computed by this server on {when:%d %B %Y at %H:%M} UTC."
 
 
 def checks(cases: tuple[Case, ...]) -> str:

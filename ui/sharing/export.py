@@ -14,7 +14,10 @@ from rotorcalc import orbit_ellipse
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.unbalance_response import phase_lag
 from rotorcalc.units import Unit, Units
+from ui import comparison
+from ui.bearing import FILM, KIND, fields_of
 from ui.computed import Computed
+from ui.inputs import INPUTS, values_of
 from ui.sharing import xlsx
 
 # Words, unit and SI values of a column.
@@ -50,21 +53,19 @@ _TO_ROSS = np.array([[0.0, 1.0], [-1.0, 0.0]])
 def sweep_csv(computed: Computed, units: Units) -> bytes:
     """Return the sweep over speed as CSV, a row a speed, in the units shown.
 
-    It begins with the mark by which Excel knows UTF-8; Python reads it as "utf-8-sig". Numbers have
-    ten digits; "inf" is where there is no limit, "nan" where there is no number.
+    It begins with the mark by which Excel knows UTF-8; Python reads it as "utf-8-sig". Lines before
+    the table begin with #: the inputs and the onset. Modes have the numbers of the page; of two
+    that are mirror images the one with Im λ ≥ 0 is in it. Numbers have ten digits; "inf" is where
+    there is no limit, "nan" where there is no number.
     """
     columns = list(_columns(computed, units))
     numbers = np.stack([unit.of(values) for _, unit, values in columns], axis=-1)
     file = io.StringIO(newline="")
     writer = csv.writer(file)
+    writer.writerows(_head(computed, units))
     writer.writerow(f"{words} [{unit.name}]" for words, unit, _ in columns)
     writer.writerows([f"{number:.10g}" for number in row] for row in numbers.tolist())
     return file.getvalue().encode("utf-8-sig")
-
-
-def machine_json(computed: Computed) -> bytes:
-    """Return the machine as JSON; `Machine.from_json` reads it back, equal."""
-    return computed.machine.to_json().encode()
 
 
 def ross_table(computed: Computed) -> bytes:
@@ -80,6 +81,23 @@ def ross_axes(coefficients: Array) -> Array:
     """Return force coefficients of shape (..., 2, 2) in ROSS's axes: `ROSS_NOTE` describes them."""
     # 0.0 is added so that an unloaded film's −0 becomes 0.
     return _TO_ROSS @ coefficients @ _TO_ROSS.T + 0.0
+
+
+def _head(computed: Computed, units: Units) -> Iterator[tuple[str, str]]:
+    """Yield the lines before the table: inputs and onset."""
+    values = values_of(computed.machine, computed.speed, computed.top_speed)
+    for key, item in INPUTS.items():
+        yield f"# {item.name(units)}", comparison.shown(key, values, units).replace("−", "-")
+    for key in (KIND, FILM):
+        yield f"# {key.capitalize()}", f"{values[key] or 'as usual'}"
+    for field in fields_of(values[KIND]).values():
+        yield f"# {field.name_in(units)}", field.shown(values.get(field.key), units)
+    onset = computed.onset
+    for words, speed in (
+        ("Onset of whirl", onset.speed),
+        ("Whirl frequency at the onset", onset.whirl_frequency),
+    ):
+        yield f"# {words} [{units.speed.name}]", f"{float(units.speed.of(speed)):.10g}"
 
 
 def _columns(computed: Computed, units: Units) -> Iterator[Column]:
@@ -99,8 +117,8 @@ def _columns(computed: Computed, units: Units) -> Iterator[Column]:
     yield "Threshold of the rigid rotor Ω_s", units.speed, sweep.rigid_threshold
     yield "Threshold of the flexible rotor Ω_sf", units.speed, sweep.flexible_threshold
     if not computed.machine.rotor.is_rigid:
-        yield from _eigenvalues("Rotor", units.growth, computed.branches)
-    yield from _eigenvalues("Rigid rotor", units.growth, computed.rigid_branches)
+        yield from _eigenvalues("Mode", units.growth, computed.locus(True).branches)
+    yield from _eigenvalues("Rigid rotor, mode", units.growth, computed.locus(False).branches)
     yield from _orbit("Disk", units, sweep.disk_response)
     yield from _orbit("Journal", units, sweep.journal_response)
 
@@ -113,8 +131,8 @@ def _matrix(words: str, unit: Unit, matrix: Array) -> Iterator[Column]:
 
 def _eigenvalues(words: str, unit: Unit, branches: ComplexArray) -> Iterator[Column]:
     for number, branch in enumerate(branches.T, start=1):
-        yield f"{words}: real part Re λ_{number}", unit, branch.real
-        yield f"{words}: imaginary part Im λ_{number}", unit, branch.imag
+        yield f"{words} {number}: growth rate Re λ", unit, branch.real
+        yield f"{words} {number}: whirl frequency Im λ", unit, branch.imag
 
 
 def _orbit(words: str, units: Units, response: ComplexArray) -> Iterator[Column]:

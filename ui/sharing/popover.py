@@ -6,15 +6,13 @@ from urllib.parse import urlencode, urlsplit, urlunsplit
 
 import streamlit as st
 
-from rotorcalc import Machine, __version__
-from rotorcalc.units import Units
 from ui import cases
 from ui.cases import Shown
 from ui.computed import Computed, computed_from
 from ui.format import literal
-from ui.inputs import speeds_of, values_of
-from ui.session import session
-from ui.sharing import address
+from ui.session import Session, session
+from ui.sharing import labels, machine_file
+from ui.sharing.labels import Labels
 
 
 def draw() -> None:
@@ -29,7 +27,8 @@ def draw() -> None:
         visitor = session()
         with suppress(ValueError):  # no machine: said on the page
             beside, _ = cases.computed(visitor.cases)
-            _downloads(computed_from(visitor.values), beside, visitor.units, address)
+            written = labels.draw()
+            _downloads(computed_from(visitor.values), beside, visitor, address, written)
         st.file_uploader("Load a machine (JSON)", type="json", key="upload", on_change=_load)
 
 
@@ -39,13 +38,16 @@ def _link() -> str:
     return urlunsplit((parts.scheme, parts.netloc, parts.path, query, ""))
 
 
-def _downloads(computed: Computed, beside: Sequence[Shown], units: Units, address: str) -> None:
+def _downloads(
+    computed: Computed, beside: Sequence[Shown], visitor: Session, address: str, written: Labels
+) -> None:
     from ui.sharing import export, report  # noqa: PLC0415
 
+    units = visitor.units
     files = (
         (
             "Machine (JSON)", "machine.json", "application/json",
-            lambda: export.machine_json(computed),
+            lambda: machine_file.write(computed.machine, visitor, written),
         ),
         (
             "Sweep over speed (CSV)", "sweep.csv", "text/csv",
@@ -57,7 +59,7 @@ def _downloads(computed: Computed, beside: Sequence[Shown], units: Units, addres
         ),
         (
             "Report (HTML)", "report.html", "text/html",
-            lambda: report.report(computed, beside, units, address, __version__),
+            lambda: report.report(computed, beside, units, address, written),
         ),
     )  # fmt: skip
     for label, name, mime, build in files:
@@ -73,13 +75,15 @@ def _load() -> None:
     upload = st.session_state["upload"]
     if upload is None:
         return
-    problems: list[str] = []
     try:
-        machine = Machine.from_json(upload.getvalue().decode("utf-8"))
+        loaded = machine_file.read(upload.getvalue().decode("utf-8"), visitor)
     except ValueError as error:
         visitor.problems[:] = [f"{literal(upload.name, 80)} was not loaded: {literal(str(error))}"]
         return
-    values = values_of(machine, *speeds_of(visitor.values))
-    visitor.values = address.checked_values(values, visitor.preset, problems)
+    link = loaded.link
+    visitor.preset, visitor.values, visitor.units_name = link.preset, link.values, link.units
+    if loaded.has_cases:
+        visitor.cases = link.cases
+    labels.name(loaded.name, loaded.note)
     visitor.problems.clear()
-    visitor.refused[:] = problems
+    visitor.refused[:] = loaded.problems

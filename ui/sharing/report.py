@@ -13,9 +13,10 @@ from html import escape
 from pathlib import Path
 from typing import TypeAlias
 
+import numpy as np
 import plotly.io
 
-from rotorcalc import modes
+from rotorcalc import __version__, modes
 from rotorcalc.arrays import Array
 from rotorcalc.units import Unit, Units
 from rotorcalc.validity import validity
@@ -27,17 +28,20 @@ from ui.format import amount, digits, minus
 from ui.inputs import GROUPS, INPUTS, machine_of, values_of
 from ui.results.table import RESULTS
 from ui.sharing import report_charts
+from ui.sharing.labels import Labels
 from ui.sharing.report_charts import Figure
 from ui.words import citation
 from ui.words import validity as validity_words
 from ui.words.verdict import verdict
 
+# Speeds in the table of coefficients.
+_ROWS = 20
 # Text, and the class of its cell.
 Cell: TypeAlias = tuple[str, str]
 
 
 def report(
-    computed: Computed, cases: Sequence[Shown], units: Units, link: str, version: str
+    computed: Computed, cases: Sequence[Shown], units: Units, link: str, labels: Labels
 ) -> bytes:
     """Return the report as HTML: `link` reproduces the machine, cases stand beside it."""
     judged = verdict(computed, units)
@@ -48,6 +52,7 @@ def report(
         _results(computed, units),
         _compared(computed, cases, units),
         _matrices(computed, units),
+        _over_speed(computed, units),
         _modes(computed, units),
         _validity(computed),
         _reading(computed, cases),
@@ -57,12 +62,13 @@ def report(
         ),
     )
     return page.substitute(
-        title="Rotor on two journal bearings",
+        title=escape(labels.title or "Rotor on two journal bearings"),
+        labels=_labels(labels),
         subtitle=escape(_subtitle(computed, cases, units)),
         level=judged.level,
         verdict=escape(judged.sentence),
         body="\n".join(body),
-        version=escape(version),
+        version=escape(__version__),
         date=dt.datetime.now(dt.UTC).date().isoformat(),
         link=_anchor(link),
         film=escape(_film(computed)),
@@ -167,6 +173,34 @@ def _matrices(computed: Computed, units: Units) -> str:
         f'<div class="beside">{_matrix("Stiffness K", K, units.stiffness)}'
         f"{_matrix('Damping C', C, units.damping)}</div>"
     )
+
+
+def _labels(labels: Labels) -> str:
+    """Return name, author and remarks as paragraphs, as far as they were given."""
+    given = (("Case", labels.name), ("Author", labels.author), ("Remarks", labels.note))
+    return "".join(
+        f'<p class="label"><b>{word}:</b> {escape(text)}</p>' for word, text in given if text
+    )
+
+
+def _over_speed(computed: Computed, units: Units) -> str:
+    """Return K and C over the sweep, at some of its speeds."""
+    sweep = computed.sweep
+    every = max(1, len(sweep.speed) // _ROWS)
+    parts = [(f"{letter}{ij}", unit, matrix[:, "XY".index(ij[0]), "XY".index(ij[1])])
+             for letter, unit, matrix in (("K", units.stiffness, sweep.stiffness),
+                                          ("C", units.damping, sweep.damping))
+             for ij in ("XX", "XY", "YX", "YY")]  # fmt: skip
+    columns = [units.speed.of(sweep.speed), *(unit.of(values) for _, unit, values in parts)]
+    rows = (
+        _row((minus(digits(float(value))), "n") for value in row)
+        for row in np.stack(columns, axis=-1)[every - 1 :: every]
+    )
+    head = _head(
+        (f"Ω [{units.speed.name}]", "n"),
+        *((f"{name} [{unit.name}]", "n") for name, unit, _ in parts),
+    )
+    return f'<h2>Force coefficients over speed</h2><div class="cases">{_table(head, rows)}</div>'
 
 
 def _matrix(name: str, matrix: Array, unit: Unit) -> str:
