@@ -47,6 +47,10 @@ class Session:
     cases: tuple[Case, ...] = ()
     typed: bool = False
     image_format: str = "png"
+    # Of a presentation: "" at the desk, else the key of the chart in view, or "1" for the first;
+    # and the charts known so far, by the first of those that are open together.
+    present: str = ""
+    views: dict[str, tuple[str, ...]] = field(default_factory=dict)
     # Whether a slider is being dragged: the address bar waits until it is released.
     dragging: bool = False
     # The preview of the page as it was last drawn, and the secret to ask for it.
@@ -125,6 +129,10 @@ class Session:
         """
         return self.preset, self.values["load"] is None, self.values[KIND], self.units_name
 
+    def view(self, chart: str) -> None:
+        """Show a chart in a presentation, "1" for the first one, "" for none: all at a desk."""
+        self.present = chart
+
     def mirror(self, key: str, value: object) -> bool:
         """Give a widget its value before it is drawn, where it has another; return whether it had.
 
@@ -156,7 +164,8 @@ class Session:
     def link(self) -> dict[str, str]:
         """Return the query parameters of a link to what is shown."""
         shown = address.write(self.preset, self.values, self.units_name, self.cases)
-        return shown | choices().link()
+        presented = {"present": self.present} if self.present else {}
+        return shown | choices().link() | presented
 
     def ask_for(self, work: str, name: str) -> None:
         """Request a long computation; `name` distinguishes it from others of its kind."""
@@ -201,7 +210,7 @@ def session() -> Session:
     given = address.read(st.query_params.to_dict())
     st.session_state[_KEY] = visitor = Session(
         preset=given.preset, values=given.values, units_name=given.units, refused=given.problems,
-        cases=given.cases,
+        cases=given.cases, present=given.present,
     )  # fmt: skip
     choices().words = given.choices
     return visitor

@@ -52,7 +52,8 @@ def show_chart(chart: Chart, *, key: str, alt: str) -> None:
     if settings.live() == "off":
         st.plotly_chart(_Checked(drawn), key=chart_key(key), theme=None, config=config, alt=alt)
     else:
-        _live().show_chart(drawn, key=chart_key(key), config=config, alt=alt)
+        presenting = bool(session().present)
+        _live().show_chart(drawn, key=chart_key(key), config=config, alt=alt, presenting=presenting)
 
 
 def show_preview(preview: Preview | None) -> None:

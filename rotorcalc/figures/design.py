@@ -75,7 +75,7 @@ def onset_map(
         y,
         height=500,
         legend=LEGEND,
-        margin={"l": 64, "r": 16, "t": 16, "b": 84},
+        margin={"l": 64, "r": 28, "t": 16, "b": 84},
     )
 
 
@@ -107,7 +107,7 @@ def tornado(found: Sensitivities, names: Mapping[str, str], units: Units) -> Cha
         barmode="overlay",
         height=160 + 42 * max(len(inputs), 4),
         legend=LEGEND,
-        margin={"l": 64, "r": 16, "t": 52, "b": 84},
+        margin={"l": 64, "r": 28, "t": 52, "b": 84},
         shapes=[_zero()],
     )  # fmt: skip
 

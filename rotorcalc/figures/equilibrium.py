@@ -18,7 +18,7 @@ HEIGHT = 500
 SMALL_HEIGHT = 300
 
 _SOFT = "rgba(127,127,127,0.8)"
-_MARGIN = {"l": 64, "r": 16, "t": 26, "b": 48}
+_MARGIN = {"l": 64, "r": 28, "t": 26, "b": 48}
 # Half the width of the drawn plane, in radial clearances.
 _EDGE = 1.24
 # Labels of speeds closer together than this share of the clearance's reach would overlap.

@@ -180,7 +180,7 @@ def _chart(
     lines, names = _onset_line(shown)
     return style.chart(
         traces, x, y, shapes=[*(shapes or []), *lines], annotations=names,
-        margin={"l": 64, "r": 16, "t": 64, "b": 52},
+        margin={"l": 64, "r": 28, "t": 64, "b": 52},
     )  # fmt: skip
 
 

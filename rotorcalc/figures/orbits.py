@@ -28,7 +28,7 @@ _PLANE_HEIGHT = 560
 _FRAMES, _TRAIL, _REACH = 120, 48, 2.0
 # Points of a line over time; more cannot be distinguished on a screen.
 _MOST_POINTS = 6000
-_MARGIN = {"l": 64, "r": 16, "t": 16, "b": 96}
+_MARGIN = {"l": 64, "r": 28, "t": 16, "b": 96}
 _LEGEND = {"orientation": "h", "x": 0, "yref": "container", "y": 0, "yanchor": "bottom"}
 
 
@@ -49,7 +49,7 @@ def orbit(let_go: Release, units: Units) -> Chart:
     ]
     chart = plane.chart(
         [*still, *_moving(steps[-1])], x, y, height=_PLANE_HEIGHT, showlegend=True,
-        margin={"l": 64, "r": 16, "t": 56, "b": ROW},
+        margin={"l": 64, "r": 28, "t": 56, "b": ROW},
     )  # fmt: skip
     chart = scrubbed(
         chart, steps, labels=labels, active=len(labels) - 1, unit="", prefix="Revolution ",

@@ -130,7 +130,7 @@ def scrubber(steps: Orbits, here: Orbits, units: Units) -> Chart:
     # The sense of whirl may change with speed, so the name omits it.
     traces = style.joined([_orbit(p, unit, n.split(",")[0], c) for n, p, c in _paths(here)])
     active = [speed for speed, *_ in moments].index(float(here.speed))
-    margin = {"l": 64, "r": 16, "t": 44, "b": ROW}
+    margin = {"l": 64, "r": 28, "t": 44, "b": ROW}
     chart = scrubbed(
         style.chart(traces, x, y, height=560, margin=margin),
         [_step(disk, journal, here.is_rigid, units) for _, disk, journal in moments],

@@ -55,7 +55,7 @@ def plane(locus: Locus, onset: Onset, units: Units) -> Chart:
     rays = _rays(left, top, units)
     chart = style.chart(
         traces, x, y,
-        height=580, margin={"l": 64, "r": 16, "t": 44, "b": ROW},
+        height=580, margin={"l": 64, "r": 28, "t": 44, "b": ROW},
         shapes=[_half_plane(right), _imaginary_axis(), *(ray for ray, _ in rays)],
         annotations=[*_sides(), *(name for _, name in rays), *_numbers(locus, units, left, top)],
     )  # fmt: skip

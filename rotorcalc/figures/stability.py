@@ -20,7 +20,7 @@ Item = dict[str, Any]
 
 # At the figure's lower edge, where it neither narrows the plot nor overlaps the axis title.
 LEGEND = {"orientation": "h", "x": 0, "yref": "container", "y": 0, "yanchor": "bottom"}
-MARGIN = {"l": 64, "r": 16, "t": 16, "b": 112}
+MARGIN = {"l": 64, "r": 28, "t": 16, "b": 112}
 # Stands for infinity: a line rises to it, beyond the end of any axis.
 _BEYOND = 1e7
 # Green, against the red of the unstable side.

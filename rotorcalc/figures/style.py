@@ -173,7 +173,7 @@ def small(chart: Chart) -> Chart:
         "height": SMALL_HEIGHT,
         "showlegend": False,
         "annotations": [],
-        "margin": {"l": 56, "r": 12, "t": 12, "b": 48},
+        "margin": {"l": 56, "r": 24, "t": 12, "b": 48},
     }
     layout = chart["layout"]
     # What the overview leaves out, for where it is shown large after all.
@@ -254,7 +254,7 @@ _AXIS: Axis = {
 }
 _LAYOUT: dict[str, Any] = {
     "height": HEIGHT,
-    "margin": {"l": 64, "r": 16, "t": 44, "b": 52},
+    "margin": {"l": 64, "r": 28, "t": 44, "b": 52},
     "paper_bgcolor": "rgba(0,0,0,0)",
     "plot_bgcolor": "rgba(0,0,0,0)",
     "font": {"size": 14, "color": _TEXT, "family": "Source Sans, Arial, sans-serif"},

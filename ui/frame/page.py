@@ -16,7 +16,7 @@ from ui.cases import Draw, Shown, compared
 from ui.cases import computed as computed_cases
 from ui.choices import choice
 from ui.computed import Computed, computed_from
-from ui.frame import cases, history, sidebar
+from ui.frame import cases, history, presentation, sidebar
 from ui.preview import Preview, Text, Words
 from ui.results.row import show_results
 from ui.serving import one_at_a_time, version
@@ -72,6 +72,7 @@ class Page:
     cases: tuple[Shown, ...]
     units: Units
     preview: Preview
+    views: presentation.Views
     # Whether the content runs with the frame as one.
     whole: bool = False
 
@@ -89,6 +90,8 @@ class Page:
         A caption that depends on the inputs of sliders is a function of the machine's results.
         While one is dragged a chart that takes long has another function, quicker and coarser.
         """
+        if not self.views.shows(key):
+            return
         show_chart(compared(draw, self.cases)(self.computed), key=key, alt=alt)
         self.preview.charts[chart_key(key)] = compared(while_dragging or draw, self.cases)
         if isinstance(caption, str):
@@ -175,20 +178,32 @@ def _frame(title: str, sentence: str) -> Places:
         choices.choices().arrive()
     visitor.drawn = visitor.framed()
     with st.sidebar:
-        sidebar.draw_presets()
-        past = st.container(key="past")
-        cases.draw_buttons()
-        sidebar.draw_inputs()
-        popover.draw()
-        foot = st.container()
-        st.caption(version.label())
+        past, foot = _sidebar(visitor)
     visitor.page = title
     with st.container(key="frame_top"):
         navigation = st.container()
+        presentation.draw_switch(visitor)
     with st.container(key="page_title"):
         st.header(title, anchor=False)
         st.markdown(sentence)
     return Places(past, navigation, foot)
+
+
+def _sidebar(visitor: Session) -> tuple[DeltaGenerator, DeltaGenerator]:
+    """Draw the inputs, in a presentation those in use; return places above and below them."""
+    if visitor.present:
+        st.html(presentation.STYLE)
+        past = st.container(key="past")
+        presentation.draw_sliders(visitor)
+        return past, st.container()
+    sidebar.draw_presets()
+    past = st.container(key="past")
+    cases.draw_buttons()
+    sidebar.draw_inputs()
+    popover.draw()
+    foot = st.container()
+    st.caption(version.label())
+    return past, foot
 
 
 # The browser's longest timer is 24 days.
@@ -206,13 +221,15 @@ def _content(content: Callable[[Page], None], places: Places, *, whole: bool) ->
         if visitor.drawn != visitor.framed():
             # A button of the content, such as a demonstration's, changed more than sliders show.
             st.rerun()
-        page = replace(_page(places), whole=whole)
+        views = presentation.Views(st.container(key="views"))
+        page = replace(_page(places, views), whole=whole)
         content(page)
+        page.views.draw()
         cases.draw_table(page.preview, page.cases)
         write_address_bar()  # the widgets drawn now have taken their choices
 
 
-def _page(places: Places) -> Page:
+def _page(places: Places, views: presentation.Views) -> Page:
     """Return the page's machine and draw what depends on it everywhere; stop where there is none.
 
     A fragment may write into the places where it has done so when the whole page ran; the
@@ -249,7 +266,9 @@ def _page(places: Places) -> Page:
     with places.foot:
         validity.draw(visitor.preview)
         show_preview(visitor.preview)
-    return Page(computed=computed, cases=beside, units=visitor.units, preview=visitor.preview)
+    return Page(
+        computed=computed, cases=beside, units=visitor.units, preview=visitor.preview, views=views
+    )
 
 
 def _offer_the_rest(visitor: Session) -> None:

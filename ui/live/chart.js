@@ -8,7 +8,7 @@
 
 const STYLE = `
 .live-view {position: relative; background: var(--st-background-color);}
-.live-view > button {position: absolute; top: 0; right: 0; width: 1.75rem; height: 1.75rem; padding: 0; border: 0;
+.live-view > button {position: absolute; z-index: 3; top: 0; right: 0; width: 1.75rem; height: 1.75rem; padding: 0; border: 0;
   border-radius: var(--st-base-radius); background: none; color: var(--st-text-color); font-size: 1rem; cursor: pointer;}
 .live-view > button:is(:hover, :focus-visible) {background: var(--st-secondary-background-color);}
 .live-view > button:focus-visible {outline: 2px solid var(--st-primary-color);}
@@ -68,10 +68,12 @@ function made(parent) {
   const chart = { view, element, wanted: null, shown: null, drawing: null, ranges: [] };
   if (document.fullscreenEnabled) view.prepend(screenButton(view));
   view.addEventListener("fullscreenchange", () => draw(chart, chart.shown));
-  chart.preview = (figure) => draw(chart, { ...chart.given, chart: figure });
+  chart.preview = (figure) => draw(chart, { ...chart.given, chart: unfolded(figure, chart.given.presenting) });
   chart.settle = () => chart.shown !== chart.given && draw(chart, chart.given);
   chart.resizing = new ResizeObserver(() => {
-    if (element.data && element.offsetParent) window.Plotly.Plots.resize(element);
+    if (!element.data || !element.offsetParent) return;
+    window.rotorcalcDrawing += 1; // Plotly waits a tenth of a second
+    window.Plotly.Plots.resize(element).catch(() => {}).finally(() => { window.rotorcalcDrawing -= 1; });
   });
   chart.resizing.observe(element);
   charts.set(parent, chart);
@@ -102,7 +104,8 @@ function enlarge({ data, layout }, factor) {
   const half = (1 + factor) / 2;
   times(factor, layout.font, ["size"]);
   times(factor, layout.margin, ["l", "r", "t", "b"]);
-  times(factor, layout.legend, ["entrywidth", "itemwidth"]);
+  times(factor, layout.legend, ["itemwidth"]);
+  if (layout.legend?.entrywidthmode !== "fraction") times(factor, layout.legend, ["entrywidth"]);
   for (const note of layout.annotations ?? []) {
     times(factor, note.font, ["size"]);
     times(factor, note, ["xshift", "yshift"]);
@@ -113,7 +116,11 @@ function enlarge({ data, layout }, factor) {
     times(factor, control.font, ["size"]);
     times(factor, control.currentvalue?.font, ["size"]);
   }
-  for (const [name, axis] of Object.entries(layout)) if (name.includes("axis")) times(factor, axis.title, ["standoff"]);
+  for (const [name, axis] of Object.entries(layout)) {
+    if (!name.includes("axis") || !axis.title) continue;
+    axis.title.font = { size: layout.font.size }; // Plotly's own is larger still, and longer than a low axis
+    times(factor, axis.title, ["standoff"]);
+  }
   for (const trace of data) {
     times(factor, trace.textfont, ["size"]);
     times(half, trace.line, ["width"]);
@@ -124,9 +131,8 @@ function enlarge({ data, layout }, factor) {
 }
 
 async function redrawn(Plotly, chart, { chart: figure, config, presenting }) {
-  const copy = structuredClone(figure); // Plotly writes into what it is given
   const whole = document.fullscreenElement === chart.view;
-  if (whole) Object.assign(copy.layout, copy.layout.meta);
+  const copy = structuredClone(unfolded(figure, whole)); // Plotly writes into what it is given
   if (whole || presenting) enlarge(copy, LARGE);
   delete copy.layout.height; // the element's
   keepZoom(chart, copy);
@@ -139,6 +145,11 @@ async function redrawn(Plotly, chart, { chart: figure, config, presenting }) {
 // Draws the ticks that suit a zoom, or those of the whole axis again.
 function zoomed(chart, changed) {
   if (Object.keys(changed).some((name) => /axis\d*\.(auto)?range/.test(name))) draw(chart, chart.shown);
+}
+
+// Returns a figure with what an overview leaves out, where that is shown.
+function unfolded(figure, whole) {
+  return whole ? { ...figure, layout: { ...figure.layout, ...figure.layout.meta } } : figure;
 }
 
 // High as the window allows: in a presentation it fills what lies below its place.
@@ -199,7 +210,9 @@ export default function ({ data, parentElement }) {
   }
   const chart = charts.get(parentElement) ?? made(parentElement);
   chart.given = JSON.parse(new TextDecoder().decode(data));
-  const { key, alt, chart: figure, presenting } = chart.given;
+  const { key, alt, presenting } = chart.given;
+  const figure = unfolded(chart.given.chart, presenting);
+  chart.given.chart = figure;
   window.rotorcalcCharts.set(key, chart);
   chart.element.setAttribute("aria-label", alt);
   chart.element.style.height = fitted(chart.view, figure, presenting);

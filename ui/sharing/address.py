@@ -31,7 +31,7 @@ from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, machine_of, tidy
 
 CASES = "cases"
 # Parameters that are no value of the machine.
-_NOT_VALUES = frozenset(("preset", "units", CASES))
+_NOT_VALUES = frozenset(("preset", "units", "present", CASES))
 
 
 @dataclass
@@ -41,6 +41,8 @@ class Link:
     preset: str = DEFAULT_PRESET
     values: Values = field(default_factory=lambda: dict(PRESET_VALUES[DEFAULT_PRESET]))
     units: str = "SI"
+    # The chart that a presentation shows, "1" for the first; "" at a desk.
+    present: str = ""
     problems: list[str] = field(default_factory=list)
     cases: tuple[Case, ...] = ()
     choices: dict[str, str] = field(default_factory=dict)
@@ -50,6 +52,7 @@ def read(params: Mapping[str, str]) -> Link:
     """Return what query parameters say; a value that cannot be used leaves the preset's."""
     link = Link()
     link.preset = _word(params, "preset", DEFAULT_PRESET, PRESET_VALUES, link.problems)
+    link.present = params.get("present", "").removesuffix("0")
     link.units = _word(params, "units", "SI", SYSTEMS, link.problems)
     link.choices = {key: word for key, word in params.items() if key in NAMES}
     given = {key: word for key, word in params.items() if key not in _NOT_VALUES | NAMES}
