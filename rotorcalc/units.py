@@ -1,6 +1,7 @@
 """Units of display: SI as engineers write it, and US customary; factors from scipy.constants."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -50,6 +51,7 @@ class Units:
     force: Unit
     length: Unit
     film: Unit
+    amplitude: Unit
     viscosity: Unit
     temperature: Unit
     per_temperature: Unit
@@ -76,6 +78,7 @@ SI = Units(
     force=Unit("N"),
     length=Unit("mm", 1e3),
     film=Unit("µm", 1e6),
+    amplitude=Unit("µm 0-p", 1e6),
     viscosity=Unit("mPa·s", 1e3),
     temperature=Unit("°C"),
     per_temperature=Unit("1/°C"),
@@ -97,6 +100,7 @@ US = Units(
     length=Unit("in", 1 / inch),
     # A mil is a thousandth of an inch.
     film=Unit("mil", 1 / mil),
+    amplitude=Unit("mil 0-p", 1 / mil),
     viscosity=Unit("µreyn", 1e6 / _REYN),
     # A difference of 1 °C is 1.8 °F, so a coefficient takes the factor without the offset.
     temperature=Unit("°F", 1.8, 32.0),
@@ -114,3 +118,34 @@ US = Units(
 )
 
 SYSTEMS = {"SI": SI, "US": US}
+# Readings of a vibration over its amplitude: zero to peak, and peak to peak.
+AMPLITUDES = {"0-p": 1.0, "p-p": 2.0}
+
+
+@cache
+def with_amplitudes(units: Units, reading: str) -> Units:
+    """Return units in which amplitudes are read zero to peak, or peak to peak.
+
+    Parameters
+    ----------
+    units : Units
+        The units.
+    reading : str
+        "0-p" or "p-p".
+
+    Returns
+    -------
+    Units
+        The same, the unit of amplitudes named after the reading.
+
+    Raises
+    ------
+    ValueError
+        Where the reading is neither.
+    """
+    if reading not in AMPLITUDES:
+        raise ValueError(f"reading = {reading!r}: must be {' or '.join(map(repr, AMPLITUDES))}")
+    film = units.film
+    return replace(
+        units, amplitude=Unit(f"{film.name} {reading}", film.per_si * AMPLITUDES[reading])
+    )

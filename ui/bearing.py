@@ -23,6 +23,7 @@ KIND, FILM = "bearing", "film"
 _TAKEN = frozenset((
     "mass", "load", "T", "mu", "TR", "alpha", "rho", "C", "D", "L", "k", "u", "cs", "mj", "rpm",
     "rpm_max", "bearing", "film", "T_in", "flow", "share", "preset", "units", "tab", "present",
+    "amplitude",
 ))  # fmt: skip
 _UNITS = {"rad": "angle", "m": "length", "Pa": "pressure", "m³/s": "flow", "kg": "mass"}
 

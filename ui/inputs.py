@@ -52,14 +52,14 @@ class Input:
     def shown(self, value: float, units: Units) -> float:
         """Return a kept value in a visitor's unit."""
         # Kept as it is: a change of unit and back would change its last digit.
-        if units is SI:
+        if units.name == SI.name:
             return float(value)
         return float(self.unit(units).of(self.unit(SI).to_si(value)))
 
     def stored(self, reading: float, units: Units) -> float:
         """Return a visitor's reading as it is kept."""
         # As above.
-        if units is SI:
+        if units.name == SI.name:
             return reading
         return tidy(float(self.unit(SI).of(self.unit(units).to_si(reading))))
 

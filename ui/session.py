@@ -11,7 +11,7 @@ from typing import Any
 
 import streamlit as st
 
-from rotorcalc.units import SYSTEMS, Units
+from rotorcalc.units import SYSTEMS, Units, with_amplitudes
 from ui import cases
 from ui.bearing import KIND, Value, Values
 from ui.cases import Case
@@ -45,6 +45,8 @@ class Session:
     # computed, as the rest is another machine than was meant.
     refused: list[str] = field(default_factory=list)
     cases: tuple[Case, ...] = ()
+    # How amplitudes are read: "0-p" or "p-p".
+    amplitude: str = "0-p"
     typed: bool = False
     image_format: str = "png"
     # Of a presentation: "" at the desk, else the key of the chart in view, or "1" for the first;
@@ -78,7 +80,7 @@ class Session:
     @property
     def units(self) -> Units:
         """The units shown."""
-        return SYSTEMS[self.units_name]
+        return with_amplitudes(SYSTEMS[self.units_name], self.amplitude)
 
     def set_value(self, key: str, value: Value) -> None:
         """Keep a moved value, and drop the messages about a link or a file."""
@@ -164,6 +166,7 @@ class Session:
     def link(self) -> dict[str, str]:
         """Return the query parameters of a link to what is shown."""
         shown = address.write(self.preset, self.values, self.units_name, self.cases)
+        shown |= {"amplitude": self.amplitude} if self.amplitude != "0-p" else {}
         presented = {"present": self.present} if self.present else {}
         return shown | choices().link() | presented
 
@@ -210,7 +213,7 @@ def session() -> Session:
     given = address.read(st.query_params.to_dict())
     st.session_state[_KEY] = visitor = Session(
         preset=given.preset, values=given.values, units_name=given.units, refused=given.problems,
-        cases=given.cases, present=given.present,
+        cases=given.cases, amplitude=given.amplitude, present=given.present,
     )  # fmt: skip
     choices().words = given.choices
     return visitor

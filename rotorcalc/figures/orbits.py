@@ -123,11 +123,11 @@ def growth(let_go: Release, units: Units) -> Chart:
 
 def spectrum(let_go: Release, units: Units) -> Chart:
     """Return the spectrum of the journal's motion over orders of the running speed."""
-    unit, seen = units.film, let_go.spectrum
+    unit, seen = units.amplitude, let_go.spectrum
     x = style.axis("Frequency over running speed, order [-]", -1.5, 2.5, dtick=0.5)
     lines = [seen.whirl, seen.synchronous]
     top = style.ceiling(1.1 * unit.of([*lines, float(seen.amplitude.max())]))
-    y = style.axis(f"Radius of the circle [{unit.name}]", 0.0, top)
+    y = style.axis(f"Amplitude of the circle [{unit.name}]", 0.0, top)
     speed = float(let_go.motion.speed[0])
     traces = [
         style.line(seen.order, unit.of(seen.amplitude), "journal", style.JOURNAL, width=1.6),
@@ -166,11 +166,11 @@ def once_a_revolution(let_go: Release, units: Units) -> Chart:
 
 def waterfall(run: RunUp, units: Units) -> Chart:
     """Return the spectra of a run-up over orders and speed, the linear theory's whirl on them."""
-    unit, seen = units.film, run.seen
+    unit, seen = units.amplitude, run.seen
     speed = units.speed.of(seen.speed)
     x = style.axis("Frequency over running speed, order [-]", 0.0, 1.5, dtick=0.25)
     y = style.axis(titled("Running speed", "Ω", units.speed.name), speed.min(), speed.max())
-    title = f"Radius of the circle [{unit.name}]"
+    title = f"Amplitude of the circle [{unit.name}]"
     top = float(np.quantile(unit.of(seen.amplitude), 0.9995))
     heat: Trace = {
         "type": "heatmap", "name": "spectrum", "x": seen.order, "y": speed,

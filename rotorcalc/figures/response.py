@@ -43,12 +43,12 @@ _VARIANTS = (
 
 def amplitude(curves: ResponseCurves, shown: Literal["axes", "XY"], units: Units) -> Chart:
     """Return the amplitudes of disk and journal against speed: the orbit's axes, or X and Y."""
-    x, unit = _speed_axis(curves, units), units.film
+    x, unit = _speed_axis(curves, units), units.amplitude
     bodies = _bodies(curves)
     sizes = [part for _, body, _, _ in bodies for part in _parts(body, shown)]
     peaks = [found.amplitude for _, _, found, _ in bodies]
     top = style.ceiling(_HEADROOM * unit.of(np.concatenate([*sizes, *peaks])))
-    y = style.axis(f"Amplitude, 0 to peak [{unit.name}]", 0.0, top)
+    y = style.axis(f"Amplitude [{unit.name}]", 0.0, top)
     traces: list[Trace] = []
     notes: list[dict[str, Any]] = _unstable_note(curves)
     shapes = _shades(curves, units)
@@ -151,11 +151,11 @@ def family(
 
     The first rotor is this machine's; `curves` are its response.
     """
-    is_disk, unit = at == "disk", units.film
+    is_disk, unit = at == "disk", units.amplitude
     sizes = unit.of(responses.disk if is_disk else responses.journal)
     speed = units.speed.of(responses.speed)
     x = _speed_axis(curves, units)
-    title = f"{at.capitalize()}, semi-major axis [{unit.name}]"
+    title = f"{at.capitalize()}, amplitude of its major axis [{unit.name}]"
     y = style.axis(title, 0.0, style.ceiling(sizes))
     names = [_variant_name(rotor, varied, units) for rotor in responses.rotors]
     own: tuple[str, float] = (style.DISK if is_disk else style.JOURNAL, 3.6)
@@ -208,7 +208,7 @@ def _pair(
 def _peak_marks(peaks: ResponsePeaks, body: str, colour: str, units: Units) -> list[Trace]:
     if not len(peaks.speed):
         return []
-    at, size = units.speed.of(peaks.speed), units.film.of(peaks.amplitude)
+    at, size = units.speed.of(peaks.speed), units.amplitude.of(peaks.amplitude)
     shape = {"size": 11, "symbol": "diamond", "color": colour,
              "line": {"color": "#333333", "width": 1.2}}  # fmt: skip
     return [style.mark(at, size, f"peak of the {body}", marker=shape, showlegend=False)]
@@ -218,11 +218,11 @@ def _peak_labels(peaks: ResponsePeaks, body: str, units: Units, x: Axis) -> list
     """Return labels with amplitude and speed of each peak, on the side with more room."""
     right = max(x["range"])
     labels: list[dict[str, Any]] = []
-    sizes = units.film.of(peaks.amplitude)
+    sizes = units.amplitude.of(peaks.amplitude)
     for speed, size in zip(units.speed.of(peaks.speed), sizes, strict=True):
         to_left = speed > (0.3 if body == "disk" else 0.7) * right
         number = f"{size:.3g}" if size < 1e3 else f"{size:.0f}"
-        text = f"{number} {units.film.name}, {speed:.0f} {units.speed.name}"
+        text = f"{number} {units.amplitude.name}, {speed:.0f} {units.speed.name}"
         labels.append(
             {"x": float(speed), "y": float(size), "text": text, "showarrow": False,
              "xanchor": "right" if to_left else "left", "yanchor": "bottom", "yshift": 7,

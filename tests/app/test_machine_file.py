@@ -30,11 +30,11 @@ def _loaded(document: bytes, **query: str) -> AppTest:
 
 def test_a_file_brings_machine_speeds_units_cases_name_and_note() -> None:
     at = visit(HOME, preset="sheet-1e7", C="81.3", rpm="3456", rpm_max="9000", units="US",
-               cases=CASES)  # fmt: skip
+               amplitude="p-p", cases=CASES)  # fmt: skip
     other = _loaded(_written(at), C="70")
     mine, theirs = session_of(at), session_of(other)
-    assert (theirs.preset, theirs.values, theirs.units_name, theirs.cases) == (
-        mine.preset, mine.values, mine.units_name, mine.cases,
+    assert (theirs.preset, theirs.values, theirs.units, theirs.cases) == (
+        mine.preset, mine.values, mine.units, mine.cases,
     )  # fmt: skip
     assert other.text_input(key="label_name").value == LABELS.name
     assert other.text_area(key="label_note").value == LABELS.note

@@ -4,6 +4,7 @@ import json
 import math
 
 import pytest
+from streamlit.testing.v1 import AppTest
 
 from rotorcalc import Machine
 from rotorcalc.units import US
@@ -22,6 +23,8 @@ from tests.app.session import (
 from ui.format import literal
 from ui.inputs import INPUTS, PRESET_VALUES, machine_of, values_of
 from ui.sharing import address
+
+RESPONSE = "pages/5_Response.py"
 
 
 def _units(at, name: str) -> None:
@@ -97,6 +100,49 @@ def test_moving_a_slider_in_us_units_keeps_si() -> None:
     at = visit(HOME, units="US")
     at.select_slider(key="input_C_US_slider").set_value(4.0).run()
     assert session_of(at).values["C"] == pytest.approx(4 * 25.4, rel=1e-12)
+
+
+@pytest.mark.parametrize("units", ["SI", "US"])
+def test_one_switch_reads_every_amplitude_peak_to_peak(units: str) -> None:
+    at = visit(RESPONSE, units=units)
+    before, values = _amplitudes(at), dict(session_of(at).values)
+    assert len(before) == 2
+    open_part(at, "settings")
+    at.segmented_control(key="amplitude").set_value("p-p").run()
+    assert session_of(at).values == values
+    assert at.query_params["amplitude"] == "p-p"
+    after = _amplitudes(at)
+    for label, (number, unit) in before.items():
+        twice, now = after[label]
+        assert float(twice) == pytest.approx(2.0 * float(number), rel=1e-3)
+        assert (unit[-3:], now) == ("0-p", unit.replace("0-p", "p-p"))
+    other = visit(RESPONSE, **at.query_params)
+    assert _amplitudes(other) == after
+    titles = _titles(other)
+    assert any("p-p]" in title for title in titles)
+    assert not any("0-p]" in title for title in titles)
+    assert faults(other) == []
+
+
+def test_a_link_with_another_reading_of_amplitudes_is_reported() -> None:
+    at = visit(HOME, amplitude="rms")
+    assert any("`'rms'` is not one of 0-p, p-p" in box.value for box in at.warning)
+
+
+def _amplitudes(at: AppTest) -> dict[str, tuple[str, str]]:
+    """Return number and unit of each amplitude shown."""
+    parts = {metric.label: metric.value.partition(" ") for metric in at.metric}
+    return {label: (number, unit) for label, (number, _, unit) in parts.items() if "-p" in unit}
+
+
+def _titles(at: AppTest) -> list[str]:
+    layouts = [chart["layout"] for chart in charts(at).values()]
+    return [
+        part["title"]["text"]
+        for layout in layouts
+        for name, part in layout.items()
+        if "axis" in name and "title" in part
+    ]
 
 
 def test_a_broken_link_gets_a_message_and_keeps_the_valid_values() -> None:

@@ -67,6 +67,26 @@ def test_units_switch_leaves_the_machine(app: AppPage) -> None:
     assert app.metrics() == numbers
 
 
+def test_one_switch_reads_amplitudes_peak_to_peak_in_numbers_charts_and_link(
+    app: AppPage, stranger: AppPage
+) -> None:
+    app.open("Response")
+    before = app.metrics()["Disk orbit"]
+    assert before.endswith("µm 0-p")
+    app.open_popover("Units and settings")
+    with app.run():
+        app.page.get_by_role("radio", name="peak to peak").click()
+    app.close_popover()
+    after = app.metrics()["Disk orbit"]
+    assert after.endswith("µm p-p")
+    assert float(after.split()[0]) == pytest.approx(2.0 * float(before.split()[0]), rel=1e-3)
+    expect(app.charts().first).to_contain_text("[µm p-p]")
+    app.go("Orbits")
+    assert app.query() == {"amplitude": "p-p"}
+    stranger.open("Response", **app.query())
+    assert stranger.metrics()["Disk orbit"] == after
+
+
 def _choose_units(app: AppPage, units: str) -> None:
     body = app.open_popover("Units and settings")
     with app.run():

@@ -1,12 +1,14 @@
 """What all charts share: round axes, the mark of the running speed."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from rotorcalc.figures import SI, US, style, text, themed
-from rotorcalc.units import SYSTEMS
+from rotorcalc.units import SYSTEMS, with_amplitudes
 from tests.figures.charts import beside
 
 
@@ -71,6 +73,17 @@ def test_every_unit_leads_to_si_and_back(system, value):
 def test_us_units_are_the_defined_ones(kind, si, us):
     assert float(getattr(US, kind).of(si)) == pytest.approx(us, rel=1e-12)
     assert getattr(SI, kind).name != getattr(US, kind).name
+
+
+@pytest.mark.parametrize("system", SYSTEMS.values(), ids=SYSTEMS)
+def test_peak_to_peak_is_twice_zero_to_peak_and_changes_nothing_else(system):
+    assert with_amplitudes(system, "0-p") == system
+    twice = with_amplitudes(system, "p-p")
+    assert float(twice.amplitude.of(1e-5)) == pytest.approx(2.0 * float(system.film.of(1e-5)))
+    assert twice.amplitude.name == f"{system.film.name} p-p"
+    assert replace(twice, amplitude=system.amplitude) == system
+    with pytest.raises(ValueError, match="must be '0-p' or 'p-p'"):
+        with_amplitudes(system, "rms")
 
 
 @pytest.mark.parametrize("most", [4, 6])

@@ -16,7 +16,7 @@ import pytest
 from rotorcalc import __version__
 from rotorcalc.figures.cases import COLOURS
 from rotorcalc.onset import whirl
-from rotorcalc.units import SI, US, Units
+from rotorcalc.units import SI, US, Units, with_amplitudes
 from ui.cases import Case, Shown
 from ui.computed import Computed, computed_from
 from ui.format import digits
@@ -39,7 +39,11 @@ CASES: dict[str, Values] = {
     "slow": DEFAULT | {"rpm": 100.0},
 }
 every_case = pytest.mark.parametrize("case", CASES)
-either_system = pytest.mark.parametrize("units", [SI, US], ids=lambda units: units.name)
+either_system = pytest.mark.parametrize(
+    "units",
+    [SI, US, with_amplitudes(US, "p-p")],
+    ids=lambda units: f"{units.name} {units.amplitude.name}",
+)
 
 
 def computed(case: str) -> Computed:
@@ -91,7 +95,7 @@ def test_csv_agrees_with_the_sweep(case: str, units: Units) -> None:
             sweep.flexible_threshold
         ),
     } | {
-        f"{part}: amplitude |Y| [{units.film.name}]": units.film.of(abs(response[:, 1]))
+        f"{part}: amplitude |Y| [{units.amplitude.name}]": units.amplitude.of(abs(response[:, 1]))
         for part, response in lag.items()
     }
     for name, values in expected.items():
@@ -110,6 +114,24 @@ def test_csv_follows_the_units_shown() -> None:
     column = si.index("Smallest film h_min [µm]")
     assert us[column] == "Smallest film h_min [mil]"
     np.testing.assert_allclose(in_us[:, column] * 25.4, in_si[:, column], rtol=1e-9)
+
+
+def test_csv_and_report_say_how_amplitudes_are_read() -> None:
+    twice = with_amplitudes(SI, "p-p")
+    (zero, in_zero), (peak, in_peak) = sheet("sheet-1e8", SI), sheet("sheet-1e8", twice)
+    amplitudes = [i for i, name in enumerate(zero) if name.endswith("[µm 0-p]")]
+    assert len(amplitudes) == 8  # |X|, |Y| and two semi-axes of disk and journal
+    assert [peak[i].replace("p-p", "0-p") for i in amplitudes] == [zero[i] for i in amplitudes]
+    np.testing.assert_allclose(in_peak[:, amplitudes], 2.0 * in_zero[:, amplitudes], rtol=1e-9)
+    rest = [i for i in range(len(zero)) if i not in amplitudes]
+    np.testing.assert_array_equal(in_peak[:, rest], in_zero[:, rest])
+    for units, said, other in ((SI, "0-p", "p-p"), (twice, "p-p", "0-p")):
+        page = report.report(computed("sheet-1e8"), [], units, LINK, LABELS).decode()
+        numbers = re.findall(r"[\d.]+ µm (0-p|p-p)", page)
+        assert set(numbers) == {said}
+        assert len(numbers) >= 2
+        assert f"Amplitude [µm {said}]" in page
+        assert f"Amplitude [µm {other}]" not in page
 
 
 @pytest.mark.parametrize("case", ["sheet-1e8", "rigid", "journal mass and damping"])

@@ -4,7 +4,7 @@ import streamlit as st
 
 from rotorcalc import PRESETS, Oil
 from rotorcalc.oils import ISO_VG, fitted_oil, iso_oil
-from rotorcalc.units import SI, SYSTEMS, Unit, Units
+from rotorcalc.units import AMPLITUDES, SI, SYSTEMS, Unit, Units
 from ui.format import amount
 from ui.inputs import GROUPS, INPUTS, OPEN_GROUPS, machine_of, number
 from ui.session import session
@@ -26,6 +26,7 @@ _STYLE = """<style>
 </style>"""
 
 _LOAD = INPUTS["load"]
+_READINGS = {"0-p": "zero to peak", "p-p": "peak to peak"}
 
 
 def draw_inputs() -> None:
@@ -159,11 +160,17 @@ def _settings() -> None:
         return
     with settings:
         visitor.mirror("units", visitor.units_name)
+        visitor.mirror("amplitude", visitor.amplitude)
         visitor.mirror("typed", visitor.typed)
         visitor.mirror("image_format", visitor.image_format)
         st.segmented_control(
             "Units", list(SYSTEMS), key="units", on_change=_set_units, required=True
         )
+        st.segmented_control(
+            "Amplitudes of vibration", list(AMPLITUDES), key="amplitude", required=True,
+            format_func=_READINGS.__getitem__, on_change=_set_amplitude,
+            help="In numbers, charts, report and CSV.",
+        )  # fmt: skip
         st.toggle("Type values instead of sliding", key="typed", on_change=_set_typed)
         st.segmented_control(
             "Charts are saved as", ["png", "svg"], key="image_format", on_change=_set_image,
@@ -173,6 +180,10 @@ def _settings() -> None:
 
 def _set_units() -> None:
     session().units_name = st.session_state["units"]
+
+
+def _set_amplitude() -> None:
+    session().amplitude = st.session_state["amplitude"]
 
 
 def _set_typed() -> None:

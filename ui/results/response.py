@@ -27,19 +27,23 @@ def _circles(response: np.ndarray) -> str:
 
 
 _MOTION = equation("5.38")
+_AXES = (
+    "Semi-major axis; f and b are the orbit's forward and backward circles, (X ± jY)/2. Read zero "
+    "to peak (0-p) it is a, peak to peak (p-p) 2a."
+)
 RESPONSE: tuple[Result, ...] = (
     Result(
-        "disk_amplitude", "Disk orbit", "film",
+        "disk_amplitude", "Disk orbit", "amplitude",
         lambda c: _orbit(c.point.disk_response)[2], "Eq. 5.38", r"a = |f| + |b|",
         lambda c: _circles(c.point.disk_response),
-        "Semi-major axis; f and b are the orbit's forward and backward circles, (X ± jY)/2.",
+        _AXES,
         cites=_MOTION,
     ),
     Result(
-        "journal_amplitude", "Journal orbit", "film",
+        "journal_amplitude", "Journal orbit", "amplitude",
         lambda c: _orbit(c.point.journal_response)[2], "Eq. 5.38", r"a = |f| + |b|",
         lambda c: _circles(c.point.journal_response),
-        "Semi-major axis; f and b are the orbit's forward and backward circles, (X ± jY)/2.",
+        _AXES,
         cites=_MOTION,
     ),
     Result(

@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from rotorcalc.figures.cases import COLOURS
-from rotorcalc.units import SYSTEMS
+from rotorcalc.units import AMPLITUDES, SYSTEMS
 from ui.bearing import (
     FILM,
     KIND,
@@ -31,7 +31,7 @@ from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, machine_of, tidy
 
 CASES = "cases"
 # Parameters that are no value of the machine.
-_NOT_VALUES = frozenset(("preset", "units", "present", CASES))
+_NOT_VALUES = frozenset(("preset", "units", "amplitude", "present", CASES))
 
 
 @dataclass
@@ -41,6 +41,7 @@ class Link:
     preset: str = DEFAULT_PRESET
     values: Values = field(default_factory=lambda: dict(PRESET_VALUES[DEFAULT_PRESET]))
     units: str = "SI"
+    amplitude: str = "0-p"
     # The chart that a presentation shows, "1" for the first; "" at a desk.
     present: str = ""
     problems: list[str] = field(default_factory=list)
@@ -54,6 +55,7 @@ def read(params: Mapping[str, str]) -> Link:
     link.preset = _word(params, "preset", DEFAULT_PRESET, PRESET_VALUES, link.problems)
     link.present = params.get("present", "").removesuffix("0")
     link.units = _word(params, "units", "SI", SYSTEMS, link.problems)
+    link.amplitude = _word(params, "amplitude", "0-p", AMPLITUDES, link.problems)
     link.choices = {key: word for key, word in params.items() if key in NAMES}
     given = {key: word for key, word in params.items() if key not in _NOT_VALUES | NAMES}
     link.values = checked_values(given, link.preset, link.problems)

@@ -140,8 +140,8 @@ def _orbit(words: str, units: Units, response: ComplexArray) -> Iterator[Column]
     # Where nothing moves nothing lags.
     lag = np.where(amplitude > 0.0, phase_lag(response), np.nan)
     for i, axis in enumerate("XY"):
-        yield f"{words}: amplitude |{axis}|", units.film, amplitude[:, i]
+        yield f"{words}: amplitude |{axis}|", units.amplitude, amplitude[:, i]
         yield f"{words}: phase lag of {axis}", units.angle, lag[:, i]
     ellipse = orbit_ellipse(response)
-    yield f"{words}: semi-major axis", units.film, ellipse.semi_major
-    yield f"{words}: semi-minor axis (negative: backward)", units.film, ellipse.semi_minor
+    yield f"{words}: semi-major axis", units.amplitude, ellipse.semi_major
+    yield f"{words}: semi-minor axis (negative: backward)", units.amplitude, ellipse.semi_minor

@@ -1,6 +1,7 @@
 """The machine's file: the core's JSON, and beside it how the machine is shown.
 
-Under "app" it holds name and note, and in the words of a link preset, units, speeds and cases. A
+Under "app" it holds name and note, and in the words of a link preset, units,
+amplitudes, speeds and cases. A
 file without it is read as the machine alone.
 """
 
@@ -19,6 +20,7 @@ from ui.sharing import address
 from ui.sharing.labels import Labels
 
 _SPEEDS = ("rpm", "rpm_max")
+_SHOWN = ("preset", "units", "amplitude")
 
 
 @dataclass
@@ -37,7 +39,8 @@ def write(machine: Machine, visitor: Session, labels: Labels) -> bytes:
     shown = address.write(visitor.preset, visitor.values, visitor.units_name, visitor.cases)
     app: dict[str, Any] = {
         "name": labels.name, "note": labels.note, "preset": visitor.preset,
-        "units": visitor.units_name, **{key: visitor.values[key] for key in _SPEEDS},
+        "units": visitor.units_name, "amplitude": visitor.amplitude,
+        **{key: visitor.values[key] for key in _SPEEDS},
         "cases": shown.get(address.CASES, ""),
     }  # fmt: skip
     document = json.loads(machine.to_json()) | {APP: app}
@@ -50,9 +53,9 @@ def read(text: str, visitor: Session) -> Loaded:
     app = parsed(text).get(APP, {})
     if not isinstance(app, Mapping):
         raise ValueError(f"{APP} = {quoted(app)}: must be a JSON object")
-    words = {"preset": visitor.preset, "units": visitor.units_name} | {
-        key: str(app[key]) for key in ("preset", "units", address.CASES) if key in app
-    }
+    words = {
+        "preset": visitor.preset, "units": visitor.units_name, "amplitude": visitor.amplitude,
+    } | {key: str(app[key]) for key in (*_SHOWN, address.CASES) if key in app}  # fmt: skip
     link = address.read(words)
     values = values_of(machine, *speeds_of(visitor.values))
     speeds = {key: app[key] for key in _SPEEDS if key in app}

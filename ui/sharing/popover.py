@@ -82,6 +82,7 @@ def _load() -> None:
         return
     link = loaded.link
     visitor.preset, visitor.values, visitor.units_name = link.preset, link.values, link.units
+    visitor.amplitude = link.amplitude
     if loaded.has_cases:
         visitor.cases = link.cases
     labels.name(loaded.name, loaded.note)

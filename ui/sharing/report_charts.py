@@ -195,7 +195,7 @@ SECTIONS: dict[str, tuple[Figure, ...]] = {
     RESPONSE: (
         Figure(
             "amplitude", "Amplitude", lambda c, u: response.amplitude(c.response, "axes", u),
-            "Semi-axes of the orbits, zero to peak.", (), "Eq. 5.38", width=FULL, height=255,
+            "Semi-axes of the orbits, as amplitudes.", (), "Eq. 5.38", width=FULL, height=255,
         ),
         Figure(
             "phase", "Phase lag", lambda c, u: response.phase(c.response, u),

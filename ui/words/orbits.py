@@ -270,8 +270,8 @@ def _measured(computed: Computed, found: Release, units: Units) -> Text:
     rows = {
         "Whirl ratio, measured": ratio,
         "Whirl ratio, linear": "none" if math.isnan(predicted) else f"{predicted:.4f}",
-        "Whirl's circle": amount(units.film, seen.whirl),
-        "1× circle": amount(units.film, seen.synchronous),
+        "Whirl's circle": amount(units.amplitude, seen.whirl),
+        "1× circle": amount(units.amplitude, seen.synchronous),
         "Ends within": f"{found.last_size / C:.3g} C of equilibrium",
     }
     lines = (rows, ["--:"] * len(rows), rows.values())

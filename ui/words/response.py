@@ -73,7 +73,7 @@ def amplitude_caption(computed: Computed) -> str:
     unstable = (
         " Shaded: unstable, no steady response exists." if len(computed.response.unstable) else ""
     )
-    return f"Zero to peak, about equilibrium; {peaks}.{unstable} Eq. 5.38."
+    return f"About equilibrium; {peaks}.{unstable} Eq. 5.38."
 
 
 def senses(computed: Computed) -> str:
