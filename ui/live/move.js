@@ -67,8 +67,8 @@ function say(node, text) {
   const pieces = text.split(/<[^>]*>/).filter(Boolean);
   const texts = document.createTreeWalker(node, NodeFilter.SHOW_TEXT);
   const drawn = [];
-  // Plotly returns from an index to the line by a text without width.
-  while (texts.nextNode()) if (texts.currentNode.nodeValue !== "\u200b") drawn.push(texts.currentNode);
+  // Plotly returns from an index to the line by a text without width, and has an empty one before a tag.
+  while (texts.nextNode()) if (!["\u200b", ""].includes(texts.currentNode.nodeValue)) drawn.push(texts.currentNode);
   need(drawn.length === pieces.length);
   drawn.forEach((place, k) => { place.nodeValue = pieces[k]; });
 }
