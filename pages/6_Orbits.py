@@ -11,7 +11,7 @@ from ui.words.citation import cited, remark
 
 
 def content(shown: Page) -> None:
-    answer = st.container()
+    answer = st.container(key="outcome")
     with st.container(key="release"):
         asked = ask.choose_release(shown.computed)
     page = ask.try_out(shown, asked)

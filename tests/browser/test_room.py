@@ -80,6 +80,16 @@ def test_answer_chart_and_controls_stand_above_the_fold(
     assert {part: edge for part, edge in edges.items() if edge > HEIGHT} == {}
 
 
+@pytest.mark.parametrize("name", CHARTS)
+def test_a_presentation_has_room_on_a_small_projector(app: AppPage, name: str) -> None:
+    app.page.set_viewport_size({"width": 1024, "height": 768})
+    app.open(name, present="1")
+    edges = app.page.evaluate(_EDGES)
+    assert {part: edge for part, edge in edges.items() if edge > 768} == {}
+    plot = app.page.locator(".js-plotly-plot .bglayer, .js-plotly-plot .cartesianlayer").first
+    assert plot.evaluate("plot => plot.getBoundingClientRect().height") > 120
+
+
 def test_key_p_presents_one_chart_at_a_time_in_large_type_and_is_in_the_link(app: AppPage) -> None:
     app.open("Stability")
     assert app.charts().count() == 3

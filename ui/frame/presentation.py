@@ -14,9 +14,10 @@ from ui.widgets import show_inputs
 
 # All of Streamlit's sizes are in rem. Where one chart is shown, a column without one has no place,
 # unless it has the numbers beside the drawing. The choice of the chart stands beside the title,
-# what is asked before a release below its chart.
+# what is asked before a release, and what came of it, below its chart. Type grows with the window,
+# which a projector shows at one size.
 STYLE = """<style>
-html {font-size: 125%;}
+html {font-size: clamp(100%, min(1.39vw, 2.22vh), 175%);}
 .stMainBlockContainer {padding: 0.3rem 1.25rem;}
 .st-key-page_title > .stElementContainer:has(> .stMarkdown) {display: none;}
 .st-key-views {align-items: flex-end;}
@@ -25,7 +26,7 @@ html {font-size: 125%;}
 .stMain .stHorizontalBlock:has(.live-chart):not(:has(.stMetric)) > .stColumn:not(:has(.live-chart)),
 .stMain .stHorizontalBlock:has(.stMetric):not(:has(.live-chart)):has(> .stColumn),
 .stMain .stColumn [data-testid="stPageLink"] {display: none;}
-[data-testid="stLayoutWrapper"]:has(> .st-key-release) {order: 1;}
+[data-testid="stLayoutWrapper"]:has(> :is(.st-key-release, .st-key-outcome)) {order: 1;}
 [class*="st-key-results_"] .stPopover {display: none;}
 </style>"""
 # The sliders shown first: the speed and what were changed from the preset, up to as many.

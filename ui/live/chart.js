@@ -20,8 +20,9 @@ const STYLE = `
 `;
 const CORNERS = `<svg viewBox="0 0 16 16" width="16" height="16" fill="none" stroke="currentColor" stroke-width="1.6">
   <path d="M2 6V2h4M10 2h4v4M14 10v4h-4M6 14H2v-4"/></svg>`;
-// Type for the last row of a lecture hall, over type for a desk.
-const LARGE = 10 / 7;
+// Type for the last row of a lecture hall, over type for a desk: 20 px in a window of 1440 × 900, in proportion
+// in others, as a projector shows them at one size, and 16 px at least.
+const large = () => Math.min(2, Math.max(8 / 7, Math.min(innerWidth / 1008, innerHeight / 630)));
 
 const FAILED = "This chart could not be drawn: Plotly's script did not load. Reload the page.";
 // Milliseconds without a change after which Plotly draws a moved chart.
@@ -133,7 +134,7 @@ function enlarge({ data, layout }, factor) {
 async function redrawn(Plotly, chart, { chart: figure, config, presenting }) {
   const whole = document.fullscreenElement === chart.view;
   const copy = structuredClone(unfolded(figure, whole)); // Plotly writes into what it is given
-  if (whole || presenting) enlarge(copy, LARGE);
+  if (whole || presenting) enlarge(copy, large());
   delete copy.layout.height; // the element's
   keepZoom(chart, copy);
   await Plotly.react(chart.element, { ...copy, config });
@@ -154,7 +155,7 @@ function unfolded(figure, whole) {
 
 // High as the window allows: in a presentation it fills what lies below its place.
 function fitted(view, { layout: { height } }, presenting) {
-  if (!presenting) return `clamp(${0.8 * height}px, calc((100vh - 300px) * ${height / 600}), ${1.5 * height}px)`;
+  if (!presenting) return `clamp(${0.8 * height}px, calc((100vh - 306px) * ${height / 600}), ${1.5 * height}px)`;
   const main = view.closest('[data-testid="stMain"]');
   const top = view.getBoundingClientRect().top + (main?.scrollTop ?? 0);
   return `max(340px, calc(100vh - ${Math.ceil(top)}px - 4rem))`;
