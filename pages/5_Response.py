@@ -50,27 +50,24 @@ def orbits(page: Page) -> None:
     left, right = st.columns(2)
     with left:
         page.chart(
-            lambda c: draw.in_clearance(c.clearance_orbit, c.sweep.journal_position, units),
+            lambda c: draw.played_in_clearance(
+                c.clearance_orbit, c.sweep.journal_position, c.orbits, c.orbit_steps, units
+            ),
             "clearance_orbit",
-            alt="The journal's orbit about its equilibrium inside its clearance.",
-            caption="The journal's centre in its clearance, about the point where it "
-            "rests at running speed. X points down, along the load; the shaft turns "
-            "counterclockwise.",
+            alt="The journal's orbit about its equilibrium inside its clearance, over speed.",
+            caption="The journal's centre in its clearance, about the point where it rests. X "
+            "points down, along the load; the shaft turns counterclockwise.",
         )
     with right:
         page.chart(
-            lambda c: draw.at_running_speed(c.orbits, units),
+            lambda c: draw.scrubber(c.orbit_steps, c.orbits, units),
             "orbits",
-            alt="Orbits of disk and journal at the running speed about the same point.",
-            caption=lambda c: f"Both about equilibrium. {words.senses(c)} {words.ORBIT_MARKS}",
+            alt="Orbits of disk and journal about the same point, with a slider over speed.",
+            caption=lambda c: (
+                f"Both about equilibrium. {words.senses(c)} {words.ORBIT_MARKS} "
+                "A case stays at its own running speed."
+            ),
         )
-    page.chart(
-        lambda c: draw.scrubber(c.orbit_steps, c.orbits, units),
-        "orbit_scrubber",
-        alt="Orbits of disk and journal, with a slider over speed.",
-        caption="The same at every speed; the slider starts at the running speed, and a "
-        "case stays at its own.",
-    )
 
 
 def family(page: Page) -> None:

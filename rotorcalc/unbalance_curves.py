@@ -108,6 +108,8 @@ class Orbits(Result):
         Ω [rad/s].
     disk, journal : array, (..., p, 2)
         Points in X, Y over one turn, from the instant when the imbalance points along X [m].
+    centre : array, (..., 2)
+        Static equilibrium of the journal's centre, from the bearing's [m].
     disk_forward, journal_forward : boolean array, (...)
         Whether the orbit turns with the shaft.
     is_rigid : bool
@@ -117,6 +119,7 @@ class Orbits(Result):
     speed: Array
     disk: Array
     journal: Array
+    centre: Array
     disk_forward: BoolArray
     journal_forward: BoolArray
     is_rigid: bool
@@ -275,6 +278,7 @@ def orbits(sweep: Sweep, *, points: int = _ORBIT_POINTS, every: int = 1) -> Orbi
         speed=sweep.speed[taken],
         disk=orbit_points(disk[..., 0], disk[..., 1], points=points),
         journal=orbit_points(journal[..., 0], journal[..., 1], points=points),
+        centre=sweep.journal_position[taken],
         disk_forward=orbit_ellipse(disk).semi_minor > 0.0,
         journal_forward=orbit_ellipse(journal).semi_minor > 0.0,
         is_rigid=sweep.machine.rotor.is_rigid,

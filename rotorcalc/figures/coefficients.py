@@ -12,7 +12,7 @@ import numpy as np
 from rotorcalc.analysis import ForceCoefficients, Sweep
 from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.coefficients import AddedMass, Unloading
-from rotorcalc.figures import style
+from rotorcalc.figures import cursor, style
 from rotorcalc.figures.style import Axis, Chart, Trace
 from rotorcalc.units import Unit, Units
 
@@ -92,7 +92,7 @@ def unloading(curve: Unloading, here: Unloading, centred: Unloading, units: Unit
 
 def added_mass(laminar: AddedMass, bulk: AddedMass, here: AddedMass, units: Units) -> Chart:
     """Return the film's added mass against running speed, for two velocity profiles."""
-    x, unit = _speed_axis(laminar.speed, units), units.mass
+    x, unit = cursor.speed_axis(laminar.speed, units), units.mass
     low, high = _span(unit.of(laminar.mass[_settled(laminar.speed)]))
     y = style.axis(style.titled("Added mass per bearing", "M_ij", unit.name), low, high)
     speed = units.speed.of(laminar.speed)
@@ -106,7 +106,8 @@ def added_mass(laminar: AddedMass, bulk: AddedMass, here: AddedMass, units: Unit
         traces.append(style.line(speed, flat, name, colour, dash="dot", width=1.6))
     values = unit.of(here.mass[[0, 1, 0], [0, 1, 1]])
     now = float(units.speed.of(here.speed))
-    return style.chart([*traces, *_points(now, values, (x, y), signed=True)], x, y)
+    chart = style.chart([*traces, *_points(now, values, (x, y), signed=True)], x, y)
+    return cursor.over_speed(chart, here.speed, units)
 
 
 def _dimensional(
@@ -121,7 +122,7 @@ def _dimensional(
     unit: Unit = units.stiffness if is_stiffness else units.damping
     values = unit.of(curve.stiffness if is_stiffness else curve.damping)
     values_here = unit.of(here.stiffness if is_stiffness else here.damping)
-    x = _speed_axis(sweep.speed, units)
+    x = cursor.speed_axis(sweep.speed, units)
     low, high = _span(np.append(values[_settled(sweep.speed)], values_here))
     words = "Stiffness" if is_stiffness else "Damping"
     y = style.axis(style.titled(words, f"{symbol}_ij", unit.name), low, high)
@@ -140,9 +141,10 @@ def _dimensional(
         K_eq = unit.of(curve.equivalent_stiffness)
         traces.append(style.line(speed, K_eq, style.symbols("K_eq"), style.GREY, dash="dot"))
     now = float(units.speed.of(point.speed))
-    return style.chart(
+    chart = style.chart(
         [*traces, *_points(now, values_here, (x, y), signed=True)], x, y, legend=_LEGEND
     )
+    return cursor.over_speed(chart, point.speed, units)
 
 
 def _elements(symbol: str, axes: str, places: Array, values: Array) -> list[Trace]:
@@ -208,11 +210,6 @@ def _decades(title: str, values: Array) -> Axis:
     sizes = np.abs(values[np.isfinite(values)])
     top = max(2, math.ceil(math.log10(float(sizes.max(initial=1.0)))))
     return style.axis(title, 0.1, 10.0**top, log=True)
-
-
-def _speed_axis(speed: Array, units: Units) -> Axis:
-    top = float(units.speed.of(speed[-1]))
-    return style.axis(style.titled("Running speed", "Ω", units.speed.name), 0.0, top)
 
 
 def _settled(speed: Array) -> BoolArray:

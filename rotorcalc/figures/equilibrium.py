@@ -9,7 +9,7 @@ from rotorcalc.analysis import FilmCurves, Sweep
 from rotorcalc.arrays import Array
 from rotorcalc.coefficients import Equilibrium
 from rotorcalc.display import Result
-from rotorcalc.figures import plane, style, text
+from rotorcalc.figures import cursor, plane, style, text
 from rotorcalc.figures.plane import Part
 from rotorcalc.figures.style import Axis, Chart, Trace
 from rotorcalc.units import Unit, Units
@@ -23,6 +23,7 @@ _MARGIN = {"l": 64, "r": 28, "t": 26, "b": 48}
 _EDGE = 1.24
 # Labels of speeds closer together than this share of the clearance's reach would overlap.
 _SPACING = 0.17
+_UP_TO_THE_TOP = "up to the top speed"
 # X/C below which the path has turned so far down that labels stand beside it, not above.
 _LOW = 0.55
 # The arrow that shows the sense of rotation: its ends [rad] and its radius over that reach.
@@ -75,15 +76,17 @@ def locus(path: Path, point: Sweep, units: Units) -> Chart:
     ]
     x = style.axis(f"{style.symbols('Y/C')}, in the sense of rotation →", -edge, edge, dtick=0.5)
     y = style.axis(f"← {style.symbols('X/C')}, along the load", edge, -edge, dtick=0.5)
-    return plane.chart(
+    chart = plane.chart(
         traces, x, y, height=HEIGHT, margin=_MARGIN, annotations=labels, shapes=shapes
     )
+    return cursor.over_speed(chart, point.speed, units, along=_UP_TO_THE_TOP)
 
 
 def position_over_speed(sweep: Sweep, point: Sweep, units: Units) -> Chart:
     """Return ε and φ over running speed."""
-    x, speed = _speed_axis(sweep, units), float(units.speed.of(point.speed))
-    return _panes(units.speed.of(sweep.speed), sweep, (speed, point), x, units)
+    x, speed = cursor.speed_axis(sweep.speed, units), float(units.speed.of(point.speed))
+    chart = _panes(units.speed.of(sweep.speed), sweep, (speed, point), x, units)
+    return cursor.over_speed(chart, point.speed, units)
 
 
 def position_over_sommerfeld(curves: FilmCurves, sweep: Sweep, point: Sweep, units: Units) -> Chart:
@@ -156,10 +159,14 @@ def _over_speed(
     name, unit, title = quantity
     values, value = unit.of(getattr(sweep, name)), float(unit.of(getattr(point, name)))
     speed, hover = units.speed.of(sweep.speed), text.hover("%{x:.0f} rpm", unit)
-    x, y = _speed_axis(sweep, units), style.axis(title, 0.0, style.ceiling(values, least))
+    x = cursor.speed_axis(sweep.speed, units)
+    y = style.axis(title, 0.0, style.ceiling(values, least))
     line = style.line(speed, values, name.replace("_", " "), style.BLUE, hovertemplate=hover)
     here = style.here(float(units.speed.of(point.speed)), value, x, y)
-    return style.chart([line, *here], x, y, height=SMALL_HEIGHT, showlegend=False, margin=_MARGIN)
+    chart = style.chart(
+        [line, *here], x, y, height=SMALL_HEIGHT, showlegend=False, margin=_MARGIN
+    )  # fmt: skip
+    return cursor.over_speed(chart, point.speed, units)
 
 
 def _panes(across: Array, sweep: Sweep, at: tuple[float, Sweep], x: Axis, units: Units) -> Chart:
@@ -192,11 +199,6 @@ def _panes(across: Array, sweep: Sweep, at: tuple[float, Sweep], x: Axis, units:
     return style.chart(traces, x, y, yaxis2=y2, height=height, showlegend=False, margin=_MARGIN)
 
 
-def _speed_axis(sweep: Sweep, units: Units) -> Axis:
-    top = float(units.speed.of(sweep.speed[-1]))
-    return style.axis(style.titled("Running speed", "Ω", units.speed.name), 0.0, top)
-
-
 def _behind_path(curves: FilmCurves, point: Sweep) -> list[Trace]:
     """Return the whole path, and the line of centres with the attitude angle."""
     phi, quiet = float(point.attitude_angle), {"hoverinfo": "skip"}
@@ -214,7 +216,7 @@ def _path(sweep: Sweep, units: Units) -> Trace:
     told = np.stack([units.speed.of(sweep.speed), sweep.eccentricity_ratio], axis=-1)
     hover = "%{customdata[0]:.0f} rpm<br>ε = %{customdata[1]:.4f}<extra></extra>"
     extra: Part = {"width": 3.5, "customdata": told, "hovertemplate": hover}
-    return plane.line(places, "up to the top speed", style.JOURNAL, **extra)
+    return plane.line(places, _UP_TO_THE_TOP, style.JOURNAL, **extra)
 
 
 def _spaced(places: Array, at: Array, spacing: float) -> list[int]:
@@ -248,7 +250,7 @@ def _position_hover(point: Sweep, units: Units) -> str:
 
 def _locus_labels(point: Sweep, at: Array, outline: Array, units: Units) -> list[Part]:
     C, rpm = point.machine.bearing.radial_clearance, float(units.speed.of(point.speed))
-    phi = text.amount(units.angle, point.attitude_angle).replace(" ", "")
+    phi = text.amount(units.angle, point.attitude_angle)
     is_circle = np.allclose(np.hypot(*outline.T), 1.0, rtol=0.0, atol=1e-9)
     size = f"{style.symbols('C')} = {text.amount(units.film, C)}"
     circle = f"clearance{' circle' if is_circle else ''}, {size}"

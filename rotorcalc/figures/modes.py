@@ -9,7 +9,7 @@ import numpy as np
 from rotorcalc import modes
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.display import Result
-from rotorcalc.figures import style
+from rotorcalc.figures import cursor, style
 from rotorcalc.figures.root_locus import HARDLY_SWINGS, points, whirl_frequency, window
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
 from rotorcalc.modes import ModeShapes
@@ -168,8 +168,7 @@ def _chart(
 ) -> Chart:
     """Return a quantity of the modes over speed, dotted where a mode does not oscillate."""
     locus, units = shown.locus, shown.units
-    speed = units.speed.of(locus.speed)
-    x = style.axis(titled("Running speed", "Ω", units.speed.name), 0.0, float(speed[-1]))
+    speed, x = units.speed.of(locus.speed), cursor.speed_axis(locus.speed, units)
     over, here = quantity(locus.branches), quantity(locus.here.eigenvalues)
     now = np.full(len(here), float(units.speed.of(locus.running_speed)))
     traces = [
@@ -178,10 +177,11 @@ def _chart(
         *points(locus, now, here, x, y),
     ]
     lines, names = _onset_line(shown)
-    return style.chart(
+    chart = style.chart(
         traces, x, y, shapes=[*(shapes or []), *lines], annotations=names,
         margin={"l": 64, "r": 28, "t": 64, "b": 52},
     )  # fmt: skip
+    return cursor.over_speed(chart, locus.running_speed, units)
 
 
 def _branch(locus: Locus, i: int, speed: Array, values: Array) -> list[Trace]:

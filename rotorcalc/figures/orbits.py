@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rotorcalc.arrays import Array
-from rotorcalc.figures import plane, style, text
+from rotorcalc.figures import cursor, plane, style, text
 from rotorcalc.figures.animation import ROW, playable, scrubbed
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
 from rotorcalc.nonlinear.limit_cycles import Bifurcation
@@ -54,7 +54,8 @@ def orbit(let_go: Release, units: Units) -> Chart:
     chart = scrubbed(
         chart, steps, labels=labels, active=len(labels) - 1, unit="", prefix="Revolution ",
     )  # fmt: skip
-    return playable(chart, step=60)
+    frames = [float(label) for label in labels]
+    return _over_turns(playable(chart, step=60), let_go, frames=frames)
 
 
 def over_time(let_go: Release, units: Units) -> Chart:
@@ -71,14 +72,15 @@ def over_time(let_go: Release, units: Units) -> Chart:
             style.line(at, motion[:, i], "journal", style.JOURNAL, width=1.4, showlegend=i == 0),
             style.line(at, linear[:, i], "linear theory", LINEAR, width=1.2, dash="dot",
                        showlegend=i == 0),
-            style.mark(last, motion[-1, i], "now", showlegend=False),
+            style.mark(last, motion[-1, i], "end", showlegend=False),
         ]
         for i in (0, 1)
     ]  # fmt: skip
-    return style.chart(
+    chart = style.chart(
         [*panes[0], *style.lower(panes[1])], x, y, yaxis2=y2,
         height=_PLANE_HEIGHT, margin=_MARGIN, legend=_LEGEND,
     )  # fmt: skip
+    return _over_turns(chart, let_go)
 
 
 def film(let_go: Release, units: Units) -> Chart:
@@ -95,7 +97,7 @@ def film(let_go: Release, units: Units) -> Chart:
                    style.JOURNAL, width=1.4),
         style.mark(let_go.revolutions[place], unit.of(thickness[place]), least),
     ]  # fmt: skip
-    return style.chart(traces, x, y, margin=_MARGIN, legend=_LEGEND)
+    return _over_turns(style.chart(traces, x, y, margin=_MARGIN, legend=_LEGEND), let_go)
 
 
 def growth(let_go: Release, units: Units) -> Chart:
@@ -116,9 +118,9 @@ def growth(let_go: Release, units: Units) -> Chart:
     traces = [
         style.line(at, np.where(shown > 0.0, shown, np.nan), "journal", style.JOURNAL),
         style.line(at, inside, "linear theory, e^(Re λ t)", LINEAR, dash="dash"),
-        style.mark(at[-1], max(float(shown[-1]), 0.8 * floor), "now"),
+        style.mark(at[-1], max(float(shown[-1]), 0.8 * floor), "end"),
     ]
-    return style.chart(traces, x, y, margin=_MARGIN, legend=_LEGEND)
+    return _over_turns(style.chart(traces, x, y, margin=_MARGIN, legend=_LEGEND), let_go)
 
 
 def spectrum(let_go: Release, units: Units) -> Chart:
@@ -186,10 +188,11 @@ def waterfall(run: RunUp, units: Units) -> Chart:
     ]
     traces.append(_across(run.onset, "onset", style.UNSTABLE, units, y))
     traces.append(_across(run.running_speed, "running speed", style.HERE, units, y))
-    return style.chart(
+    chart = style.chart(
         traces, x, y, shapes=_guides(), annotations=_guide_names(), height=560,
         margin={**_MARGIN, "t": 40}, legend=_LEGEND,
     )  # fmt: skip
+    return cursor.over_speed(chart, run.running_speed, units, axis="y")
 
 
 def cycles(
@@ -226,7 +229,8 @@ def cycles(
     else:
         edge = ends[0] if here < ends[0] else ends[1]
         traces.append(style.mark(edge, 0.0, "running speed, outside"))
-    return style.chart(traces, x, y, height=560, margin=_MARGIN, legend=_LEGEND)
+    chart = style.chart(traces, x, y, height=560, margin=_MARGIN, legend=_LEGEND)
+    return cursor.over_speed(chart, running_speed, units)
 
 
 def onset_growth(found: Onsets, curve: GrowthCurve, units: Units) -> Chart:
@@ -253,9 +257,10 @@ def onset_growth(found: Onsets, curve: GrowthCurve, units: Units) -> Chart:
     place = [[here, curve.running_rate]] if inside else np.empty((0, 2))
     at, rate = np.asarray(place, dtype=float).T
     name = "running speed" if inside else "running speed: outside"
-    return style.chart(
+    chart = style.chart(
         [*traces, style.mark(at, rate, name)], x, y, height=460, margin=_MARGIN, legend=_LEGEND
     )
+    return cursor.over_speed(chart, curve.running_speed, units)
 
 
 # --- The plane --------------------------------------------------------------------------------
@@ -322,6 +327,12 @@ def _moving(step: list[Trace]) -> list[Trace]:
 
 def _at(points: NDArray[np.float32]) -> Trace:
     return {"x": points[:, 1], "y": points[:, 0]}
+
+
+def _over_turns(chart: Chart, let_go: Release, **how: Any) -> Chart:
+    """Return a chart that can mark a moment of the motion, on its x-axis unless `how` says else."""
+    last = float(let_go.revolutions[-1])
+    return cursor.marked(chart, "revolutions", "revolutions", last, **(how or {"axis": "x"}))
 
 
 # --- Over orders and speed --------------------------------------------------------------------

@@ -6,13 +6,14 @@ direction of motion.
 """
 
 import math
+from collections.abc import Sequence
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from rotorcalc.arrays import Array, BoolArray
-from rotorcalc.figures import style
+from rotorcalc.figures import cursor, style
 from rotorcalc.figures.animation import ROW, playable, scrubbed
 from rotorcalc.figures.style import Axis, Chart, Trace
 from rotorcalc.machine import Rotor
@@ -27,6 +28,8 @@ from rotorcalc.unbalance_peaks import ResponsePeaks
 from rotorcalc.units import Unit, Units
 
 _HEIGHT = 500
+# Height of a chart with a slider, and its margins.
+_PLAYED, _ROOM = 560, {"l": 64, "r": 28, "t": 44, "b": ROW}
 # Axis over the highest peak, which leaves room for the peak's label.
 _HEADROOM = 1.12
 # Two entries per row, so that charts side by side have plots of equal height.
@@ -43,7 +46,7 @@ _VARIANTS = (
 
 def amplitude(curves: ResponseCurves, shown: Literal["axes", "XY"], units: Units) -> Chart:
     """Return the amplitudes of disk and journal against speed: the orbit's axes, or X and Y."""
-    x, unit = _speed_axis(curves, units), units.amplitude
+    x, unit = cursor.speed_axis(curves.speed, units), units.amplitude
     bodies = _bodies(curves)
     sizes = [part for _, body, _, _ in bodies for part in _parts(body, shown)]
     peaks = [found.amplitude for _, _, found, _ in bodies]
@@ -62,14 +65,15 @@ def amplitude(curves: ResponseCurves, shown: Literal["axes", "XY"], units: Units
             shapes += [_guide(float(units.speed.of(speed)), colour) for speed in found.speed]
     here = [unit.of(part) for _, body in _bodies_here(curves) for part in _parts(body, shown)]
     traces += _points(curves, np.array(here), (x, y), units)
-    return style.chart(
+    chart = style.chart(
         traces, x, y, shapes=shapes, annotations=notes, height=480, legend=_TWO_COLUMNS
     )
+    return cursor.over_speed(chart, curves.running_speed, units)
 
 
 def phase(curves: ResponseCurves, units: Units) -> Chart:
     """Return the phase lags of X and Y of disk and journal behind the imbalance, against speed."""
-    x, unit = _speed_axis(curves, units), units.angle
+    x, unit = cursor.speed_axis(curves.speed, units), units.angle
     bodies = _bodies(curves)
     lags = unit.of(np.concatenate([body.lag for _, body, _, _ in bodies]))
     low = min(0.0, 90.0 * math.floor(float(lags.min()) / 90.0))
@@ -81,9 +85,10 @@ def phase(curves: ResponseCurves, units: Units) -> Chart:
     here = np.concatenate([unit.of(body.lag) for _, body in _bodies_here(curves)])
     traces += _points(curves, here, (x, y), units)
     shapes, notes = _shades(curves, units), _unstable_note(curves)
-    return style.chart(
+    chart = style.chart(
         traces, x, y, shapes=shapes, annotations=notes, height=480, legend=_TWO_COLUMNS
     )
+    return cursor.over_speed(chart, curves.running_speed, units)
 
 
 def in_clearance(orbit: ClearanceOrbit, locus: Array, units: Units) -> Chart:
@@ -100,10 +105,38 @@ def in_clearance(orbit: ClearanceOrbit, locus: Array, units: Units) -> Chart:
         _path(orbit.wall, unit, "clearance", style.GREY, width=1.8, showlegend=False),
         _path(locus, unit, "equilibrium at other speeds", style.GREY, dash="dot", width=1.4),
         guide,
-        *_orbit(orbit.path, unit, "journal's orbit", style.JOURNAL),
         small,
+        *_orbit(orbit.path, unit, "journal's orbit", style.JOURNAL),
     ]
     return style.chart(traces, x, y, height=_HEIGHT)
+
+
+def played_in_clearance(
+    orbit: ClearanceOrbit, locus: Array, here: Orbits, steps: Orbits, units: Units
+) -> Chart:
+    """Return `in_clearance` with a slider over speed and buttons to play it.
+
+    Parameters
+    ----------
+    orbit : ClearanceOrbit
+        The orbit at the running speed, and the wall.
+    locus : array, (n, 2)
+        Static equilibria at other speeds [m].
+    here, steps : Orbits
+        Orbits at the running speed and at the slider's other speeds.
+    units : Units
+        Units of display.
+
+    Returns
+    -------
+    Chart
+        The chart with its frames, slider and buttons.
+    """
+    chart = in_clearance(orbit, locus, units)
+    layout = {**chart["layout"], "height": _PLAYED, "margin": _ROOM}
+    paths = [(centre + journal,) for _, _, journal, centre in _moments(steps, here)]
+    chart = _over_speeds({**chart, "layout": layout}, paths, steps, here, units)
+    return playable(chart, step=120)
 
 
 def at_running_speed(orbits: Orbits, units: Units) -> Chart:
@@ -117,27 +150,16 @@ def at_running_speed(orbits: Orbits, units: Units) -> Chart:
 
 def scrubber(steps: Orbits, here: Orbits, units: Units) -> Chart:
     """Return the orbits with a speed slider that runs in the browser."""
-    unit = units.film
-    moments = [
-        (float(speed), disk, journal)
-        for speed, disk, journal in zip(steps.speed, steps.disk, steps.journal, strict=True)
-        if speed != here.speed
-    ]
-    moments.append((float(here.speed), here.disk, here.journal))
-    moments.sort(key=lambda moment: moment[0])
-    points = unit.of(np.concatenate([path for _, *paths in moments for path in paths]))
+    unit, moments = units.film, _moments(steps, here)
+    paths = [
+        (journal,) if here.is_rigid else (disk, journal) for _, disk, journal, _ in moments
+    ]  # fmt: skip
+    points = unit.of(np.concatenate([path for moment in paths for path in moment]))
     x, y = _plane(style.ceiling(1.05 * np.abs(points)), unit)
     # The sense of whirl may change with speed, so the name omits it.
     traces = style.joined([_orbit(p, unit, n.split(",")[0], c) for n, p, c in _paths(here)])
-    active = [speed for speed, *_ in moments].index(float(here.speed))
-    margin = {"l": 64, "r": 28, "t": 44, "b": ROW}
-    chart = scrubbed(
-        style.chart(traces, x, y, height=560, margin=margin),
-        [_step(disk, journal, here.is_rigid, units) for _, disk, journal in moments],
-        labels=[f"{float(units.speed.of(speed)):.0f}" for speed, *_ in moments],
-        active=active, unit=units.speed.name, prefix="Ω = ",
-    )  # fmt: skip
-    return playable(chart, step=120)
+    chart = style.chart(traces, x, y, height=_PLAYED, margin=_ROOM)
+    return _over_speeds(chart, paths, steps, here, units)
 
 
 def family(
@@ -154,7 +176,7 @@ def family(
     is_disk, unit = at == "disk", units.amplitude
     sizes = unit.of(responses.disk if is_disk else responses.journal)
     speed = units.speed.of(responses.speed)
-    x = _speed_axis(curves, units)
+    x = cursor.speed_axis(curves.speed, units)
     title = f"{at.capitalize()}, amplitude of its major axis [{unit.name}]"
     y = style.axis(title, 0.0, style.ceiling(sizes))
     names = [_variant_name(rotor, varied, units) for rotor in responses.rotors]
@@ -168,7 +190,36 @@ def family(
     others = [line | style.LIVE_ONLY for line in style.joined(lines[1:])]
     here = curves.disk_here if is_disk else curves.journal_here
     now, size = float(units.speed.of(curves.running_speed)), float(unit.of(here.ellipse.semi_major))
-    return style.chart([*others, *lines[0], *style.here(now, size, x, y)], x, y, height=440)
+    chart = style.chart([*others, *lines[0], *style.here(now, size, x, y)], x, y, height=440)
+    return cursor.over_speed(chart, curves.running_speed, units)
+
+
+def _moments(steps: Orbits, here: Orbits) -> list[tuple[float, Array, Array, Array]]:
+    """Return speed, orbits of disk and journal, and equilibrium, at rising speeds."""
+    moments = [
+        (float(speed), disk, journal, centre)
+        for speed, disk, journal, centre in zip(
+            steps.speed, steps.disk, steps.journal, steps.centre, strict=True
+        )
+        if speed != here.speed
+    ]
+    moments.append((float(here.speed), here.disk, here.journal, here.centre))
+    return sorted(moments, key=lambda moment: moment[0])
+
+
+def _over_speeds(
+    chart: Chart, paths: Sequence[tuple[Array, ...]], steps: Orbits, here: Orbits, units: Units
+) -> Chart:
+    """Return a chart with a slider over speed; `paths` are the orbits, its last traces, at each."""
+    speeds = [speed for speed, *_ in _moments(steps, here)]
+    stops = units.speed.of(speeds)
+    chart = scrubbed(
+        chart,
+        [_step(moment, units) for moment in paths],
+        labels=[f"{stop:.0f}" for stop in stops],
+        active=speeds.index(float(here.speed)), unit=units.speed.name, prefix="Ω = ",
+    )  # fmt: skip
+    return cursor.over_speed(chart, here.speed, units, frames=stops)
 
 
 def _bodies(curves: ResponseCurves) -> list[tuple[str, BodyResponse, ResponsePeaks, str]]:
@@ -264,11 +315,6 @@ def _points(
     return [lines, point, others]
 
 
-def _speed_axis(curves: ResponseCurves, units: Units) -> Axis:
-    top = float(units.speed.of(curves.speed[-1]))
-    return style.axis(style.titled("Running speed", "Ω", units.speed.name), 0.0, top)
-
-
 def _plane(reach: float, unit: Unit) -> tuple[Axis, Axis]:
     """Return the axes of an orbit: Y to the right, X down, one scale for both."""
     plain: Axis = {"constrain": "domain", "exponentformat": "power"}
@@ -320,9 +366,8 @@ def _arrow(points: Array, unit: Unit, name: str, colour: str) -> Trace:
     return {**path, **rest, **style.LIVE_ONLY}
 
 
-def _step(disk: Array, journal: Array, rigid: bool, units: Units) -> list[Trace]:
+def _step(paths: Sequence[Array], units: Units) -> list[Trace]:
     """Return the traces of one step of the slider."""
-    paths = [journal] if rigid else [disk, journal]
     return [_moved(trace) for path in paths for trace in _orbit(path, units.film, "", style.GREY)]
 
 

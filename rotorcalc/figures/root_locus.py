@@ -7,8 +7,8 @@ import numpy as np
 
 from rotorcalc import modes
 from rotorcalc.arrays import Array, ComplexArray
-from rotorcalc.figures import style
-from rotorcalc.figures.animation import ROW, scrubbed
+from rotorcalc.figures import cursor, style
+from rotorcalc.figures.animation import ROW, playable, scrubbed
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
 from rotorcalc.onset import Onset
 from rotorcalc.root_locus import Locus
@@ -18,6 +18,7 @@ from rotorcalc.units import Units
 _STEPS = 40
 # From slow to fast, distinct for colour-blind readers, contrast 3 : 1 on light and dark.
 _SLOW_TO_FAST = ((43, 123, 186), (176, 86, 159), (214, 128, 10))
+_EIGENVALUES = "eigenvalues"
 # A Plotly line has one colour, so a branch is drawn in pieces; with twelve the steps hardly show.
 _PIECES = 12
 # A mode with a larger damping ratio hardly oscillates, and lies far to the left of the others.
@@ -59,8 +60,12 @@ def plane(locus: Locus, onset: Onset, units: Units) -> Chart:
         shapes=[_half_plane(right), _imaginary_axis(), *(ray for ray, _ in rays)],
         annotations=[*_sides(), *(name for _, name in rays), *_numbers(locus, units, left, top)],
     )  # fmt: skip
-    labels = [f"{speed:.0f}" for speed in units.speed.of(speeds)]
-    return scrubbed(chart, steps, labels=labels, active=active, unit=units.speed.name)
+    stops = units.speed.of(speeds)
+    labels = [f"{stop:.0f}" for stop in stops]
+    chart = scrubbed(chart, steps, labels=labels, active=active, unit=units.speed.name)
+    return cursor.over_speed(
+        playable(chart, step=120), locus.running_speed, units, frames=stops, along=_EIGENVALUES
+    )
 
 
 def beyond(locus: Locus, units: Units) -> str:
@@ -125,7 +130,7 @@ def _coloured_branches(locus: Locus, units: Units) -> list[Trace]:
         piece = np.vstack([locus.branches[start : stop + 1], gap]).T.ravel()
         traces.append(
             style.line(
-                np.real(piece), whirl_frequency(piece, units), "eigenvalues",
+                np.real(piece), whirl_frequency(piece, units), _EIGENVALUES,
                 _colour(i / (_PIECES - 1)), width=3, showlegend=False,
                 customdata=np.tile(np.append(speed[start : stop + 1], np.nan), m),
                 hovertemplate=_HOVER,

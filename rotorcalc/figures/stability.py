@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from rotorcalc.analysis import FilmCurves
 from rotorcalc.arrays import Array
 from rotorcalc.display import Result
-from rotorcalc.figures import style
+from rotorcalc.figures import cursor, style
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
 from rotorcalc.onset import Onset
 from rotorcalc.units import Unit, Units
@@ -73,7 +73,7 @@ class Energies(Result):
 def threshold(over: Thresholds, here: Thresholds, crossing: Crossing, units: Units) -> Chart:
     """Return the threshold speeds over running speed; one meets the line Ω at the onset."""
     unit = units.speed
-    speed, x = unit.of(over.speed), _speed_axis(over, unit)
+    speed, x = unit.of(over.speed), _speed_axis(over, units)
     top, now = _high(x), float(unit.of(here.flexible))
     y = style.axis(
         titled("Threshold speed", "Ω_s, Ω_sf", unit.name),
@@ -82,7 +82,7 @@ def threshold(over: Thresholds, here: Thresholds, crossing: Crossing, units: Uni
     )
     line = style.line([0.0, top], [0.0, top], "Ω", style.GREY, dash="dot")
     onset = float(unit.of(crossing.onset.speed))
-    return _over_speed(
+    chart = _over_speed(
         [*_pair(speed, unit.of(over.rigid), unit.of(over.flexible), crossing), line],
         (x, y),
         crossing,
@@ -91,12 +91,13 @@ def threshold(over: Thresholds, here: Thresholds, crossing: Crossing, units: Uni
         shapes=_unstable_side(onset, x),
         annotations=[_verdict(onset, x, unit)],
     )
+    return cursor.over_speed(chart, here.speed, units)
 
 
 def whirl_frequency(over: Thresholds, here: Thresholds, crossing: Crossing, units: Units) -> Chart:
     """Return the whirl frequency at the threshold over running speed, beside half the speed."""
     unit = units.speed
-    speed, x = unit.of(over.speed), _speed_axis(over, unit)
+    speed, x = unit.of(over.speed), _speed_axis(over, units)
     top, now = _high(x), float(unit.of(here.flexible_frequency))
     y = style.axis(
         titled("Whirl frequency at the threshold", "ω_s", unit.name),
@@ -106,7 +107,7 @@ def whirl_frequency(over: Thresholds, here: Thresholds, crossing: Crossing, unit
     half = style.line([0.0, top], [0.0, 0.5 * top], "½ Ω", style.GREY, dash="dot")
     rigid, flexible = unit.of(over.rigid_frequency), unit.of(over.flexible_frequency)
     onset = crossing.onset
-    return _over_speed(
+    chart = _over_speed(
         [*_pair(speed, rigid, flexible, crossing), half],
         (x, y),
         crossing,
@@ -115,18 +116,19 @@ def whirl_frequency(over: Thresholds, here: Thresholds, crossing: Crossing, unit
         shapes=_unstable_side(float(unit.of(onset.speed)), x),
         annotations=[],
     )
+    return cursor.over_speed(chart, here.speed, units)
 
 
 def critical_mass(over: Thresholds, here: Thresholds, crossing: Crossing, units: Units) -> Chart:
     """Return the critical mass over the rotor's, over running speed; unstable below 1."""
     unit = units.speed
-    speed, x = unit.of(over.speed), _speed_axis(over, unit)
+    speed, x = unit.of(over.speed), _speed_axis(over, units)
     now = float(here.flexible_mass_ratio)
     low = 10.0 ** min(-1, math.floor(math.log10(now)) if 0.0 < now < math.inf else -1)
     high = 10.0 ** max(2, math.ceil(math.log10(now)) if 0.0 < now < math.inf else 2)
     y = style.axis(titled("Critical mass over rotor mass", "", "-"), low, high, log=True)
     one = style.line([0.0, _high(x)], [1.0, 1.0], "rotor mass", style.GREY, dash="dot")
-    return _over_speed(
+    chart = _over_speed(
         [*_pair(speed, over.rigid_mass_ratio, over.flexible_mass_ratio, crossing), one],
         (x, y),
         crossing,
@@ -135,6 +137,7 @@ def critical_mass(over: Thresholds, here: Thresholds, crossing: Crossing, units:
         shapes=[_box(x0=0, x1=1, xref="paper", y0=low, y1=1.0)],
         annotations=[style.note("unstable below 1", 0.02, 0.03, xanchor="left", yanchor="bottom")],
     )
+    return cursor.over_speed(chart, here.speed, units)
 
 
 def whirl_ratio(figure: FilmFigure) -> Chart:
@@ -222,7 +225,7 @@ def energy_bars(energies: Energies, units: Units) -> Chart:
 def energy(energies: Energies, crossing: Crossing, units: Units) -> Chart:
     """Return the whirl orbit's energy gain and loss per turn over speed; equal at the onset."""
     over, here, unit = energies.over, energies.here, units.stiffness
-    speed, x = units.speed.of(over.speed), _speed_axis(over, units.speed)
+    speed, x = units.speed.of(over.speed), _speed_axis(over, units)
     loss, now = unit.of(over.film_loss + over.disk_loss), float(unit.of(here.fed_in))
     lost = float(unit.of(here.film_loss + here.disk_loss))
     met = math.nan if energies.at_onset is None else float(unit.of(energies.at_onset.fed_in))
@@ -238,7 +241,7 @@ def energy(energies: Energies, crossing: Crossing, units: Units) -> Chart:
         lines.append(style.line(speed, part, "of which at midspan", style.DISK, dash="dash"))
     rpm, onset = float(units.speed.of(here.speed)), float(units.speed.of(crossing.onset.speed))
     second = style.mark(rpm, lost, "dissipated at the running speed", showlegend=False)
-    return _over_speed(
+    chart = _over_speed(
         [*lines, second],
         (x, y),
         replace(crossing, closed_form=True),  # gain and loss meet at the onset of any machine
@@ -247,6 +250,7 @@ def energy(energies: Energies, crossing: Crossing, units: Units) -> Chart:
         shapes=_unstable_side(onset, x),
         annotations=[_verdict(onset, x, units.speed)],
     )
+    return cursor.over_speed(chart, here.speed, units)
 
 
 _SAG = style.symbols("Γ/C")
@@ -308,10 +312,8 @@ def _drawable(values: Array) -> Array:
     return np.where(np.isposinf(values), _BEYOND, values)
 
 
-def _speed_axis(over: Thresholds | WhirlEnergy, unit: Unit) -> Axis:
-    return near(
-        style.axis(titled("Running speed", "Ω", unit.name), 0.0, float(unit.of(over.speed[-1])))
-    )
+def _speed_axis(over: Thresholds | WhirlEnergy, units: Units) -> Axis:
+    return near(cursor.speed_axis(over.speed, units))
 
 
 def _onset_name(rpm: float) -> str:

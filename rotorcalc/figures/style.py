@@ -177,7 +177,8 @@ def small(chart: Chart) -> Chart:
     }
     layout = chart["layout"]
     # What the overview leaves out, for where it is shown large after all.
-    whole = {key: layout[key] for key in ("showlegend", "annotations", "margin") if key in layout}
+    left_out = ("showlegend", "annotations", "margin")
+    whole = {"showlegend": True} | {key: layout[key] for key in left_out if key in layout}
     axes = {
         name: axis | ticks(*axis["range"], most=4)
         for name, axis in layout.items()
@@ -185,8 +186,10 @@ def small(chart: Chart) -> Chart:
     }
     return {
         **chart,
-        "layout": {**layout, **axes, **overview, "meta": {"showlegend": True, **whole}},
-    }
+        "layout": {
+            **layout, **axes, **overview, "meta": {**layout.get("meta", {}), "whole": whole},
+        },
+    }  # fmt: skip
 
 
 def note(text: str, x: float, y: float, **extra: Any) -> dict[str, Any]:

@@ -29,7 +29,7 @@ from ui.inputs import INPUTS
 every_page = pytest.mark.parametrize("path", PAGES)
 
 # Charts that show nothing but the running speed, or no machine at all.
-UNMARKED = {"energy_bars", "tornado", "orbits", "orbit_scrubber", "conventions"}
+UNMARKED = {"energy_bars", "tornado", "orbits", "conventions"}
 
 # A quantity with its unit, or in or over another of its kind.
 NAMED = re.compile(r"\w.*\[.+\]|\w/\w|, in \w")

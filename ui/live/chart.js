@@ -1,10 +1,11 @@
 // A chart: Plotly redraws it in the same element, which keeps zoom and hidden lines.
 //
 // `data` is JSON in UTF-8: key, chart (data, layout, frames), config, alt, presenting, and the
-// addresses of Plotly and of move.js.
+// addresses of the scripts: Plotly, move.js, cursor.js, drawing.js.
 //
 // The chart is as high as the window allows. A button shows it alone on the whole screen. There, and in a
-// presentation, type and lines are larger. `layout.meta` has what an overview leaves out, and the screen shows.
+// presentation, type and lines are larger. `layout.meta.whole` has what an overview leaves out, and the screen shows;
+// `layout.meta.cursor` is for cursor.js.
 
 const STYLE = `
 .live-view {position: relative; background: var(--st-background-color);}
@@ -49,6 +50,12 @@ function plotly(address) {
   return loading;
 }
 
+async function tools(scripts) {
+  const [{ move, numbers }, cursor, drawing] = await Promise.all(
+    ["move", "cursor", "drawing"].map((name) => import(location.origin + scripts[name])));
+  return { move, numbers, cursor, drawing };
+}
+
 const charts = new WeakMap();
 
 function screenButton(view) {
@@ -74,7 +81,10 @@ function made(parent) {
   chart.resizing = new ResizeObserver(() => {
     if (!element.data || !element.offsetParent) return;
     window.rotorcalcDrawing += 1; // Plotly waits a tenth of a second
-    window.Plotly.Plots.resize(element).catch(() => {}).finally(() => { window.rotorcalcDrawing -= 1; });
+    window.Plotly.Plots.resize(element).catch(() => {}).finally(() => {
+      chart.tools?.cursor.placed(chart);
+      window.rotorcalcDrawing -= 1;
+    });
   });
   chart.resizing.observe(element);
   charts.set(parent, chart);
@@ -136,11 +146,13 @@ async function redrawn(Plotly, chart, { chart: figure, config, presenting }) {
   const copy = structuredClone(unfolded(figure, whole)); // Plotly writes into what it is given
   if (whole || presenting) enlarge(copy, large());
   delete copy.layout.height; // the element's
+  delete copy.layout.meta; // not Plotly's
   keepZoom(chart, copy);
   await Plotly.react(chart.element, { ...copy, config });
   if (!chart.listens) chart.element.on("plotly_relayout", (changed) => zoomed(chart, changed));
   chart.listens = true;
   delete chart.element.dataset.moved;
+  chart.tools.cursor.drawn(chart, figure, chart.tools);
 }
 
 // Draws the ticks that suit a zoom, or those of the whole axis again.
@@ -150,7 +162,7 @@ function zoomed(chart, changed) {
 
 // Returns a figure with what an overview leaves out, where that is shown.
 function unfolded(figure, whole) {
-  return whole ? { ...figure, layout: { ...figure.layout, ...figure.layout.meta } } : figure;
+  return whole ? { ...figure, layout: { ...figure.layout, ...figure.layout.meta?.whole } } : figure;
 }
 
 // High as the window allows: in a presentation it fills what lies below its place.
@@ -166,7 +178,10 @@ function fitted(view, { layout: { height } }, presenting) {
 async function redraw(chart, wanted) {
   const { shown } = chart;
   clearTimeout(chart.due);
-  const [Plotly, { move }] = await Promise.all([plotly(wanted.plotly), import(location.origin + wanted.mover)]);
+  const Plotly = await plotly(wanted.plotly);
+  chart.tools ??= await tools(wanted.scripts);
+  const { cursor, move } = chart.tools;
+  cursor.rested(chart);
   chart.shown = wanted;
   if (wanted === shown || !shown || differ(shown.config, wanted.config) || shown.presenting !== wanted.presenting || !move(chart.element, shown.chart, wanted.chart)) {
     await redrawn(Plotly, chart, wanted);
@@ -222,6 +237,7 @@ export default function ({ data, parentElement }) {
     clearTimeout(chart.due);
     if (window.rotorcalcCharts.get(key) === chart) window.rotorcalcCharts.delete(key);
     chart.resizing.disconnect();
+    chart.tools?.cursor.removed(chart);
     charts.delete(parentElement);
     window.Plotly?.purge(chart.element);
   };

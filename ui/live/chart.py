@@ -25,7 +25,8 @@ def show(
     message = {
         "key": key, "chart": chart, "config": config, "alt": alt,
         "presenting": presenting,
-        "plotly": assets.plotly_bundle(), "mover": assets.script("move"),
+        "plotly": assets.plotly_bundle(),
+        "scripts": {name: assets.script(name) for name in ("move", "cursor", "drawing")},
     }  # fmt: skip
     _component(key=key, data=encoded(message))
 

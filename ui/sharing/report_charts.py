@@ -281,10 +281,9 @@ def _unnamed(trace: dict[str, Any]) -> dict[str, Any]:
 
 
 def _still(chart: Chart) -> Chart:
-    """Return a chart without its speed slider and the traces that this moves."""
-    if "frames" not in chart:
-        return chart
-    moving = chart["frames"][0]["traces"]
-    layout = {key: value for key, value in chart["layout"].items() if key != "sliders"}
+    """Return a chart without what only a page moves: slider, buttons, and the traces moved."""
+    moving = chart["frames"][0]["traces"] if "frames" in chart else ()
+    moves = {"sliders", "updatemenus", "meta"}
+    layout = {key: value for key, value in chart["layout"].items() if key not in moves}
     data = [trace for i, trace in enumerate(chart["data"]) if i not in moving]
     return {"data": data, "layout": layout}
