@@ -336,6 +336,36 @@ def film_field(
 
 
 @checked
+def middle_pressure(machine: Machine, speed: ArrayLike, *, angle: ArrayLike) -> Array:
+    """Return the pressure around the bearing's middle in static equilibrium, at several speeds.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : array_like, (k,)
+        Running speeds, Ω [rad/s], positive.
+    angle : array_like, (m,)
+        Angles Θ from X in the sense of rotation [rad].
+
+    Returns
+    -------
+    array, (k, m)
+        Pressure above ambient [Pa]; NaN where the film's model gives none.
+
+    Raises
+    ------
+    ValueError
+        Where a speed is not positive and finite.
+    """
+    omega = np.atleast_1d(real_array("speed", speed))[:, None]
+    points = operating_points(machine, omega)
+    field = film_of(machine.bearing).field(points, angle=real_array("angle", angle), zeta=0.0)
+    unit = FilmUnits(machine.bearing, machine.viscosity, points.speed).pressure
+    return field.pressure * unit
+
+
+@checked
 def film_forces(machine: Machine, speed: ArrayLike, *, sommerfeld: ArrayLike) -> FilmForces:
     """Return the static forces of a machine's film at any equilibrium position (Eq. 5.5).
 

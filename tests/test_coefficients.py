@@ -15,6 +15,7 @@ from rotorcalc.coefficients import (
     equilibrium,
     film_field,
     film_forces,
+    middle_pressure,
     modified_sommerfeld,
     stiffness_and_damping,
     unloading,
@@ -314,3 +315,14 @@ BAD_SPEEDS = [
 def test_a_speed_that_is_not_a_number_is_refused_by_name(function, speed):
     with pytest.raises(ValueError, match=r"^speed = "):
         function(SHEET, speed)
+
+
+def test_pressure_at_several_speeds_is_that_of_each():
+    speeds, theta = np.array([60.0, 300.0, 900.0]), np.linspace(0.0, 2.0 * np.pi, 37)
+    for speed, pressure in zip(speeds, middle_pressure(SHEET, speeds, angle=theta), strict=True):
+        field = film_field(
+            SHEET,
+            float(speed),
+            theta=theta + float(film_field(SHEET, float(speed), theta=0.0).load_theta),
+        )
+        assert pressure == pytest.approx(field.pressure[:, 0], rel=1e-9, abs=1e-3)

@@ -32,9 +32,11 @@ from rotorcalc.coefficients import (
     equilibrium,
     film_field,
     film_forces,
+    middle_pressure,
     unloading,
 )
 from rotorcalc.figures.equilibrium import Path
+from rotorcalc.figures.machine import OtherSpeeds
 from rotorcalc.films import film_of
 from rotorcalc.root_locus import Locus, root_locus
 from rotorcalc.unbalance_curves import (
@@ -64,6 +66,9 @@ _ROUND_SPEEDS = np.array([a * 10.0**b for b in (2, 3, 4) for a in (1, 2, 5)]) * 
 _TO_THE_WALL = np.geomspace(1e-5, 1e2, POINTS)
 # Around the film every two degrees, along it every twentieth of the length.
 _THETA = np.linspace(0.0, 2.0 * np.pi, 181)
+# Of a sweep's speeds, every tenth has its pressure and modes drawn; that around every five degrees.
+_FEW = 10
+_COARSE = np.linspace(-np.pi, np.pi, 73)
 # The wall, every degree: a square bore's corners are among them.
 _AROUND = np.linspace(0.0, 2.0 * np.pi, 361)
 _ZETA = np.linspace(-0.5, 0.5, 21)
@@ -129,6 +134,11 @@ class Computed:
     def middle_film(self) -> PressureField:
         """The film around the bearing's middle at the running speed."""
         return film_field(self.machine, self.speed, theta=_THETA)
+
+    @property
+    def other_speeds(self) -> OtherSpeeds:
+        """What the bearing's drawing shows at other speeds."""
+        return _other_speeds(self.machine, self.speed, self.top_speed)
 
     @property
     def path(self) -> Path:
@@ -318,6 +328,21 @@ def _locus(machine: Machine, speed: float, top_speed: float, flexible: bool) -> 
         _branches(machine, top_speed, flexible),
         running_speed=speed,
         shapes=point.mode_shapes(flexible=flexible),
+    )
+
+
+@lru_cache(maxsize=16)
+def _other_speeds(machine: Machine, speed: float, top_speed: float) -> OtherSpeeds:
+    sweep = _sweep(machine, top_speed)
+    some = sweep.speed[_FEW - 1 :: _FEW]
+    modes_speed = np.union1d(some, speed)
+    return OtherSpeeds(
+        sweep=sweep,
+        angle=_COARSE,
+        pressure_speed=some,
+        pressure=middle_pressure(machine, some, angle=_COARSE),
+        modes_speed=modes_speed,
+        modes=analyse(machine, modes_speed).mode_shapes(),
     )
 
 

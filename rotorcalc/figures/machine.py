@@ -10,10 +10,13 @@ from numpy.typing import ArrayLike
 from rotorcalc.analysis import Sweep
 from rotorcalc.arrays import Array
 from rotorcalc.coefficients import PressureField
-from rotorcalc.figures import style, text
+from rotorcalc.display import Result
+from rotorcalc.figures import cursor, style, text
 from rotorcalc.figures.style import Chart, Trace
 from rotorcalc.films import film_of
-from rotorcalc.units import Units
+from rotorcalc.modes import ModeShapes, leading_place
+from rotorcalc.unbalance_response import orbit_ellipse
+from rotorcalc.units import Unit, Units
 
 # Clearance over the bore's radius in the exaggerated drawing; to scale it would be invisible.
 EXAGGERATED = 0.3
@@ -21,10 +24,50 @@ EXAGGERATED = 0.3
 _ARC = 0.55
 _ANGLES = np.linspace(0.0, 2.0 * np.pi, 181)
 _AROUND = np.linspace(0.0, 2.0 * np.pi, 361)  # a square bore's corners are among these
+_BLUISH = "rgba(43,123,186,0.16)"
+_CROSS = {"symbol": "cross-thin", "size": 9, "line": {"color": style.GREY, "width": 1.6}}
+# Height of the peak pressure outside the bore, and the place of the bar that shows it, (x, y).
+_PEAK, _BAR = 0.5, (1.0, -1.42)
+# Ends of the load's arrow above the bore, X.
+_ARROW = (-1.46, -1.06)
+Item = dict[str, Any]
+
+
+@dataclass(frozen=True, eq=False)
+class OtherSpeeds(Result):
+    """What the drawing shows at other speeds than the running speed.
+
+    Attributes
+    ----------
+    sweep : Sweep
+        The machine over speed, (n,).
+    angle : array, (m,)
+        Angles Θ from X around the bore [rad].
+    pressure_speed : array, (k,)
+        Speeds of the pressure [rad/s].
+    pressure : array, (k, m)
+        Pressure in the bearing's middle [Pa]; NaN where the film's model gives none.
+    modes_speed : array, (j,)
+        Speeds of the modes [rad/s], the running speed among them.
+    modes : ModeShapes
+        The free motions there.
+    """
+
+    sweep: Sweep
+    angle: Array
+    pressure_speed: Array
+    pressure: Array
+    modes_speed: Array
+    modes: ModeShapes
 
 
 def cross_section(
-    point: Sweep, film: PressureField, units: Units, *, to_scale: bool = False
+    point: Sweep,
+    film: PressureField,
+    units: Units,
+    *,
+    to_scale: bool = False,
+    others: OtherSpeeds | None = None,
 ) -> Chart:
     """Return the bearing seen along the shaft: X, the load, points down; the journal turns X to Y.
 
@@ -38,6 +81,8 @@ def cross_section(
         Units of display.
     to_scale : bool
         Whether to draw the film to scale; otherwise the clearance is drawn as 30 % of the bore.
+    others : OtherSpeeds, optional
+        The machine at other speeds, for a drawing that can show them and the journal's whirl.
 
     Returns
     -------
@@ -47,28 +92,35 @@ def cross_section(
     bore = _Bore.of(point, to_scale=to_scale)
     centre = point.journal_position / point.machine.bearing.radial_clearance * bore.gap
     pressure = film.pressure[:, np.argmin(np.abs(film.axial_position))]
-    journal = centre + _circle(bore.journal, _ANGLES)
+    notes = {
+        **_load_arrow(point.machine.static_load, units),
+        **_rotation_arrow(centre, 0.5 * bore.journal),
+        **_names(point, centre, bore),
+        **_readings(point, units),
+    }
     traces = [
         *_pressure(film.theta - film.load_theta, pressure, bore),
         _ring(bore.wall(_ANGLES), "bearing", style.GREY, fill=None),
-        _ring(journal, "journal", style.JOURNAL, fill="rgba(43,123,186,0.16)"),
+        _ring(centre + _circle(bore.journal, _ANGLES), "journal", style.JOURNAL, fill=_BLUISH),
+        *_turning(centre, bore),
         *_attitude(point, bore),
+        style.mark(*_drawn(np.zeros(2)), "bearing centre", marker=_CROSS, hoverinfo="name"),
         style.mark(*_drawn(centre), "journal centre", hoverinfo="name"),
+        *(_scale(notes, point, units) if not np.isnan(pressure).any() else []),
     ]
-    return style.chart(
+    chart = style.chart(
         traces,
         _hidden(-2.1, 1.7, constrain="domain"),
-        _hidden(-1.6, 1.1, scaleanchor="x"),
-        annotations=[
-            *_load_arrow(point.machine.static_load),
-            *_rotation_arrow(centre, 0.5 * bore.journal),
-            *_names(point, bore),
-            *_readings(point, film, units),
-        ],
+        _hidden(-1.62, 1.52, scaleanchor="x"),
+        annotations=list(notes.values()),
         showlegend=False,
-        height=330,
+        height=340,
         margin={"l": 8, "r": 8, "t": 8, "b": 8},
     )
+    if others is None:
+        return chart
+    drawing = _Drawing(bore, list(notes), units, others).numbers(point)
+    return cursor.over_speed(chart, point.speed, units, drawing=drawing)
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,9 +172,8 @@ def _pressure(angles: Array, pressure: Array, bore: _Bore) -> list[Trace]:
     """Return the pressure as a band outside the bore, its height the pressure over its peak."""
     if np.isnan(pressure).any():  # not given by the film's model
         return []
-    peak = max(float(np.max(pressure)), 1e-300)  # without load there is no pressure to scale by
     wall = bore.wall(angles)
-    outer = wall + _circle(0.5 * pressure / peak, angles)
+    outer = wall + _circle(_PEAK * _shares(pressure), angles)
     x, y = _drawn(np.concatenate((outer, wall[::-1])))
     return [
         style.line(
@@ -130,6 +181,39 @@ def _pressure(angles: Array, pressure: Array, bore: _Bore) -> list[Trace]:
             fill="toself", fillcolor=style.SHADE, hoverinfo="name",
         )
     ]  # fmt: skip
+
+
+def _shares(pressure: Array) -> Array:
+    """Return pressures around the film over their peak; without load there is none."""
+    return pressure / np.maximum(np.max(pressure, axis=-1, keepdims=True), 1e-300)
+
+
+def _scale(notes: dict[str, Item], point: Sweep, units: Units) -> list[Trace]:
+    """Return the bar that shows the peak pressure's height, and add its name to the notes."""
+    if point.machine.static_load == 0.0:
+        return []
+    (x, y), half = _BAR, 0.04
+    ends = np.array([[0, half], [0, -half], [0, 0], [_PEAK, 0], [_PEAK, half], [_PEAK, -half]])
+    notes["scale"] = {
+        "text": text.amount(units.pressure, point.peak_pressure), "x": x + _PEAK / 2, "y": y,
+        "yanchor": "top", "yshift": -4, "showarrow": False,
+    }  # fmt: skip
+    return [
+        style.line(
+            x + ends[:, 0], y + ends[:, 1], "scale of the pressure", style.UNSTABLE, width=1.6,
+            hoverinfo="name",
+        )
+    ]  # fmt: skip
+
+
+def _turning(centre: Array, bore: _Bore) -> list[Trace]:
+    """Return the journal's whirl, a point while it rests, and a line on it that turns with it."""
+    key = centre + np.array([[0.8 * bore.journal, 0.0], [bore.journal, 0.0]])
+    quiet = {"hoverinfo": "skip", **style.LIVE_ONLY}
+    return [
+        style.line(*_drawn(np.array([centre, centre])), "whirl", style.PURPLE, width=1.4, **quiet),
+        style.line(*_drawn(key), "key", style.JOURNAL, width=4, **quiet),
+    ]
 
 
 def _attitude(point: Sweep, bore: _Bore) -> list[Trace]:
@@ -143,69 +227,153 @@ def _attitude(point: Sweep, bore: _Bore) -> list[Trace]:
     ]
 
 
-def _names(point: Sweep, bore: _Bore) -> list[dict[str, Any]]:
-    """Return the names of the attitude angle and of the thinnest film, beside them."""
+def _names(point: Sweep, centre: Array, bore: _Bore) -> dict[str, Item]:
+    """Return the names of attitude angle, eccentricity and thinnest film, beside them."""
     phi = float(point.attitude_angle)
     angle = _circle((_ARC + 0.16) * bore.journal, np.array(phi / 2.0))
     thinnest = _circle(1.0, np.array(phi))
     right = bool(thinnest[1] >= 0.0)
+    side: Item = {"xanchor": "left" if right else "right", "xshift": 6 if right else -6}
+    return {
+        "φ": _label("φ", angle, font={"color": style.PURPLE}),
+        "e": _label("e", centre / 2.0, yshift=16),
+        "h_min": _label("h_min", thinnest, **side),
+    }
+
+
+@dataclass(frozen=True)
+class _Reading:
+    """A number of the drawing: its symbol, its unit, and its values in SI."""
+
+    symbol: str
+    unit: Unit
+    values: Array
+
+    def words(self, value: float) -> str:
+        """Return the symbol and a value with its unit."""
+        return f"{style.symbols(self.symbol)} = {text.amount(self.unit, value)}"
+
+
+def _read(sweep: Sweep, units: Units) -> list[_Reading]:
+    """Return what is read off the drawing, at a speed or over speed."""
+    e = sweep.eccentricity_ratio * sweep.machine.bearing.radial_clearance
     return [
-        _label("φ", angle, font={"color": style.PURPLE}),
-        _label("h_min", thinnest, xanchor="left" if right else "right", xshift=6 if right else -6),
+        _Reading("φ", units.angle, sweep.attitude_angle),
+        _Reading("e", units.film, e),
+        _Reading("h_min", units.film, sweep.minimum_film_thickness),
+        _Reading("p_max", units.pressure, sweep.peak_pressure),
     ]
 
 
-def _readings(point: Sweep, film: PressureField, units: Units) -> list[dict[str, Any]]:
+def _readings(point: Sweep, units: Units) -> dict[str, Item]:
     """Return the numbers of the drawing, one below the other at its left edge."""
-    C = point.machine.bearing.radial_clearance
-    known = math.isfinite(float(point.peak_pressure))
-    load = point.machine.static_load
-    rows = (
-        ("F_o", text.amount(units.force, load) if load else "0, no load"),
-        ("φ", text.amount(units.angle, point.attitude_angle).replace(" ", "")),
-        ("e", text.amount(units.film, point.eccentricity_ratio * C)),
-        ("h_min", text.amount(units.film, film.thickness.min())),
-        ("p_max", text.amount(units.pressure, point.peak_pressure) if known else "not known"),
-    )
-    return [
-        style.note(
-            f"{style.symbols(name)} = {words}", 0.0, 1.0, xanchor="left", yanchor="top",
-            yshift=-22 * i,
+    rows = {one.symbol: one.words(float(one.values)) for one in _read(point, units)}
+    if not math.isfinite(float(point.peak_pressure)):
+        rows["p_max"] = f"{style.symbols('p_max')} not known"
+    return {
+        f"{symbol} read": style.note(
+            words, 0.0, 1.0, xanchor="left", yanchor="top", yshift=-22 * i
         )
-        for i, (name, words) in enumerate(rows)
-    ]  # fmt: skip
+        for i, (symbol, words) in enumerate(rows.items())
+    }  # fmt: skip
 
 
-def _label(name: str, place: Array, **extra: Any) -> dict[str, Any]:
+def _label(name: str, place: Array, **extra: Any) -> Item:
     x, y = map(float, _drawn(place))
     return {"text": style.symbols(name), "x": x, "y": y, "showarrow": False, **extra}
 
 
-def _load_arrow(load: float) -> list[dict[str, Any]]:
+def _load_arrow(load: float, units: Units) -> dict[str, Item]:
+    """Return the load as an arrow above the bore, with its value."""
+    tail, tip = _ARROW
     if load == 0.0:
-        return []
-    head = {
-        "x": 0.0, "y": -0.42, "ax": 0.0, "ay": 0.42, "xref": "x", "yref": "y", "axref": "x",
-        "ayref": "y", "text": "", "showarrow": True, "arrowhead": 2, "arrowwidth": 3,
-        "arrowcolor": style.GREY,
+        return {"load": _label("no load", np.array([tip, 0.0]))}
+    label = _label("F_o", np.array([(tail + tip) / 2.0, 0.0]), xanchor="left", xshift=8)
+    words = f" = {text.amount(units.force, load)}"
+    return {
+        "arrow": {
+            "x": 0.0, "y": -tip, "ax": 0.0, "ay": -tail, "xref": "x", "yref": "y", "axref": "x",
+            "ayref": "y", "text": "", "showarrow": True, "arrowhead": 2, "arrowwidth": 3,
+            "arrowcolor": style.GREY,
+        },
+        "load": {**label, "text": label["text"] + words},
     }  # fmt: skip
-    return [head, _label("F_o", np.array([-0.36, 0.0]), xanchor="left", xshift=6)]
 
 
-def _rotation_arrow(centre: Array, radius: float) -> list[dict[str, Any]]:
+def _rotation_arrow(centre: Array, radius: float) -> dict[str, Item]:
     """Return an arrow with the sense of rotation, X to Y: counterclockwise on the screen."""
     tail, head = centre + _circle(radius, np.radians([205.0, 245.0]))
     (tail_x, head_x), (tail_y, head_y) = (
         tuple(map(float, pair)) for pair in zip(_drawn(tail), _drawn(head), strict=True)
     )
-    return [
-        {
+    return {
+        "turn": {
             "x": head_x, "y": head_y, "ax": tail_x, "ay": tail_y, "xref": "x", "yref": "y",
             "axref": "x", "ayref": "y", "text": "", "showarrow": True, "arrowhead": 2,
             "arrowwidth": 2, "arrowcolor": style.JOURNAL,
         },
-        {"x": head_x, "y": head_y, "text": "Ω", "showarrow": False, "xshift": -12, "yshift": -4},
-    ]  # fmt: skip
+        "Ω": {"x": head_x, "y": head_y, "text": "Ω", "showarrow": False, "xshift": -12,
+              "yshift": -4},
+    }  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class _Drawing:
+    """The numbers by which a browser draws the bearing at other speeds, and the journal's whirl.
+
+    Places are those of the drawing, x to the right and y up; `notes` names its annotations.
+    """
+
+    bore: _Bore
+    notes: list[str]
+    units: Units
+    others: OtherSpeeds
+
+    def numbers(self, point: Sweep) -> dict[str, Any]:
+        """Return all of them, over speeds in the unit of display."""
+        sweep, C = self.others.sweep, point.machine.bearing.radial_clearance
+        x, y = _drawn(sweep.journal_position / C * self.bore.gap)
+        return {
+            "at": self.units.speed.of(sweep.speed), "x": x, "y": y,
+            "angle": sweep.attitude_angle, "arc": _ARC * self.bore.journal,
+            "name": (_ARC + 0.16) * self.bore.journal, "journal": self.bore.journal,
+            "room": sweep.minimum_film_thickness / C * self.bore.gap,
+            "notes": {name: place for place, name in enumerate(self.notes)},
+            "readings": [self._reading(one) for one in _read(sweep, self.units)],
+            "pressure": self._pressure(),
+            "whirl": self._whirl(),
+            "thicker": self.bore.gap * point.machine.bearing.radius / C,
+        }  # fmt: skip
+
+    def _reading(self, one: _Reading) -> dict[str, Any]:
+        return {
+            "note": f"{one.symbol} read", "words": f"{style.symbols(one.symbol)} = ",
+            "values": one.unit.of(one.values), "unit": one.unit.name,
+        }  # fmt: skip
+
+    def _pressure(self) -> dict[str, Any] | None:
+        """Return the pressure over its peak at some speeds, and the wall on which it stands."""
+        if np.isnan(self.others.pressure).any():
+            return None
+        angle = self.others.angle
+        x, y = _drawn(self.bore.wall(angle))
+        return {
+            "at": self.units.speed.of(self.others.pressure_speed), "angle": angle, "x": x, "y": y,
+            "shares": list(_PEAK * _shares(self.others.pressure)),
+        }  # fmt: skip
+
+    def _whirl(self) -> dict[str, Any]:
+        """Return the least damped mode: growth, frequency, and the journal's phasors, of size 1."""
+        values, place = self.others.modes.eigenvalues, leading_place(self.others.modes.eigenvalues)
+        mode = np.take_along_axis(values, place[:, None], axis=-1)[:, 0]
+        shape = np.take_along_axis(self.others.modes.journal, place[:, None, None], axis=-2)[:, 0]
+        shape = shape / np.maximum(orbit_ellipse(shape).semi_major, 1e-300)[:, None]
+        return {
+            "at": self.units.speed.of(self.others.modes_speed),
+            "speed": self.others.modes_speed, "growth": mode.real, "frequency": mode.imag,
+            # Y to the right, X down.
+            "x": [shape[:, 1].real, shape[:, 1].imag], "y": [-shape[:, 0].real, -shape[:, 0].imag],
+        }  # fmt: skip
 
 
 def _hidden(low: float, high: float, **extra: Any) -> dict[str, Any]:

@@ -7,12 +7,24 @@ from numpy.typing import ArrayLike
 from rotorcalc.figures import style
 from rotorcalc.units import Unit
 
+# Prefixes by the number from which on they are used; the units that take them.
+_PREFIXES = {"M": 1e7, "k": 1e4}
+_PREFIXED = {"N"}
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def amount(unit: Unit, value: ArrayLike) -> str:
-    """Return an SI value in a unit, to at least four digits, with the unit's name."""
-    return f"{number(float(unit.of(value)))} {unit.name}"
+    """Return an SI value in a unit, to at least four digits, with the unit's name: 1334 N, 20 kN.
+
+    An angle's sign follows its number without a space.
+    """
+    shown = float(unit.of(value))
+    if unit.name == "°":
+        return f"{number(shown)}°"
+    for prefix, size in _PREFIXES.items():
+        if unit.name in _PREFIXED and abs(shown) >= size:
+            return f"{number(shown / (size / 10.0))} {prefix}{unit.name}"
+    return f"{number(shown)} {unit.name}"
 
 
 def number(value: float, digits: int = 4) -> str:

@@ -1,12 +1,13 @@
 """The cross-section: the journal where the record says, X down and Y to the right."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from rotorcalc import PRESETS, analyse
-from rotorcalc.coefficients import film_field
+from rotorcalc.coefficients import film_field, middle_pressure
 from rotorcalc.figures import SI, US, machine
 from rotorcalc.films import film_of
 from tests.figures.charts import check_plotly_takes_it
@@ -76,3 +77,101 @@ def test_the_pressure_carries_the_load():
                      np.trapezoid(-pressure * np.sin(np.arctan2(y, x)), THETA)])  # fmt: skip
     assert push[1] > 0.0
     assert abs(push[0]) < 1e-3 * push[1]
+
+
+def readings(chart):
+    """Return the drawing's texts, markup taken out."""
+    return [re.sub("<[^>]*>", "", note["text"]) for note in chart["layout"]["annotations"]]
+
+
+@pytest.mark.parametrize(("load", "words"), [(None, "1334 N"), (2e4, "20 kN"), (3.4e7, "34 MN")])
+def test_the_drawing_names_and_measures_what_it_shows(load, words):
+    point, chart = drawn(PRESETS["sheet-1e8"], load=load)
+    seen = readings(chart)
+    C = float(point.machine.bearing.radial_clearance)
+    for expected in (
+        f"Fo = {words}",
+        f"φ = {np.degrees(float(point.attitude_angle)):.4g}°",
+        f"e = {1e6 * C * float(point.eccentricity_ratio):.4g} µm",
+        f"hmin = {1e6 * float(point.minimum_film_thickness):.4g} µm",
+    ):
+        assert expected in seen
+    assert {"φ", "e", "hmin", "Ω"} <= set(seen)
+    assert not any(re.search(r"\de[+-]?\d", text) for text in seen)
+
+
+def test_the_bar_is_as_long_as_the_peak_pressure_is_high():
+    point, chart = drawn(PRESETS["sheet-1e8"])
+    bar, band = trace(chart, "scale of the pressure"), trace(chart, "pressure")
+    height = np.hypot(band["x"], band["y"]).max() - 1.0
+    assert np.ptp(bar["x"]) == pytest.approx(height, rel=1e-3)
+    assert f"{1e-6 * float(point.peak_pressure):.4g} MPa" in readings(chart)
+
+
+def test_no_load_has_neither_arrow_nor_scale():
+    _, chart = drawn(PRESETS["sheet-1e8"], load=0.0)
+    assert "no load" in readings(chart)
+    assert "scale of the pressure" not in [one["name"] for one in chart["data"]]
+
+
+SPEEDS = np.linspace(50.0, 1200.0, 24)
+
+
+def other_speeds(made, speed):
+    speeds = np.union1d(SPEEDS, speed)
+    return machine.OtherSpeeds(
+        sweep=analyse(made, SPEEDS),
+        angle=THETA,
+        pressure_speed=SPEEDS,
+        pressure=middle_pressure(made, SPEEDS, angle=THETA),
+        modes_speed=speeds,
+        modes=analyse(made, speeds).mode_shapes(),
+    )
+
+
+@pytest.mark.parametrize("name", ["sheet-1e8", "fig-5-2"])
+def test_at_another_speed_the_drawing_is_that_speeds_own(name):
+    preset = PRESETS[name]
+    point, film = (
+        analyse(preset.machine, preset.speed),
+        film_field(preset.machine, preset.speed, theta=THETA),
+    )
+    chart = machine.cross_section(
+        point, film, SI, others=other_speeds(preset.machine, preset.speed)
+    )
+    check_plotly_takes_it(chart)
+    said = chart["layout"]["meta"]["cursor"]["drawing"]
+    for i in (3, 20):
+        speed = float(SPEEDS[i])
+        there = machine.cross_section(
+            analyse(preset.machine, speed), film_field(preset.machine, speed, theta=THETA), SI
+        )
+        centre = trace(there, "journal centre")
+        assert (said["x"][i], said["y"][i]) == pytest.approx((centre["x"][0], centre["y"][0]))
+        for reading in said["readings"]:
+            words = f"{reading['words']}{float(reading['values'][i]):.4g}"
+            assert any(
+                note["text"].startswith(words[:-1]) for note in there["layout"]["annotations"]
+            )
+        wall = np.stack([said["pressure"]["x"], said["pressure"]["y"]], axis=-1)
+        out = said["pressure"]["shares"][i]
+        peak = np.hypot(*(wall * (1.0 + out[:, None])).T).max()
+        band = trace(there, "pressure")
+        assert peak == pytest.approx(np.hypot(band["x"], band["y"]).max(), rel=2e-3)
+
+
+def test_the_whirl_is_the_least_damped_modes():
+    made, speed = PRESETS["sheet-1e8"].machine, PRESETS["sheet-1e8"].speed
+    point, film = analyse(made, speed), film_field(made, speed, theta=THETA)
+    chart = machine.cross_section(point, film, SI, others=other_speeds(made, speed))
+    whirl = chart["layout"]["meta"]["cursor"]["drawing"]["whirl"]
+    here = int(np.argmin(np.abs(whirl["speed"] - speed)))
+    mode = max(point.flexible_eigenvalues, key=lambda value: value.real)
+    assert whirl["growth"][here] + 1j * whirl["frequency"][here] == pytest.approx(mode)
+    # Its largest distance over a turn is one, and it whirls forward: X to Y, here down to right.
+    turn = np.exp(1j * np.linspace(0.0, 2.0 * np.pi, 721))
+    x, y = (
+        np.real((parts[0][here] + 1j * parts[1][here]) * turn) for parts in (whirl["x"], whirl["y"])
+    )
+    assert np.hypot(x, y).max() == pytest.approx(1.0, rel=1e-4)
+    assert np.sum(x[:-1] * np.diff(y) - y[:-1] * np.diff(x)) > 0.0

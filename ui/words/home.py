@@ -20,9 +20,12 @@ def content(page: Page) -> None:
         scale = choose("Film drawn", ["exaggerated", "to scale"], "machine_scale", hidden=True)
         page.chart(
             lambda c: machine.cross_section(
-                c.point, c.middle_film, units, to_scale=scale == "to scale"
+                c.point, c.middle_film, units, to_scale=scale == "to scale", others=c.other_speeds
             ),
             "cross_section",
+            while_dragging=lambda c: machine.cross_section(
+                c.point, c.middle_film, units, to_scale=scale == "to scale"
+            ),
             alt="Cross-section of the bearing with the journal, the load and the film's pressure",
             caption=cited(
                 "Journal in its bearing, seen along the shaft, and pressure of the film.",
