@@ -6,6 +6,7 @@ import streamlit as st
 from rotorcalc.analysis import Axes
 from rotorcalc.coefficients import BULK_FLOW, LAMINAR
 from rotorcalc.figures import coefficients as draw
+from rotorcalc.figures.cursor import over_film
 from ui.choices import choose
 from ui.frame.page import Page, show
 from ui.words import coefficients as words
@@ -65,8 +66,14 @@ def dimensionless(page: Page, axes: Axes, against: Literal["ε", "σ"]) -> None:
     for column, symbol in zip(st.columns(2), symbols, strict=True):
         with column:
             page.chart(
-                lambda c, symbol=symbol: draw.dimensionless(
-                    c.film_coefficients(axes), c.film_coefficients_here(axes), symbol, against
+                lambda c, symbol=symbol: over_film(
+                    draw.dimensionless(
+                        c.film_coefficients(axes), c.film_coefficients_here(axes), symbol, against
+                    ),
+                    c.sweep,
+                    c.point,
+                    page.units,
+                    against,
                 ),
                 f"{symbol}_{against}",
                 alt=f"Dimensionless coefficients {symbol} against {against}, logarithmic.",

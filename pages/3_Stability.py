@@ -1,6 +1,7 @@
 import streamlit as st
 
 from rotorcalc import whirl_energy
+from rotorcalc.figures import cursor
 from rotorcalc.figures import design as what_if
 from rotorcalc.figures import stability as figures
 from ui.frame.page import Page, show
@@ -60,18 +61,24 @@ def threshold(page: Page) -> None:
 def figures_of_the_notes(page: Page) -> None:
     if not ask.can_whirl(page.computed):
         return
-    over_eps = ask.choose_abscissa()
-    computed = page.computed
+    over_eps, computed = ask.choose_abscissa(), page.computed
+
+    def over_film(draw, *more):
+        return lambda c: cursor.over_film(
+            draw(ask.film_figure(c, over_eps), *(one(c) for one in more)),
+            c.sweep, c.point, page.units, "ε" if over_eps else "σ",
+        )  # fmt: skip
+
     left, right = st.columns(2)
     with left:
         page.chart(
-            lambda c: figures.whirl_ratio(ask.film_figure(c, over_eps)),
+            over_film(figures.whirl_ratio),
             "whirl_ratio",
             alt="Whirl frequency ratio; zero where the film feeds no whirl.",
             caption=lambda c: cited(ask.ends_of_whirl(c), c, "whirl ratio", rotor="Eq. 5.46"),
         )
         page.chart(
-            lambda c: figures.critical_mass_number(ask.film_figure(c, over_eps)),
+            over_film(figures.critical_mass_number),
             "critical_mass_number",
             alt="Dimensionless critical mass of the bearing.",
             caption=cited(
@@ -80,7 +87,7 @@ def figures_of_the_notes(page: Page) -> None:
         )
     with right:
         page.chart(
-            lambda c: figures.threshold_speed(ask.film_figure(c, over_eps)),
+            over_film(figures.threshold_speed),
             "threshold_speed",
             alt="Dimensionless threshold speed of a rigid rotor on the bearing.",
             caption=lambda c: cited(
@@ -91,12 +98,7 @@ def figures_of_the_notes(page: Page) -> None:
             ),
         )
         page.chart(
-            lambda c: figures.flexible_threshold(
-                ask.film_figure(c, over_eps),
-                ask.sags(c),
-                ask.flexible_curves(c),
-                ask.flexible_here(c),
-            ),
+            over_film(figures.flexible_threshold, ask.sags, ask.flexible_curves, ask.flexible_here),
             "flexible_threshold",
             alt="Dimensionless threshold speed of flexible rotors for several static sags.",
             caption=cited(

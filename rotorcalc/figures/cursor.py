@@ -14,10 +14,12 @@ and how the chart shows another value
     `drawing` holds what a drawing needs (`machine.cross_section`).
 """
 
-from typing import Any
+from typing import Any, Literal
 
+import numpy as np
 from numpy.typing import ArrayLike
 
+from rotorcalc.analysis import Sweep
 from rotorcalc.arrays import Array
 from rotorcalc.figures import style
 from rotorcalc.figures.style import Axis, Chart
@@ -58,3 +60,31 @@ def over_speed(chart: Chart, speed: ArrayLike, units: Units, **how: Any) -> Char
     """
     now = float(units.speed.of(speed))
     return marked(chart, "speed", units.speed.name, now, **(how or {"axis": "x"}))
+
+
+def over_film(
+    chart: Chart, sweep: Sweep, point: Sweep, units: Units, against: Literal["ε", "σ"]
+) -> Chart:
+    """Return a chart over ε or σ that can mark the running speed at which a machine has it.
+
+    Parameters
+    ----------
+    chart : Chart
+        The chart, ε or σ along its x-axis.
+    sweep, point : Sweep
+        The machine over speed, and at the running speed.
+    units : Units
+        Units of display.
+    against : str
+        "ε" or "σ".
+
+    Returns
+    -------
+    Chart
+        The chart, which says so; as it is without load, where all speeds have one ε and σ.
+    """
+    if not np.isfinite(point.sommerfeld):
+        return chart
+    to = sweep.eccentricity_ratio if against == "ε" else sweep.sommerfeld
+    at = units.speed.of(sweep.speed)
+    return over_speed(chart, point.speed, units, axis="x", at=at, to=to)

@@ -105,10 +105,11 @@ def position_over_sommerfeld(curves: FilmCurves, sweep: Sweep, point: Sweep, uni
     notes = (
         [] if loaded else [text.remark(f"no load: {style.symbols('σ')} is infinite", 0.98, 0.97)]
     )
-    return {
+    chart = {
         "data": [*behind, *chart["data"]],
         "layout": {**chart["layout"], "annotations": notes},
     }
+    return cursor.over_film(chart, sweep, point, units, "σ")
 
 
 def power_loss(sweep: Sweep, point: Sweep, units: Units) -> Chart:

@@ -92,7 +92,10 @@ def test_a_speed_under_the_pointer_is_marked_in_all_charts_and_drawn(app: AppPag
     [
         ("Equilibrium", "Losses and flow", "power_loss", 4),
         ("Coefficients", "Against speed", "stiffness_speed", 2),
+        ("Coefficients", "Against σ", "k_σ", 2),
+        ("Coefficients", "Against ε", "c_ε", 2),
         ("Stability", "Threshold", "threshold", 3),
+        ("Stability", "Figures of the notes", "whirl_ratio", 4),
         ("Root locus", "Against speed", "growth", 5),
         ("Response", "Against speed", "phase", 2),
         ("Response", "What damping and journal mass do", "family_disk", 2),
@@ -112,8 +115,10 @@ def test_every_chart_over_speed_marks_it(
 
 def test_a_speed_on_the_journals_path_is_marked_too(app: AppPage) -> None:
     app.open("Equilibrium")
-    app.page.get_by_role("radio", name="Over speed").click()
-    app.rest()
+    _point_at(app, "position", 0.5)  # over σ, which follows from the speed
+    assert app.changes(lambda: _labels(app).keys() == {"locus", "position"}, False)
+    with app.run():
+        app.page.get_by_role("radio", name="Over speed").click()
     _point_at(app, "position", 0.1)
     assert app.changes(lambda: _labels(app).keys() == {"locus", "position"}, False)
     dot = _chart(app, "locus").locator(".live-cursor > .dot")

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -104,3 +105,14 @@ def test_a_chart_keeps_what_else_its_meta_holds() -> None:
     assert both["layout"]["meta"]["a"] == 1
     assert said(both)["axis"] == "y"
     assert "cursor" not in chart["layout"]["meta"]
+
+
+@pytest.mark.parametrize(("against", "field"), [("ε", "eccentricity_ratio"), ("σ", "sommerfeld")])
+def test_a_chart_over_what_follows_from_the_speed_says_how(against: str, field: str) -> None:
+    chart = style.chart([], style.axis("x", 0.0, 1.0), style.axis("y", 0.0, 1.0))
+    found = said(cursor.over_film(chart, SWEEP, POINT, SI, against))
+    assert found["to"].tolist() == getattr(SWEEP, field).tolist()
+    assert found["at"] == pytest.approx(SWEEP.speed / RPM)
+    unloaded = replace(PRESET.machine, load=0.0)
+    without = analyse(unloaded, SWEEP.speed), analyse(unloaded, PRESET.speed)
+    assert cursor.over_film(chart, *without, SI, against) == chart

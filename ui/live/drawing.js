@@ -242,7 +242,7 @@ export class Drawing {
     const whirl = frequency > 0 ? `${few((frequency * 30) / Math.PI)} rpm` : "no whirl";
     const way = growth > 0 ? `grows from ${100 * GROWS[0]}` : `decays from ${100 * DECAYS[0]}`;
     const text = `${slowed}, ${film}. Least damped mode: ${whirl}, ${few(growth)} 1/s; it ${way} % of the thinnest film. `
-      + "Pressure at rest.";
+      + "The pressure is that at rest.";
     if (this.words.textContent !== text) this.words.textContent = text;
     this.words.hidden = false;
   }
