@@ -106,6 +106,17 @@ class AppPage:
             with self.run():
                 tab.click()
 
+    def open_group(self, label: str) -> None:
+        """Open a closed group of the sidebar, and wait until it has slid open."""
+        group = self.page.get_by_test_id("stSidebar").get_by_test_id("stExpander")
+        group = group.filter(has=self.page.get_by_text(label, exact=True))
+        group.locator("summary").click()
+        self.page.wait_for_function(
+            "group => group.querySelector('details[open]')"
+            " && group.getAnimations({ subtree: true }).length === 0",
+            arg=group.element_handle(),
+        )
+
     def open_popover(self, label: str) -> Locator:
         """Open a popover by its button, and return what it holds."""
         with self.run():

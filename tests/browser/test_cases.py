@@ -20,9 +20,7 @@ def _choose_preset(app: AppPage) -> None:
 
 
 def _use_grade(app: AppPage) -> None:
-    library = app.page.get_by_role("button", name="Oil library", exact=True)
-    if not library.is_visible():
-        app.page.get_by_test_id("stExpander").get_by_text("Oil", exact=True).click()
+    app.open_group("Oil")
     app.open_popover("Oil library")
     _press(app, "Use this grade")
     app.close_popover()

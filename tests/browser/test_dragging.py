@@ -142,7 +142,7 @@ def test_a_release_is_coarse_while_held_and_says_so(app: AppPage) -> None:
 
 def test_a_value_that_makes_no_machine_is_refused_while_held(app: AppPage) -> None:
     app.open("Machine", mass="300", mj="140")
-    app.page.get_by_test_id("stSidebar").get_by_text("Rotor", exact=True).click()
+    app.open_group("Rotor")
     verdicts = app.page.locator(".st-key-said_verdict")
     _hold(app, "Journal mass", 0.4)
     expect(verdicts).to_contain_text("Journal mass Mⱼ")

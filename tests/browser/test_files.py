@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from playwright.sync_api import BrowserContext, expect
 
-from rotorcalc import Machine, analyse
+from rotorcalc import Machine, analyse, onset_speed
 from tests.browser.app_page import AppPage
 
 LINK = {"preset": "sheet-1e7", "C": "81.3", "rpm": "3000", "load": "1234.5"}
@@ -62,7 +62,12 @@ def test_sweep_is_a_table_with_units(shared: AppPage, tmp_path: Path) -> None:
     saved = shared.save("Sweep over speed", tmp_path)
     machine = Machine.from_json(shared.save("Machine (JSON)", tmp_path).read_text("utf-8"))
     with saved.open(encoding="utf-8-sig", newline="") as file:
-        head, *rows = csv.reader(file)
+        lines = list(csv.reader(file))
+    given = dict(line for line in lines if line[0].startswith("# "))
+    assert given["# Radial clearance C [µm]"] == "81.3"
+    onset = onset_speed(machine).speed * 30 / np.pi
+    assert float(given["# Onset of whirl [rpm]"]) == pytest.approx(onset, rel=1e-8)
+    head, *rows = lines[len(given) :]
     assert all("[" in name and name.endswith("]") for name in head)
     table = np.array(rows, dtype=float)
     column = {name: table[:, i] for i, name in enumerate(head)}

@@ -41,7 +41,7 @@ def test_a_kept_case_is_drawn_and_compared(app: AppPage, name: str) -> None:
     assert app.changes(lambda: _ghosts(app), [])
     expect(app.page.get_by_text("vs A").first).to_be_visible()
     expect(app.page.locator("table.cases")).to_contain_text("Radial clearance")
-    app.open_popover("Cases (1)")
+    app.open_popover("Cases")
     with app.run():
         app.page.get_by_role("button", name="Remove").click()
     app.close_popover()

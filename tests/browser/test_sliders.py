@@ -20,7 +20,7 @@ _TRACKS = """sliders => Object.fromEntries(sliders.map(({ slider }) => {
 
 def _open_all(app: AppPage) -> None:
     for group in ("Oil", "Rotor"):
-        app.page.get_by_test_id("stSidebar").get_by_text(group, exact=True).click()
+        app.open_group(group)
     expect(app.slider("Journal mass")).to_be_visible()
 
 

@@ -43,8 +43,8 @@ def draw_buttons() -> None:
             help="Keeps this machine as a case: charts draw it thin and in its own colour, "
             "results show their change from the first case, and a table compares all.",
         )  # fmt: skip
-        label = f"Cases ({len(visitor.cases)})" if visitor.cases else "Cases"
-        opened = st.popover(label, key="cases", on_change="rerun")
+        # Without their number: Streamlit closes a popover whose label changes.
+        opened = st.popover("Cases", key="cases", on_change="rerun")
     if opened.open:
         with opened:
             _list(visitor.cases)
