@@ -23,7 +23,7 @@ from rotorcalc.units import Unit, Units
 LINEAR = style.PURPLE
 UP, DOWN = style.GREEN, style.OCHRE
 # Tall: the clearance is the page's main picture.
-_PLANE_HEIGHT = 560
+_PLANE_HEIGHT = 550
 # Frames of an animation at most, points of the journal's trail, revolutions that the trail spans.
 _FRAMES, _TRAIL, _REACH = 120, 48, 2.0
 # Points of a line over time; more cannot be distinguished on a screen.
