@@ -239,7 +239,7 @@ def test_the_journal_turns_and_whirls_when_asked(app: AppPage) -> None:
     button.click()
     expect(words).to_contain_text(re.compile(r"Slowed \d+ ×, film drawn 375 × thicker"))
     mode = max(rc.analyse(PRESET.machine, PRESET.speed).flexible_eigenvalues, key=lambda v: v.real)
-    expect(words).to_contain_text(f"{mode.imag / RPM:.0f} rpm, −{-mode.real:.1f} 1/s; it decays")
+    expect(words).to_contain_text(f"{mode.imag / RPM:.0f} rpm, −{-mode.real:.4g} 1/s; it decays")
     assert app.changes(lambda: _picture(app)[0], _picture(app)[0])
     # At the cursor's speed it moves as that speed's mode does.
     _point_at(app, "home_threshold", 0.95)

@@ -175,7 +175,7 @@ class Frames {
   }
 
   get stop() {
-    return this.view.gd.layout.sliders[0].active;
+    return this.view.gd.layout?.sliders[0].active;
   }
 
   get ends() {
@@ -197,7 +197,7 @@ class Frames {
     this.wanted = stop;
     if (this.busy || stop === this.stop) return;
     this.busy = true;
-    for (let sent; this.wanted !== this.stop && this.wanted !== sent;) {
+    for (let sent; this.view.gd.isConnected && this.wanted !== this.stop && this.wanted !== sent;) {
       sent = this.wanted;
       await window.Plotly.animate(this.view.gd, [`${sent}`], STILL).catch(() => {});
     }
@@ -230,6 +230,7 @@ class View {
     this.keys.addEventListener("keydown", (event) => this.pressed(event));
     this.keys.addEventListener("blur", () => clear(this));
     this.gd.on("plotly_hover", ({ points: [point] }) => this.hovered(point));
+    this.gd.on("plotly_unhover", () => this.cursor?.along && clear(this));
     this.gd.on("plotly_sliderchange", ({ slider }) => this.scrubbed(slider.active));
     this.gd.on("plotly_buttonclicked", ({ active }) => { if (active === 0) playing = this; });
     for (const end of ["plotly_animated", "plotly_animationinterrupted"])
@@ -309,7 +310,9 @@ class View {
     this.unmark();
   }
 
+  // Plotly's own animation ends unheard where the chart is drawn anew.
   leave() {
+    if (playing === this && this.cursor.frames) playing = null;
     this.hide();
     for (const way of this.ways ?? []) way.leave?.();
   }
@@ -390,8 +393,8 @@ export function rested(chart) {
 
 export function removed(chart) {
   const view = views.get(chart);
-  view?.leave();
-  if (playing === view) stop();
+  for (const way of view?.ways ?? []) way.leave?.();
+  if (playing === view) playing = null;
   if (marked?.view === view) marked = null;
   views.delete(chart);
 }

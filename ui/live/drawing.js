@@ -18,15 +18,19 @@ const onCircle = (radius, angle) => [radius * Math.sin(angle), -radius * Math.co
 const columns = (points) => ({ x: points.map(([x]) => x), y: points.map(([, y]) => y) });
 const shifted = (list, by) => Array.from(list, (one) => one + by);
 
-// As on the server: whole thousands, else four digits.
-function worded(value) {
+// A number to some digits, large and small ones with powers of ten.
+function few(value, digits = 3) {
   const size = Math.abs(value);
-  const text = size >= 1e3 && size < 1e7 ? value.toFixed(0) : `${Number(value.toPrecision(4))}`;
-  return text.replaceAll("-", "−");
+  if (size === 0 || (size >= 1e-4 && size < 1e7)) return `${Number(value.toPrecision(digits))}`.replace("-", "−");
+  const [mantissa, power] = value.toExponential(digits - 1).split("e");
+  const raised = `${Number(power)}`.replace(/./g, (sign) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(sign)]);
+  return `${Number(mantissa)}·10${raised}`.replace("-", "−");
 }
 
-function few(value) {
-  return `${Number(value.toPrecision(3))}`.replaceAll("-", "−");
+// As the server writes readings: whole thousands, else four digits.
+function worded(value) {
+  const size = Math.abs(value);
+  return size >= 1e3 && size < 1e7 ? value.toFixed(0).replace("-", "−") : few(value, 4);
 }
 
 // The largest of 1, 2, 5 times a power of ten that is not above a number.
@@ -239,9 +243,9 @@ export class Drawing {
     const { thicker } = this.given;
     const slowed = calm.matches ? `The path of ${PATH_TURNS} whirls` : `Slowed ${factor} ×`;
     const film = Math.abs(thicker - 1) < 0.01 ? "film to scale" : `film drawn ${few(thicker)} × thicker`;
-    const whirl = frequency > 0 ? `${few((frequency * 30) / Math.PI)} rpm` : "no whirl";
+    const whirl = frequency > 0 ? `${worded((frequency * 30) / Math.PI)} rpm` : "no whirl";
     const way = growth > 0 ? `grows from ${100 * GROWS[0]}` : `decays from ${100 * DECAYS[0]}`;
-    const text = `${slowed}, ${film}. Least damped mode: ${whirl}, ${few(growth)} 1/s; it ${way} % of the thinnest film. `
+    const text = `${slowed}, ${film}. Least damped mode: ${whirl}, ${few(growth, 4)} 1/s; it ${way} % of the thinnest film. `
       + "The pressure is that at rest.";
     if (this.words.textContent !== text) this.words.textContent = text;
     this.words.hidden = false;

@@ -44,7 +44,7 @@ function each(before, now, known, act) {
 }
 
 // An array as the server sends it: a list, or its numbers in base64.
-function numbers(array) {
+export function numbers(array) {
   if (!array.bdata) return array.map((value) => value ?? NaN);
   const bytes = Uint8Array.from(atob(array.bdata), (letter) => letter.charCodeAt(0));
   return array.dtype === "f8" ? new Float64Array(bytes.buffer) : new Float32Array(bytes.buffer);
