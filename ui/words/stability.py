@@ -11,7 +11,6 @@ from rotorcalc.analysis import FilmCurves
 from rotorcalc.arrays import Array
 from rotorcalc.figures.stability import Crossing, Energies, FilmFigure
 from rotorcalc.films import film_of
-from rotorcalc.onset import closed_form
 from rotorcalc.units import Units
 from ui.choices import choose
 from ui.computed import Computed
@@ -19,10 +18,6 @@ from ui.format import amount
 from ui.preview import Text
 from ui.words.citation import capital, without_load
 
-BARE = (
-    "Midspan damping or journal mass: the closed forms, drawn dashed, neglect both and no longer "
-    "give the onset. The vertical line marks it, from the eigenvalues."
-)
 NO_WHIRL = (
     "This film cannot whirl: it has no cross-coupled stiffness that could feed a whirl, at any "
     "load, and so no threshold speed to draw. Every rotor is stable on it."
@@ -46,8 +41,22 @@ _SAGS = (0.0, 0.3, 1.0, 3.0, 10.0)
 
 
 def crossing(computed: Computed) -> Crossing:
-    """Return the onset and whether the closed form applies."""
-    return Crossing(onset=computed.onset, closed_form=closed_form.has_closed_form(computed.machine))
+    """Return the onset and whether the closed forms give it."""
+    return Crossing(onset=computed.onset, closed_form=not _neglected(computed))
+
+
+def _neglected(computed: Computed) -> list[str]:
+    """Return what this machine has and Eqs. 5.45 to 5.50 neglect."""
+    machine = computed.machine
+    rotor = machine.rotor
+    found = {
+        "midspan damping": rotor.disk_damping > 0.0,
+        "journal mass": rotor.journal_mass > 0.0 and not rotor.is_rigid,
+        "that the film's coefficients change with the whirl's frequency": film_of(
+            machine.bearing
+        ).frequency_dependent,
+    }
+    return [words for words, has in found.items() if has]
 
 
 def film_figure(computed: Computed, over_eccentricity: bool = False) -> FilmFigure:
@@ -61,6 +70,8 @@ def film_figure(computed: Computed, over_eccentricity: bool = False) -> FilmFigu
 
 def ends_of_whirl(computed: Computed) -> str:
     """Return in words above which eccentricity the bearing's film feeds no whirl."""
+    if film_of(computed.machine.bearing).frequency_dependent:
+        return "Coefficients at the running frequency; at a whirl's own they differ."
     limit = film_figure(computed).limit
     ratio = float(computed.curves.onset.whirl_ratio[-1])
     light = "Half-speed whirl" if abs(ratio - 0.5) < 1e-3 else f"Whirl at {ratio:.3g} of the speed"
@@ -72,13 +83,21 @@ def ends_of_whirl(computed: Computed) -> str:
 
 def lowest_threshold(computed: Computed) -> str:
     """Return in words at which eccentricity the bearing's threshold speed is lowest."""
+    if film_of(computed.machine.bearing).frequency_dependent:
+        return ""
     eps = whirl_energy.lowest_threshold(computed.machine.bearing)
     return "" if math.isnan(eps) else f", lowest at ε = {eps:.3f}"
 
 
 def bare(computed: Computed) -> Text | None:
     """Return that the closed forms drawn do not give the onset, where they do not."""
-    return None if crossing(computed).closed_form else Text(BARE, "info")
+    if not (neglected := _neglected(computed)):
+        return None
+    return Text(
+        f"The closed forms, drawn dashed, neglect {' and '.join(neglected)}, so they do not give "
+        "this machine's onset. The vertical line marks it.",
+        "info",
+    )
 
 
 def can_whirl(computed: Computed) -> bool:
@@ -153,6 +172,8 @@ def balance(computed: Computed, units: Units) -> str:
 
 def _film_limit(curves: FilmCurves, bearing: JournalBearing) -> FilmCurves | None:
     """Return the film at which whirl ends, None where heavy loads whirl too, or none does."""
+    if film_of(bearing).frequency_dependent:
+        return None  # the limit is then not that of the coefficients at the running frequency
     whirls = curves.onset.whirl_ratio > 0.0
     return None if whirls[0] or not whirls.any() else _end_of_whirl(bearing)
 
