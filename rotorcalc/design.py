@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.constants import g
 from scipy.optimize import brentq, minimize_scalar
 
 from rotorcalc.arguments import checked
@@ -21,9 +22,10 @@ from rotorcalc.display import Result
 from rotorcalc.machine import Machine
 from rotorcalc.onset.closed_form import covers
 from rotorcalc.onset.many import onset_speeds
-from rotorcalc.variation import address, changed, value_of, varied
+from rotorcalc.records import number_paths
+from rotorcalc.variation import address, changed, damping_reference, value_of, varied
 
-# The inputs that affect the onset: what `sensitivities` varies.
+# The inputs that affect the onset of any machine; a bore with a shape of its own has more.
 INPUTS = (
     "rotor.mass",
     "load",
@@ -102,8 +104,8 @@ class Sensitivities(Result):
     inputs : tuple of Sensitivity
         The input that moves the onset most comes first.
     left_out : tuple of str
-        Inputs that could not be varied: those at zero or infinity, of which a share means nothing,
-        and those for which a varied value is not a valid machine.
+        Inputs that could not be varied: those at infinity, or at a zero with which no reference
+        value can be compared, and those for which a varied value is not a valid machine.
     """
 
     onset: float
@@ -139,6 +141,23 @@ class OnsetSolution(Result):
     def reachable(self) -> tuple[float, float]:
         """Lowest and highest onset over the range [rad/s]."""
         return float(self.onset.min()), float(self.onset.max())
+
+
+def inputs_of(machine: Machine) -> tuple[str, ...]:
+    """Return the inputs that affect the onset of a machine, those of its bearing's bore too.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    tuple of str
+        "rotor.mass", …, "bearing.geometry.preload".
+    """
+    bore = (path for path in number_paths(machine) if path[:2] == ("bearing", "geometry"))
+    return (*INPUTS, *map(".".join, bore))
 
 
 @checked
@@ -197,7 +216,7 @@ def onset_map(  # noqa: PLR0913 - two axes, each a name and its values
 
 @checked
 def sensitivities(
-    machine: Machine, *, share: float = 0.10, inputs: Iterable[str] = INPUTS
+    machine: Machine, *, share: float = 0.10, inputs: Iterable[str] | None = None
 ) -> Sensitivities:
     """Return how far the onset moves when each input alone is varied.
 
@@ -207,10 +226,13 @@ def sensitivities(
         The machine.
     share : float
         Share of its value by which each input is varied, down and up [-], between 0 and 1. A
-        temperature is varied by `TEMPERATURE_STEP` instead.
-    inputs : iterable of str
-        The inputs. One at zero or infinity is left out; so is one for which a varied value is not
-        a valid machine, such as a journal mass near half the rotor's.
+        temperature is varied by `TEMPERATURE_STEP` instead. A load, a midspan damping or a journal
+        mass of zero is raised to this share of half the rotor's weight, of `damping_reference` or
+        of half the rotor's mass.
+    inputs : iterable of str, optional
+        The inputs, by default those of `inputs_of`. Any other at zero, and one at infinity, is left
+        out; so is one for which a varied value is not a valid machine, such as a journal mass near
+        half the rotor's.
 
     Returns
     -------
@@ -227,11 +249,14 @@ def sensitivities(
         raise ValueError(
             f"share = {share:g}: must be between 0 and 1; 0.10 varies each input by a tenth"
         )
-    moved = [_moved(machine, field, share) for field in inputs]
+    moved = [
+        _moved(machine, field, share)
+        for field in (inputs_of(machine) if inputs is None else inputs)
+    ]
     pairs = [
         (step, [_machine_or_none(machine, {address(machine, step[0]): v}) for v in step[1:]])
         for step in moved
-        if step[1] < step[2] < np.inf  # at 0 or ∞ a share moves nothing
+        if step[1] < step[2] < np.inf  # at ∞ a share moves nothing
     ]
     steps = [step for step, pair in pairs if None not in pair]
     machines = [one for _, pair in pairs if None not in pair for one in pair if one is not None]
@@ -333,7 +358,22 @@ def _moved(machine: Machine, field: str, share: float) -> tuple[str, float, floa
     value = value_of(machine, field)
     if address(machine, field)[-1] in ("temperature", "reference_temperature"):
         return field, value - TEMPERATURE_STEP, value + TEMPERATURE_STEP
+    if value == 0.0:
+        return field, 0.0, share * _reference(machine, field)
     return field, value * (1.0 - share), value * (1.0 + share)
+
+
+def _reference(machine: Machine, field: str) -> float:
+    """Return with what an input at zero is compared, zero where there is nothing."""
+    match address(machine, field):
+        case ("load",):
+            return machine.rotor.half_mass * g
+        case ("rotor", "disk_damping"):
+            return damping_reference(machine)
+        case ("rotor", "journal_mass"):
+            return machine.rotor.half_mass
+        case _:
+            return 0.0
 
 
 def _movement(one: Sensitivity, onset: float) -> float:

@@ -8,7 +8,6 @@ Source: San Andrés, Notes 5, Eq. 5.38, and the calculation sheet. Axes and sign
 `unbalance_response`.
 """
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -18,7 +17,7 @@ from numpy.typing import ArrayLike
 from rotorcalc.analysis import Sweep
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, ComplexArray
-from rotorcalc.coefficients import equilibrium, rising_speed, stiffness_and_damping
+from rotorcalc.coefficients import rising_speed, stiffness_and_damping
 from rotorcalc.display import Result
 from rotorcalc.films import film_of
 from rotorcalc.machine import Machine, Rotor
@@ -33,6 +32,7 @@ from rotorcalc.unbalance_response import (
     phase_lag,
     synchronous_response,
 )
+from rotorcalc.variation import damping_reference
 
 # A point every 5°: the chords of a circle then lie within 0.1 % of its radius.
 _ORBIT_POINTS = 73
@@ -355,28 +355,6 @@ def response_family(
         journal=journal,
         unstable=np.array([judge.is_unstable(one, denser, film=(K, C)) for one in machines]),
     )
-
-
-@checked
-def damping_reference(machine: Machine) -> float:
-    """Return a reference value of midspan damping [N·s/m].
-
-    Parameters
-    ----------
-    machine : Machine
-        The machine.
-
-    Returns
-    -------
-    float
-        Critical damping of the disk on its shaft, 2√(K_rot m_d); for a rigid shaft the centred
-        film's direct damping, to which the damper's is then added.
-    """
-    rotor = machine.rotor
-    if rotor.is_rigid:
-        # The centred film's damping does not depend on speed: any speed will do.
-        return float(equilibrium(replace(machine, load=0.0), 1.0).damping[0, 0])
-    return 2.0 * math.sqrt(rotor.shaft_stiffness * rotor.disk_mass)
 
 
 @checked

@@ -5,11 +5,13 @@ bearing's geometry has its own, "bearing.geometry.preload".
 """
 
 import functools
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, cast
 
 from rotorcalc.arguments import checked
+from rotorcalc.coefficients import equilibrium
 from rotorcalc.machine import Machine
 from rotorcalc.records import R, number_paths
 
@@ -114,3 +116,25 @@ def changed(record: R, changes: Mapping[tuple[str, ...], float]) -> R:
         below = {path[1:]: value for path, value in changes.items() if path[0] == name}
         own[name] = changed(getattr(record, name), below)
     return replace(record, **own)
+
+
+@checked
+def damping_reference(machine: Machine) -> float:
+    """Return a reference value of midspan damping [N·s/m].
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    float
+        Critical damping of the disk on its shaft, 2√(K_rot m_d); for a rigid shaft the centred
+        film's direct damping, to which the damper's is then added.
+    """
+    rotor = machine.rotor
+    if rotor.is_rigid:
+        # The centred film's damping does not depend on speed: any speed will do.
+        return float(equilibrium(replace(machine, load=0.0), 1.0).damping[0, 0])
+    return 2.0 * math.sqrt(rotor.shaft_stiffness * rotor.disk_mass)

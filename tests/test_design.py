@@ -269,11 +269,36 @@ def test_inputs_move_by_a_tenth_and_temperature_by_degrees() -> None:
     assert values["temperature"] == (55.0, 65.0)
 
 
-def test_inputs_without_a_share_of_their_value_are_left_out() -> None:
+def test_an_infinite_input_is_left_out() -> None:
     rigid = replace(SHEET, rotor=replace(SHEET.rotor, shaft_stiffness=math.inf), load=0.0)
-    fields = {one.field for one in design.sensitivities(rigid).inputs}
-    assert not fields & {"rotor.shaft_stiffness", "rotor.disk_damping", "load"}
-    assert "rotor.mass" in fields
+    assert design.sensitivities(rigid).left_out == ("rotor.shaft_stiffness",)
+
+
+def test_a_load_damping_or_mass_of_zero_is_raised() -> None:
+    values = {one.field: (one.low, one.high) for one in design.sensitivities(SHEET).inputs}
+    M, K = SHEET.rotor.half_mass, SHEET.rotor.shaft_stiffness
+    assert values["rotor.disk_damping"] == (0.0, pytest.approx(0.2 * math.sqrt(K * M)))
+    assert values["rotor.journal_mass"] == (0.0, pytest.approx(0.1 * M))
+
+
+def test_without_load_a_load_alone_raises_the_onset() -> None:
+    unloaded = replace(SHEET, load=0.0)
+    first, *others = design.sensitivities(unloaded).inputs
+    weight = SHEET.static_load
+    assert (first.field, first.low) == ("load", 0.0)
+    assert first.high == pytest.approx(0.1 * weight)
+    expected = onset_speed(replace(SHEET, load=0.1 * weight)).speed
+    assert first.onset_high == pytest.approx(expected, rel=1e-9)
+    assert {(one.onset_low, one.onset_high) for one in others} == {(0.0, 0.0)}
+
+
+def test_a_bores_own_inputs_are_among_those_that_move_the_onset() -> None:
+    machine = replace(SHEET, bearing=BEARINGS["preloaded"], load=0.0)
+    assert design.inputs_of(SHEET) == design.INPUTS
+    assert design.inputs_of(machine) == (*design.INPUTS, "bearing.geometry.spring")
+    moved = {one.field: one for one in design.sensitivities(machine).inputs}
+    spring = moved["bearing.geometry.spring"]
+    assert 0.0 < spring.onset_low < spring.onset_high
 
 
 @pytest.mark.parametrize("share", [0.91, 0.95, 0.999])
@@ -281,7 +306,7 @@ def test_inputs_that_cannot_be_varied_are_left_out(share: float) -> None:
     """A tenth more of the journals' mass, or less of the rotor's, leaves no disk."""
     heavy = replace(SHEET.rotor, journal_mass=share * SHEET.rotor.half_mass)
     found = design.sensitivities(replace(SHEET, rotor=heavy))
-    assert {"rotor.journal_mass", "rotor.mass", "rotor.disk_damping"} == set(found.left_out)
+    assert {"rotor.journal_mass", "rotor.mass"} == set(found.left_out)
     moved = {one.field for one in found.inputs}
     assert moved | set(found.left_out) == set(design.INPUTS)
 

@@ -15,7 +15,6 @@ from rotorcalc.figures import SI, US, Units, response
 from rotorcalc.unbalance_curves import (
     ResponseCurves,
     clearance_orbit,
-    damping_reference,
     damping_variants,
     journal_mass_variants,
     orbits,
@@ -25,6 +24,7 @@ from rotorcalc.unbalance_curves import (
 )
 from rotorcalc.unbalance_peaks import response_peaks
 from rotorcalc.unbalance_response import orbit_ellipse, orbit_points
+from rotorcalc.variation import damping_reference
 from tests.figures.charts import (
     beside,
     check_case_is_behind,
