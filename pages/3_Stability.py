@@ -4,9 +4,12 @@ from rotorcalc import whirl_energy
 from rotorcalc.figures import cursor
 from rotorcalc.figures import design as what_if
 from rotorcalc.figures import stability as figures
+from rotorcalc.figures.onset_map import onset_map as figure_of_map
 from ui.frame.page import Page, show
 from ui.preview import Text
+from ui.session import session
 from ui.words import design
+from ui.words import remedies as remedy
 from ui.words import stability as ask
 from ui.words.citation import cited
 
@@ -138,61 +141,78 @@ def follower_force(page: Page) -> None:
 
 
 def onset_map(page: Page) -> None:
-    units = page.units
+    computed, units = page.computed, page.units
     left, right = st.columns(2)
     with left:
-        x = design.choose_input("Across", "C", "stability_x")
+        x = design.choose_input(
+            computed.machine, "Across", remedy.usual_input(computed), "stability_x"
+        )
     with right:
-        y = design.choose_input("Up", "T", "stability_y", without=x)
+        y = design.choose_input(computed.machine, "Up", "T", "stability_y", without=x)
 
     def map_of(c, onsets):
         axes = (design.quantity(x, c.machine, units), design.quantity(y, c.machine, units))
-        here = design.value(c, x), design.value(c, y)
-        return what_if.onset_map(onsets, axes, here, c.speed, units)
+        here = design.value_of(c.machine, x), design.value_of(c.machine, y)
+        return figure_of_map(onsets, axes, here, c.speed, units)
 
-    onsets = design.onset_map(page.computed, x, y, units)
+    onsets = design.onset_map(computed, x, y, units)
+    page.say(
+        "map",
+        lambda c: Text(design.sides(c, design.onset_map(c, x, y, units), units)),
+        while_dragging=lambda c: Text(design.sides(c, design.coarse_map(c, x, y, units), units)),
+    )
     page.chart(
         lambda c: map_of(c, onsets),
         "onset_map",
         while_dragging=lambda c: map_of(c, design.coarse_map(c, x, y, units)),
-        alt="Contour map of the onset speed over two inputs, with this machine and the "
-        "line on which the onset is the running speed.",
-        caption="Onset of this machine with two inputs changed, all others kept. On the "
-        "side of lower onset it would be unstable at the running speed.",
+        alt="Contour map of the onset speed over two inputs, with this machine, and the machines "
+        "that are unstable at the running speed shaded.",
+        caption="Onset of this machine with two inputs changed, all others kept.",
     )
 
 
 def remedies(page: Page) -> None:
     computed, units = page.computed, page.units
-    page.chart(
-        lambda c: what_if.tornado(design.sensitivities(c), design.names(units), units),
-        "tornado",
-        alt="Change of the onset speed for ten per cent less and more of each input.",
-        caption=design.TORNADO,
-    )
+    page.say("cure", remedy.cure)
+    left, middle, right = st.columns([3, 3, 2])
+    with left:
+        vary = design.choose_input(
+            computed.machine, "Change", remedy.usual_input(computed), "stability_vary"
+        )
+    with middle:
+        where = remedy.choose_where(computed)
+    with right:
+        wanted = remedy.choose_wanted(computed, where, units)
+    if wanted is not None:
+        page.say("answer", lambda c: Text(remedy.answer(c, vary, wanted, units)))
+        with page.preview.dimmed("remedies"):
+            remedy.draw_buttons(computed, vary, wanted, units, session().set_value)
     left, right = st.columns(2)
     with left:
-        vary = design.choose_input("Change", "C", "stability_vary")
+        if wanted is not None:
+            solved(page, vary, wanted)
     with right:
-        target = design.choose_target(computed, units)
-    axis = design.quantity(vary, computed.machine, units)
-    page.say(
-        "answer",
-        lambda c: Text(
-            design.answer(
-                design.solution(c, vary, target, units), axis, design.value(c, vary), units
-            )
-        ),
-    )
+        page.chart(
+            lambda c: what_if.tornado(
+                design.sensitivities(c), design.names(c.machine, units), units
+            ),
+            "tornado",
+            alt="Change of the onset speed for ten per cent less and more of each input.",
+            caption=design.TORNADO,
+        )
+
+
+def solved(page: Page, vary: str, wanted: remedy.Wanted) -> None:
+    units = page.units
     page.chart(
         lambda c: what_if.solution(
-            design.solution(c, vary, target, units),
-            axis,
-            (design.value(c, vary), c.onset.speed),
+            remedy.solution(c, vary, wanted.target(c), units),
+            design.quantity(vary, c.machine, units),
+            (design.value_of(c.machine, vary), c.onset.speed),
             units,
         ),
         "solution",
-        alt="Onset speed over one input, with the target onset and the values that give it.",
+        alt="Onset speed over one input, with the onset wanted and the values that give it.",
         caption="Onset with one input changed, all others kept; each crossing solved.",
     )
 

@@ -17,8 +17,8 @@ T = TypeVar("T", str, float, int, bool)
 
 # The names that a link may have.
 NAMES = frozenset((
-    "tab", "scale", "over", "axes", "shaft", "spiral", "shown", "varied", "x", "y", "vary", "kick",
-    "revolutions",
+    "tab", "scale", "over", "axes", "shaft", "spiral", "shown", "varied", "x", "y", "vary",
+    "wanted", "margin", "target", "kick", "revolutions",
 ))  # fmt: skip
 _KEY = "rotorcalc_choices"
 

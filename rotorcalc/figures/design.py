@@ -1,4 +1,4 @@
-"""Charts of the onset against inputs: a map, a tornado chart, a curve over one input."""
+"""Charts of the onset against inputs: a tornado chart, and a curve over one input."""
 
 import math
 from collections.abc import Mapping
@@ -8,21 +8,14 @@ from typing import Any
 import numpy as np
 
 from rotorcalc.arrays import Array
-from rotorcalc.design import OnsetMap, OnsetSolution, Sensitivities
+from rotorcalc.design import OnsetSolution, Sensitivities, Sensitivity
 from rotorcalc.figures import style
 from rotorcalc.figures.stability import LEGEND, MARGIN, near
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
+from rotorcalc.figures.text import amount
 from rotorcalc.units import Unit, Units
 
-# Onset speeds [rpm] at which a map changes colour, fixed so that maps can be compared.
-_LADDER = np.array([500, 700, 1e3, 1.5e3, 2e3, 3e3, 5e3, 7e3, 1e4, 1.5e4, 2e4, 3e4, 5e4])
-# One hue from dark to light, legible to colour-blind readers and in grey; dark is a low onset.
-_SEQUENCE = [
-    [0.0, "#06264d"], [0.2, "#0b4a85"], [0.4, "#2b7bba"],
-    [0.6, "#6aaed6"], [0.8, "#b0d2e8"], [1.0, "#eff6fc"],
-]  # fmt: skip
 _LESS, _MORE = style.BLUE, style.OCHRE
-_HIGHEST = 1e7  # rpm: stands for an onset at infinity
 
 
 @dataclass(frozen=True)
@@ -45,62 +38,70 @@ class Quantity:
 
     def place(self, value: float) -> float:
         """Return a value in the axis's unit, held at the nearer end where it lies outside."""
-        return float(self.unit.of(min(max(value, self.low), self.high)))
+        # Plotly draws nothing at a point beyond the end by rounding.
+        low, high = self.low * (1.0 + 1e-9), self.high * (1.0 - 1e-9)
+        return float(self.unit.of(min(max(value, low), high)))
+
+    def beyond(self, value: float, arrows: str = "←→") -> str:
+        """Return the arrow towards a value outside the axis, nothing for one on it."""
+        return "" if self.low <= value <= self.high else arrows[value > self.high]
 
     def text(self, value: float) -> str:
         """Return a value with its unit."""
-        return f"{float(self.unit.of(value)):.4g} {self.unit.name}"
+        return amount(self.unit, value).removesuffix(" -")
 
 
-def onset_map(
-    shown: OnsetMap,
-    quantities: tuple[Quantity, Quantity],
-    here: tuple[float, float],
-    speed: float,
-    units: Units,
-) -> Chart:
-    """Return the onset speed over two inputs, with a machine on it.
-
-    `here` is the machine's place in SI, `speed` the running speed [rad/s], along whose onset a
-    line runs: beyond it the machine would be unstable there.
-    """
-    x, y = (quantity.axis() for quantity in quantities)
-    left, bottom = (quantity.place(value) for quantity, value in zip(quantities, here, strict=True))
-    return style.chart(
-        [
-            *_contours(shown, quantities, float(units.speed.of(speed)), units),
-            *style.here(left, bottom, x, y, "this machine"),
-        ],
-        x,
-        y,
-        height=500,
-        legend=LEGEND,
-        margin={"l": 64, "r": 28, "t": 16, "b": 84},
-    )
+def this_machine(x: Axis, y: Axis, left: float, bottom: float, arrow: str) -> list[Trace]:
+    """Return the mark of the machine, or words at the edge beyond which it lies."""
+    if not arrow:
+        return style.here(left, bottom, x, y, "this machine")
+    side = {"←": "middle right", "→": "middle left", "↓": "top center", "↑": "bottom center"}[arrow]
+    return [
+        {
+            "type": "scatter", "mode": "text", "x": np.array([left]), "y": np.array([bottom]),
+            "text": [f"{arrow} this machine"], "textposition": side, "name": "this machine, beyond",
+            "showlegend": False, "hoverinfo": "skip",
+        }
+    ]  # fmt: skip
 
 
 def tornado(found: Sensitivities, names: Mapping[str, str], units: Units) -> Chart:
-    """Return the onset's change with each input, a pair of bars per input, the largest on top."""
+    """Return the onset's change with each input, a pair of bars per input, the largest on top.
+
+    Inputs that do not move the onset are left out.
+    """
     onset, unit = float(units.speed.of(found.onset)), units.speed
-    inputs = found.inputs[::-1]  # the axis runs upwards
+    inputs = moving(found)[::-1]  # the axis runs upwards
     places = np.arange(len(inputs), dtype=float)
     less = np.array([_change(float(unit.of(one.onset_low)), onset) for one in inputs])
     more = np.array([_change(float(unit.of(one.onset_high)), onset) for one in inputs])
-    reach = style.ceiling(1.1 * np.abs([*less, *more, 1.0]))
+    all_of_them = np.array([*less, *more, 1.0])
+    reach = style.ceiling(1.1 * np.abs(all_of_them[np.isfinite(all_of_them)]))
+
+    def texts(changes: Array) -> list[str]:
+        return [f"{_effect(value, unit.name)}{_percent(value, onset)}" for value in changes]
+
     title = titled("Change", "ΔΩ_on", unit.name)
     rows = [
-        f"{names[one.field]}<br>{_signed(low)} / {_signed(high)} {unit.name}"
+        f"{names[one.field]}<br>{_effect(low, unit.name)} / {_effect(high, unit.name)}"
         for one, low, high in zip(inputs, less, more, strict=True)
     ]
+    none = style.note("no input moves the onset", 0.5, 0.5)
     return style.chart(
         [
-            _bars(less, places, "10 % less", onset, _LESS),
-            _bars(more, places, "10 % more", onset, _MORE),
+            *(
+                # The bar of an infinite change ends with the axis.
+                _bars(np.clip(changes, -reach, reach), places, name, texts(changes), colour)
+                for changes, name, colour in (
+                    (less, "10 % less", _LESS),
+                    (more, "10 % more", _MORE),
+                )
+            ),
             *_shares_axis_holder(onset),
         ],
         near(style.axis(title, -reach, reach)),
         style.axis(
-            "", -0.6, len(inputs) - 0.4, tickvals=places, ticktext=rows, showgrid=False,
+            "", -0.6, max(len(inputs), 1) - 0.4, tickvals=places, ticktext=rows, showgrid=False,
             tickfont={"size": 13},
         ),
         xaxis2=_shares_axis(reach, onset),
@@ -109,6 +110,16 @@ def tornado(found: Sensitivities, names: Mapping[str, str], units: Units) -> Cha
         legend=LEGEND,
         margin={"l": 64, "r": 28, "t": 52, "b": 84},
         shapes=[_zero()],
+        annotations=[] if inputs else [none],
+    )  # fmt: skip
+
+
+def moving(found: Sensitivities) -> tuple[Sensitivity, ...]:
+    """Return the inputs that move the onset by more than rounding."""
+    return tuple(
+        one for one in found.inputs
+        if any(end != found.onset and not math.isclose(end, found.onset, rel_tol=1e-9)
+               for end in (one.onset_low, one.onset_high))
     )  # fmt: skip
 
 
@@ -136,7 +147,10 @@ def solution(
         heights = np.full(len(wanted), target)
         traces.append(style.mark(wanted, heights, "solution", style.RED))
     if np.isfinite(now) and now <= top:
-        traces += style.here(quantity.place(here[0]), now, x, y, "this machine")
+        arrow = quantity.beyond(here[0])
+        # Clear of the axis, of which an onset of zero would cross its words.
+        height = max(now, 0.04 * top) if arrow else now
+        traces += this_machine(x, y, quantity.place(here[0]), height, arrow)
     return style.chart(
         traces,
         x,
@@ -154,57 +168,29 @@ def _round_numbers(low: float, high: float) -> Array:
     return numbers[(numbers >= low * (1 - 1e-9)) & (numbers <= high * (1 + 1e-9))]
 
 
-def _contours(
-    shown: OnsetMap, quantities: tuple[Quantity, Quantity], speed: float, units: Units
-) -> list[Trace]:
-    xs, ys = quantities[0].unit.of(shown.xs), quantities[1].unit.of(shown.ys)
-    rpm = np.minimum(units.speed.of(shown.speed), _HIGHEST)
-    with np.errstate(divide="ignore"):
-        steps = np.interp(np.log(rpm), np.log(_LADDER), np.arange(len(_LADDER)))
-    hover = f"%{{x:.4g}}, %{{y:.4g}}<br>onset %{{customdata:.0f}} {units.speed.name}<extra></extra>"
-    place: dict[str, Any] = {"type": "contour", "x": xs, "y": ys, "hoverongaps": False}
-    steps[np.isnan(rpm)] = np.nan
-    return [
-        place | {
-            "z": steps, "zmin": 0, "zmax": len(_LADDER) - 1, "colorscale": _SEQUENCE,
-            "contours": {"start": 0, "end": len(_LADDER) - 1, "size": 1, "coloring": "fill"},
-            "line": {"width": 0.6, "color": "rgba(255,255,255,0.5)"},
-            "customdata": rpm, "hovertemplate": hover, "name": "onset", "showlegend": False,
-            "colorbar": _colour_bar(units.speed.name),
-        },
-        place | {
-            "z": rpm, "name": f"onset at the running speed, {speed:.0f} {units.speed.name}",
-            "contours": {"type": "constraint", "operation": "=", "value": speed},
-            "line": {"width": 3, "color": style.RED}, "hoverinfo": "skip",
-            "showlegend": True, "showscale": False,
-        },
-    ]  # fmt: skip
-
-
-def _colour_bar(unit: str) -> dict[str, Any]:
-    return {
-        "title": {"text": f"Onset<br>[{unit}]"}, "tickvals": np.arange(len(_LADDER)),
-        "ticktext": [f"{step:.0f}" for step in _LADDER], "thickness": 16, "outlinewidth": 0,
-    }  # fmt: skip
-
-
 def _change(onset: float, base: float) -> float:
     """Return the difference of two onsets; 0 between infinite ones."""
-    change = onset - base if onset != base else 0.0
-    return change if np.isfinite(change) else 0.0
+    return onset - base if onset != base else 0.0
 
 
-def _signed(value: float) -> str:
-    return f"{value:+.0f}".replace("-", "−")
+def _effect(change: float, unit: str) -> str:
+    """Return a change in whole units; what it means where the onset comes from or goes to ∞."""
+    if math.isinf(change):
+        return "no whirl" if change > 0.0 else "whirl"
+    return f"{change:+.0f} {unit}".replace("-", "−") if round(change) else f"0 {unit}"
 
 
-def _bars(x: Array, y: Array, name: str, onset: float, colour: str) -> Trace:
-    shares = 100.0 * x / onset if onset > 0.0 else 0.0 * x
-    hover = f"{name}: %{{x:+.4g}} rpm, %{{customdata:+.2g}} %<extra></extra>"
+def _bars(x: Array, y: Array, name: str, texts: list[str], colour: str) -> Trace:
     return {
         "type": "bar", "orientation": "h", "x": x, "y": y, "name": name, "width": 0.6,
-        "marker": {"color": colour}, "customdata": shares, "hovertemplate": hover,
+        "marker": {"color": colour}, "customdata": texts,
+        "hovertemplate": f"{name}: %{{customdata}}<extra></extra>",
     }  # fmt: skip
+
+
+def _percent(change: float, onset: float) -> str:
+    share = 100.0 * change / onset if 0.0 < onset < math.inf else math.nan
+    return f", {share:+.2g} %".replace("-", "−") if math.isfinite(share) else ""
 
 
 def _shares_axis(reach: float, onset: float) -> Axis:

@@ -11,6 +11,7 @@ from rotorcalc import PRESETS, design, variation, whirl_energy
 from rotorcalc.figures import SI, US, Chart, Units
 from rotorcalc.figures import design as what_if
 from rotorcalc.figures import stability as figures
+from rotorcalc.figures.onset_map import onset_map
 from rotorcalc.onset import Onset
 from tests.figures.charts import (
     check_case_is_behind,
@@ -20,6 +21,7 @@ from tests.figures.charts import (
 from ui.computed import Computed, computed_from
 from ui.inputs import INPUTS, PRESET_VALUES, Values
 from ui.words import design as moves
+from ui.words import remedies
 from ui.words import stability as ask
 
 SHEET = PRESET_VALUES["sheet-1e8"]
@@ -56,9 +58,8 @@ def _map(c: Computed, units: Units) -> Chart:
     axes = (moves.quantity("C", c.machine, units), moves.quantity("load", c.machine, units))
     xs, ys = (np.geomspace(axis.low, axis.high, 4) for axis in axes)
     onsets = design.onset_map(c.machine, x="radial_clearance", xs=xs, y="load", ys=ys)
-    return what_if.onset_map(
-        onsets, axes, (moves.value(c, "C"), moves.value(c, "load")), c.speed, units
-    )
+    here = moves.value_of(c.machine, "C"), moves.value_of(c.machine, "load")
+    return onset_map(onsets, axes, here, c.speed, units)
 
 
 def _solution(c: Computed, units: Units) -> Chart:
@@ -82,7 +83,9 @@ CHARTS: dict[str, Callable[[Computed, Units], Chart]] = {
     "energy bars": lambda c, units: figures.energy_bars(ask.energies(c), units),
     "energy": lambda c, units: figures.energy(ask.energies(c), ask.crossing(c), units),
     "map": _map,
-    "tornado": lambda c, units: what_if.tornado(moves.sensitivities(c), moves.names(units), units),
+    "tornado": lambda c, units: what_if.tornado(
+        moves.sensitivities(c), moves.names(c.machine, units), units
+    ),
     "solution": _solution,
 }
 every_chart = pytest.mark.parametrize("draw", CHARTS.values(), ids=CHARTS.keys())
@@ -209,39 +212,111 @@ def test_the_bars_meet_at_the_onset() -> None:
 
 def test_the_tornado_has_the_largest_on_top() -> None:
     computed = computed_from(SHEET)
-    chart = what_if.tornado(moves.sensitivities(computed), moves.names(SI), SI)
+    chart = what_if.tornado(moves.sensitivities(computed), moves.names(computed.machine, SI), SI)
     less, more = (np.abs(trace["x"]) for trace in chart["data"][:2])
     reach = np.maximum(less, more)
     assert np.all(np.diff(reach) >= 0.0)
     assert any("Film temperature T ±5 °C" in row for row in chart["layout"]["yaxis"]["ticktext"])
-    in_us = what_if.tornado(moves.sensitivities(computed), moves.names(US), US)
+    in_us = what_if.tornado(moves.sensitivities(computed), moves.names(computed.machine, US), US)
     assert any("Film temperature T ±9 °F" in row for row in in_us["layout"]["yaxis"]["ticktext"])
 
 
-def test_a_map_keeps_its_colour_levels() -> None:
-    first, second = (
-        _map(computed_from(PRESET_VALUES[key]), SI)["data"][0]
-        for key in ("sheet-1e8", "friswell-5-5-1")
-    )
-    for key in ("zmin", "zmax", "contours"):
-        assert first[key] == second[key]
+def _words(chart: Chart) -> list[str]:
+    return [note["text"] for note in chart["layout"].get("annotations", ())]
+
+
+def test_a_maps_colours_span_its_onsets_and_its_contours_are_labelled() -> None:
+    computed = computed_from(SHEET)
+    for low, high in ((10e-6, 500e-6), (55e-6, 65e-6)):
+        onsets = design.onset_map(
+            computed.machine,
+            x="radial_clearance", xs=np.geomspace(low, high, 40),
+            y="temperature", ys=np.linspace(20.0, 100.0, 40),
+        )  # fmt: skip
+        axes = tuple(moves.quantity(key, computed.machine, SI) for key in ("C", "T"))
+        chart = onset_map(onsets, axes, (60e-6, 60.0), computed.speed, SI)
+        levels = [float(text) for text in chart["data"][0]["colorbar"]["ticktext"]]
+        rpm = SI.speed.of(onsets.speed)
+        assert len(levels) >= 3
+        assert rpm.min() <= levels[0] < levels[-1] <= rpm.max()
+        labels = {float(text) for text in _words(chart) if text.isdigit()}
+        assert labels
+        assert labels <= set(levels)
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        (SHEET, {"stable", "unstable"}),
+        (SHEET | {"rpm": 100.0}, {"stable"}),
+        (SHEET | {"rpm": 300000.0, "rpm_max": 300000.0}, {"unstable"}),
+    ],
+)
+def test_a_map_names_its_sides_and_has_a_line_only_between_two(
+    values: Values, words: set[str]
+) -> None:
+    computed = computed_from(values)
+    axes = tuple(moves.quantity(key, computed.machine, SI) for key in ("C", "T"))
+    onsets = design.onset_map(
+        computed.machine, x="radial_clearance", xs=np.geomspace(50e-6, 300e-6, 30),
+        y="temperature", ys=np.linspace(20.0, 80.0, 30),
+    )  # fmt: skip
+    chart = onset_map(onsets, axes, (60e-6, 60.0), computed.speed, SI)
+    assert {text for text in _words(chart) if not text.isdigit()} == words
+    legend = [trace["name"] for trace in chart["data"] if trace.get("showlegend", True)]
+    assert any("running speed" in name for name in legend) == (len(words) == 2)
+    said = moves.sides(computed, onsets, SI)
+    assert ("red line" in said) == (len(words) == 2)
+    for side in ("**stable**", "**unstable**"):
+        assert (side in said) == (side.strip("*") in words) or len(words) == 2
+
+
+def test_a_map_without_load_says_that_all_of_it_is_unstable() -> None:
+    computed = computed_from(SHEET | {"load": 0.0})
+    onsets = moves.onset_map(computed, "C", "T", SI)
+    axes = tuple(moves.quantity(key, computed.machine, SI) for key in ("C", "T"))
+    chart = onset_map(onsets, axes, (60e-6, 60.0), computed.speed, SI)
+    assert _words(chart) == ["unstable"]
+    assert chart["data"][0]["showscale"] is False
+    assert "All machines of this map are **unstable**" in moves.sides(computed, onsets, SI)
+
+
+def test_a_machine_beyond_its_axis_is_named_at_the_edge() -> None:
+    computed = computed_from(SHEET | {"load": 0.0})
+    axis = moves.quantity("load", computed.machine, SI)
+    found = remedies.solution(computed, "load", 1.2 * computed.speed, SI)
+    chart = what_if.solution(found, axis, (0.0, 0.0), SI)
+    [words] = [trace for trace in chart["data"] if trace["name"].startswith("this machine")]
+    assert words["text"] == ["← this machine"]
+
+
+def test_the_tornado_leaves_out_what_moves_nothing() -> None:
+    computed = computed_from(SHEET | {"load": 0.0})
+    chart = CHARTS["tornado"](computed, SI)
+    [row] = chart["layout"]["yaxis"]["ticktext"]
+    assert row.startswith("Load per bearing")
+
+
+def _wanted(computed: Computed, margin: float = 20.0) -> remedies.Wanted:
+    return remedies.Wanted("above the running speed", margin)
 
 
 def test_the_solutions_stand_on_the_wanted_line() -> None:
     computed, axis = computed_from(SHEET), moves.quantity("C", computed_from(SHEET).machine, SI)
-    found = moves.solution(computed, "C", 1.2 * computed.speed, SI)
+    found = remedies.solution(computed, "C", 1.2 * computed.speed, SI)
     chart = what_if.solution(found, axis, (60e-6, computed.onset.speed), SI)
     [mark] = [trace for trace in chart["data"] if trace["name"] == "solution"]
     assert mark["x"] == pytest.approx([100.44, 459.40], rel=1e-4)
     assert mark["y"] == pytest.approx([7200.0, 7200.0])
-    assert "100.4 µm" in moves.answer(found, axis, 60e-6, SI)
-    assert "459.4 µm" in moves.answer(found, axis, 60e-6, SI)
+    said = remedies.answer(computed, "C", _wanted(computed), SI)
+    assert "100.4 µm" in said
+    assert "459.4 µm" in said
+    assert "higher already" in said
 
 
 def test_without_a_solution_the_text_gives_the_range_that_can_be_reached() -> None:
-    computed, axis = computed_from(SHEET), moves.quantity("T", computed_from(SHEET).machine, SI)
-    found = moves.solution(computed, "T", 2.0 * computed.speed, SI)
-    words = moves.answer(found, axis, 60.0, SI)
+    computed = computed_from(SHEET)
+    words = remedies.answer(computed, "T", _wanted(computed, 100.0), SI)
     assert "No value" in words
     assert "8296" in words
     assert "8939" in words
@@ -252,5 +327,6 @@ def test_every_input_can_be_varied_over_its_axis(key: str) -> None:
     computed = computed_from(VALUES["damped"])
     axis = moves.quantity(key, computed.machine, SI)
     for end in (axis.low, axis.high):
-        varied = variation.varied(computed.machine, {moves.FIELDS[key]: end})
-        assert variation.value_of(varied, moves.FIELDS[key]) == end
+        field = moves.fields_of(computed.machine)[key]
+        varied = variation.varied(computed.machine, {field: end})
+        assert variation.value_of(varied, field) == end

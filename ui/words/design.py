@@ -1,29 +1,35 @@
-"""What moves an onset: the inputs to choose from, the map, the sensitivities, the solved values.
+"""What moves an onset: the inputs to choose from, the map, the sensitivities.
 
-Inputs go here by their keys in `ui.inputs`; the core names them by the fields of its records.
+Inputs go here by their keys in `ui.inputs`, those of a bearing's bore by theirs in `ui.bearing`;
+the core names them by the fields of its records.
 """
 
 import math
 from functools import lru_cache
 
+import numpy as np
 import streamlit as st
 
 from rotorcalc import Machine, design, rpm, variation
 from rotorcalc.figures.design import Quantity
 from rotorcalc.units import SI, Units
+from ui.bearing import Field
+from ui.bearing import fields_of as bore_fields
 from ui.choices import choice
 from ui.computed import Computed
-from ui.format import amount, digits
+from ui.format import amount
 from ui.inputs import INPUTS, usual, values_of
 from ui.jobs import cache, work
+from ui.words.citation import without_load
 
-# The core's names for the inputs that move an onset.
+# The core's names for the inputs that move the onset of any machine.
 FIELDS = {key: item.field for key, item in INPUTS.items() if item.field in design.INPUTS}
-_KEYS = {name: key for key, name in FIELDS.items()}
 # Whose effect goes by ratios: drawn and searched over a logarithmic axis.
 _BY_RATIO = {"mass", "load", "mu", "C", "D", "L", "k"}
-# How far an axis reaches from the machine's value, as a factor.
+# How far an axis reaches from the machine's value, as a factor; of a bore's field the first that
+# makes a bore.
 _REACH = 10.0
+_FACTORS = (_REACH, 5.0, 3.0, 2.0, 1.5, 1.2, 1.1)
 # The widest clearance of a valid bearing over its radius, to rounding.
 _WIDEST = 0.1 * (1.0 - 1e-9)
 # Where a zero or infinite input depends on a running speed [rad/s], which an onset does not.
@@ -33,16 +39,38 @@ _FINE, _COARSE = 60, 11
 _WHILE_DRAGGING = 30
 _onset_map = cache.Cached(work.onset_map, entries=32, megabytes=8)
 _sensitivities = cache.Cached(design.sensitivities, entries=64, megabytes=4)
-_solution = cache.Cached(work.solution, entries=64, megabytes=4)
 TORNADO = (
-    "Each input is varied alone by ±10 %, a temperature by the degrees shown. Beside each input: "
-    "the onset's change for less / more. Rotor mass changes the load too where that is half the "
-    "weight. Inputs at zero or infinity are left out."
+    "Each input is varied alone by ±10 %, a temperature by the degrees shown. A load of zero is "
+    "raised to 10 % of half the weight, a midspan damping of zero to 10 % of the critical damping, "
+    "a journal mass of zero to 10 % of half the rotor's. Rotor mass changes the load too where "
+    "that is half the weight."
 )
+
+
+def fields_of(machine: Machine) -> dict[str, str]:
+    """Return the core's names of the inputs that move a machine's onset, by their keys."""
+    geometry = machine.bearing.geometry
+    named = {field.name: key for key, field in bore_fields(geometry.kind).items()}
+    own = (field for field in design.inputs_of(machine) if field not in FIELDS.values())
+    return FIELDS | {named[field.rpartition(".")[2]]: field for field in own}
+
+
+def bore_field(machine: Machine, key: str) -> Field:
+    """Return a field of the machine's bore."""
+    return bore_fields(machine.bearing.geometry.kind)[key]
+
+
+def name(machine: Machine, key: str) -> str:
+    """Return an input's label and symbol."""
+    if key not in INPUTS:
+        return bore_field(machine, key).label
+    return f"{INPUTS[key].label} {INPUTS[key].symbol}"
 
 
 def quantity(key: str, machine: Machine, units: Units) -> Quantity:
     """Return an input as an axis about the machine's value, where that gives valid machines."""
+    if key not in INPUTS:
+        return _bore_quantity(key, machine, units)
     item, is_log = INPUTS[key], key in _BY_RATIO
     low, high = item.low, item.high
     if not item.step:
@@ -57,6 +85,24 @@ def quantity(key: str, machine: Machine, units: Units) -> Quantity:
     )
 
 
+def _bore_quantity(key: str, machine: Machine, units: Units) -> Quantity:
+    field, now = bore_field(machine, key), value_of(machine, key)
+    ends = [
+        next((end for factor in _FACTORS if _makes(machine, key, end := now * factor**sign)), now)
+        for sign in (-1, 1)
+    ]
+    return Quantity(field.label, "", field.unit(units), *ends, log=now > 0.0)
+
+
+def _makes(machine: Machine, key: str, value: float) -> bool:
+    """Return whether a value of a bore's field makes a machine; a record knows no upper end."""
+    try:
+        variation.varied(machine, {fields_of(machine)[key]: value})
+    except ValueError:
+        return False
+    return True
+
+
 def _valid(key: str, machine: Machine) -> tuple[float, float]:
     """Return between which values [SI] an input leaves a disk, and a clearance that is small."""
     rotor, bearing = machine.rotor, machine.bearing
@@ -69,50 +115,31 @@ def _valid(key: str, machine: Machine) -> tuple[float, float]:
     return -math.inf, _WIDEST * bearing.radius if key == "C" else math.inf
 
 
-def choose_input(label: str, default: str, key: str, without: str = "") -> str:
+def choose_input(machine: Machine, label: str, default: str, key: str, without: str = "") -> str:
     """Show a choice of the inputs that affect the onset; return the chosen one's key."""
-    options = [name for name in FIELDS if name != without]
+    options = [one for one in fields_of(machine) if one != without]
     default = default if default in options else options[0]
     first = choice(key, default, options.__contains__)
     chosen = st.selectbox(
         label,
         options,
         index=options.index(first or default),
-        format_func=lambda name: f"{INPUTS[name].label} {INPUTS[name].symbol}",
+        format_func=lambda one: name(machine, one),
         key=key,
     )
     return chosen or default
 
 
-def choose_target(computed: Computed, units: Units) -> float:
-    """Show a field for the target onset; return it [rad/s]."""
-    key = "stability_target"
-    if not st.session_state.get("stability_target_typed"):
-        st.session_state[key] = float(round(1.2 * float(units.speed.of(computed.speed)), -1))
-    target = st.number_input(
-        f"Target onset [{units.speed.name}]",
-        min_value=10.0,
-        max_value=1e6,
-        step=100.0,
-        format="%.0f",
-        key=key,
-        persist_state="session",
-        on_change=lambda: st.session_state.update(stability_target_typed=True),
-        help="By default 1.2 times the running speed.",
-    )
-    return units.speed.to_si(target)
-
-
-def value(computed: Computed, key: str) -> float:
+def value_of(machine: Machine, key: str) -> float:
     """Return a machine's value of an input in SI."""
-    return variation.value_of(computed.machine, FIELDS[key])
+    return variation.value_of(machine, fields_of(machine)[key])
 
 
-def names(units: Units) -> dict[str, str]:
+def names(machine: Machine, units: Units) -> dict[str, str]:
     """Return the names of the core's inputs for the tornado chart."""
     step = f"{design.TEMPERATURE_STEP * units.temperature.per_si:g} {units.temperature.name}"
-    return {name: f"{INPUTS[key].label} {INPUTS[key].symbol}" for name, key in _KEYS.items()} | {
-        "temperature": f"{INPUTS['T'].label} {INPUTS['T'].symbol} ±{step}"
+    return {field: name(machine, key) for key, field in fields_of(machine).items()} | {
+        "temperature": f"{name(machine, 'T')} ±{step}"
     }
 
 
@@ -126,6 +153,18 @@ def onset_map(computed: Computed, x: str, y: str, units: Units) -> design.OnsetM
     found = _onset_map(machine, *axes, _COARSE, tell=bar.progress)
     bar.empty()
     return found
+
+
+def sides(computed: Computed, onsets: design.OnsetMap, units: Units) -> str:
+    """Return in words what of a map is stable at the running speed."""
+    speed = onsets.speed[~np.isnan(onsets.speed)]
+    running = amount(units.speed, computed.speed)
+    if not np.any(speed < computed.speed):
+        return f"All machines of this map are **stable** at {running}."
+    if not np.any(speed >= computed.speed):
+        why = f": {without_load(computed)}" if not speed.any() else ""
+        return f"All machines of this map are **unstable** at {running}{why}."
+    return f"Shaded: **unstable** at {running}. Along the red line the onset is {running}."
 
 
 def coarse_map(computed: Computed, x: str, y: str, units: Units) -> design.OnsetMap:
@@ -146,40 +185,9 @@ def _coarse_map(machine: Machine, x: work.Axis, y: work.Axis) -> design.OnsetMap
 
 def _axis(key: str, machine: Machine, units: Units) -> work.Axis:
     axis = quantity(key, machine, units)
-    return FIELDS[key], axis.low, axis.high, axis.log
+    return fields_of(machine)[key], axis.low, axis.high, axis.log
 
 
 def sensitivities(computed: Computed) -> design.Sensitivities:
     """Return the onset's change with each input."""
     return _sensitivities(computed.machine)
-
-
-def solution(computed: Computed, key: str, target: float, units: Units) -> design.OnsetSolution:
-    """Return the values of an input that put the onset at a speed."""
-    axis = quantity(key, computed.machine, units)
-    return _solution(computed.machine, FIELDS[key], target, axis.low, axis.high)
-
-
-def answer(found: design.OnsetSolution, axis: Quantity, now: float, units: Units) -> str:
-    """Return a text with the values that meet the target, or the range that can be reached."""
-    speed = amount(units.speed, found.target)
-    if len(found.solutions):
-        values = " or ".join(f"**{axis.text(value)}**" for value in found.solutions)
-        return f"{axis.words} {values} puts the onset at {speed}; now it is {_now(axis, now)}."
-    low, high = (float(units.speed.of(end)) for end in found.reachable)
-    ends = f"{axis.text(axis.low)} and {axis.text(axis.high)}"
-    if low == high:
-        return f"{axis.words} does not affect the onset of this machine."
-    reached = f"{digits(low)} and {_speed_word(high)} {units.speed.name}"
-    return (
-        f"No value of the {axis.words.lower()} between {ends} puts the onset at {speed}: it stays "
-        f"between {reached}."
-    )
-
-
-def _now(axis: Quantity, value: float) -> str:
-    return "infinite" if math.isinf(value) else axis.text(value)
-
-
-def _speed_word(rpm: float) -> str:
-    return "infinity," if math.isinf(rpm) else digits(rpm)
