@@ -29,7 +29,7 @@ def locus(page: Page) -> None:
             "locus",
             alt="Path of the journal in its clearance, from the wall to the middle.",
             caption=cited(
-                "Path of the journal, with rpm along it; dotted, any speed.",
+                "Path of the journal's centre, speeds in rpm along it; dotted: at any speed.",
                 page.computed, "attitude", "eccentricity",
             ),
         )  # fmt: skip
@@ -44,7 +44,9 @@ def locus(page: Page) -> None:
             "position",
             alt="Eccentricity ratio and attitude angle, the running speed marked on both.",
             caption=cited(
-                remark(page.computed, "eccentricity", otherwise="At each speed's equilibrium."),
+                remark(
+                    page.computed, "eccentricity", otherwise="At the equilibrium of each speed."
+                ),
                 page.computed,
                 "attitude",
                 "eccentricity",
@@ -85,7 +87,7 @@ def forces(page: Page) -> None:
             lambda c: film.forces(c.force_curves, c.forces, units), "forces",
             alt="Resultant, tangential and radial force of the film over eccentricity ratio.",
             caption=cited(
-                "At the running speed: the journal sits where the resultant meets the load.",
+                "At the running speed: in equilibrium the resultant equals the load.",
                 page.computed, "force",
             ),
         )  # fmt: skip
@@ -109,7 +111,7 @@ def losses(page: Page) -> None:
         (left, place.power_loss,
          cited("Drag torque times speed, all dissipated as heat.", computed, "drag")),
         (right, place.side_flow,
-         cited("Oil that leaves at both ends and must be supplied.", computed, "flow")),
+         cited("Oil that leaves at both ends and must be replaced.", computed, "flow")),
         (left, friction, "Drag torque/(R Fₒ); without load the drag torque itself."),
         (right, place.minimum_film_thickness, words.thinnest(computed)),
     ):  # fmt: skip
@@ -127,7 +129,7 @@ def losses(page: Page) -> None:
 
 show(
     "Static equilibrium",
-    "Where the journal sits at the running speed, how its film carries the load, "
+    "Where the journal runs at the running speed, how its film carries the load, "
     "and its losses and flow.",
     content,
 )

@@ -94,6 +94,6 @@ def onset(computed, *, bends):
 
 show(
     "Root locus",
-    "How each mode of the rotor decays, and how fast it whirls, as the speed rises.",
+    "How fast each mode of the rotor decays and whirls as the speed rises.",
     content,
 )

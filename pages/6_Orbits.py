@@ -156,6 +156,6 @@ def onset_three_ways(page: Page) -> None:
 
 show(
     "Nonlinear orbits",
-    "Release the journal: its motion under the film's full force, the linear theory beside it.",
+    "Release the journal, and compare its motion under the full film force with the linear theory.",
     content,
 )

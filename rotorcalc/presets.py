@@ -54,14 +54,14 @@ _SHEET_STIFF = Machine(
 PRESETS: dict[str, Preset] = {
     "sheet-1e8": Preset(
         title="600 lbf rotor, stiff shaft",
-        note="San Andrés, Notes 5, calculation sheet, shaft stiffness 1e8 N/m.",
+        note="San Andrés, Notes 5, calculation sheet, shaft stiffness 10⁸ N/m.",
         machine=_SHEET_STIFF,
         speed=6000 * rpm,
         top_speed=12000 * rpm,
     ),
     "sheet-1e7": Preset(
         title="600 lbf rotor, flexible shaft",
-        note="San Andrés, Notes 5, calculation sheet, shaft stiffness 1e7 N/m. Its running speed "
+        note="San Andrés, Notes 5, calculation sheet, shaft stiffness 10⁷ N/m. Its running speed "
         "is this program's choice, below the onset.",
         machine=replace(_SHEET_STIFF, rotor=replace(_SHEET_STIFF.rotor, shaft_stiffness=1e7)),
         speed=4000 * rpm,

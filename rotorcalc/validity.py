@@ -98,11 +98,11 @@ def validity(sweep: Sweep) -> tuple[Check, ...]:
         _below("Smallest film over roughness of 1 µm", film / ROUGHNESS, 10.0, 3.0,
                "surface asperities touch through the film"),
         _below("Smallest film over clearance, h/C", film / C, 0.1, 0.03,
-               "so thin a film is heated and deforms the bearing, which the model neglects"),
+               "so thin a film heats up and deforms the bearing, which the model neglects"),
         _above(IMBALANCE_ORBIT, swing, np.minimum(0.1, film / C), film / C,
                "linear coefficients hold for small orbits; at the limit it touches the wall"),
         _above("Static sag over clearance, Γ/C", machine.static_sag / C * everywhere, 1.0, 10.0,
-               "so flexible a shaft is inclined in its bearings, which the model takes as aligned"),
+               "so flexible a shaft is inclined in its bearings, which the model assumes aligned"),
     )  # fmt: skip
 
 

@@ -50,11 +50,11 @@ def scaled(function, factor):
         (short, "side_flow", 1.01, "Side flow and flow at the ends"),
         (short, "drag", 1.01, "Drag torque × speed and the heat"),
         (short, "added_mass", 1.01, "Trace of the added mass and ∫dθ/H"),
-        (short, "stiffness", 1.001, "p_s² at ε = 1e-6"),
+        (short, "stiffness", 1.001, "p_s² at ε = 10⁻⁶"),
         (short, "damping", np.array([[1.0, 1.0], [1.0, 1.001]]), "Whirl ratio"),
         (analysis, "flexible_threshold", 1 + 1e-6, "Threshold speed there, Friswell's bearing"),
         (modes, "eigenvalues", 1.001, "|Im λ|/Ω there"),
-        (modes, "undamped_frequency", 1.001, "√(K_rot/M), K_rot = 1e8 N/m"),
+        (modes, "undamped_frequency", 1.001, "√(K_rot/M), K_rot = 10⁸ N/m"),
         (modes, "state_matrix", 1.001, "A v and λ v, 6 states"),
     ],
 )
@@ -87,7 +87,7 @@ def test_the_checks_detect_a_wrong_onset(monkeypatch):
         return replace(found, speed=found.speed * 0.99)
 
     monkeypatch.setattr(search, "searched_onset", wrong)
-    assert "Onset, sheet's rotor, K_rot = 1e7 N/m" in failed()
+    assert "Onset, sheet's rotor, K_rot = 10⁷ N/m" in failed()
 
 
 def test_a_check_without_a_number_or_beyond_its_tolerance_fails():

@@ -8,13 +8,31 @@ from numpy.typing import ArrayLike
 
 from rotorcalc.units import Unit
 
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+# From this ratio on a multiple says more than per cent.
+_MULTIPLE = 3.0
+
 
 def digits(value: float) -> str:
-    """Return a number to four digits, whole from a thousand to a million."""
-    # 12345 rpm reads more easily than 1.234e+04.
+    """Return a number to four digits, whole from a thousand on, with powers of ten far from one."""
+    mantissa, power = _parts(value)
+    return mantissa + (f"·10{power.translate(_RAISED)}" if power else "")
+
+
+def _parts(value: float) -> tuple[str, str]:
+    """Return a number to four digits, and the power of ten with which it is to be multiplied."""
+    # 12345 rpm reads more easily than 1.234·10⁴.
     if 1e3 <= abs(value) < 1e6:
-        return f"{value:.0f}"
-    return f"{value:.4g}"
+        return f"{value:.0f}", ""
+    mantissa, _, power = f"{value:.4g}".partition("e")
+    return mantissa, f"{int(power)}" if power else ""
+
+
+def above(ratio: float) -> str:
+    """Return in words how far a speed lies above another: in per cent, or as a multiple."""
+    if ratio < _MULTIPLE:
+        return f"{digits(100.0 * (ratio - 1.0))} % above"
+    return f"{ratio:.3g} times as high"
 
 
 def amount(unit: Unit, value: ArrayLike) -> str:
@@ -33,8 +51,8 @@ def tex(value: float, unit: str = "") -> str:
         return r"\text{none}"
     if math.isinf(value):
         return r"\infty"
-    mantissa, _, power = digits(value).partition("e")
-    number = mantissa + (rf"\cdot 10^{{{int(power)}}}" if power else "")
+    mantissa, power = _parts(value)
+    number = mantissa + (rf"\cdot 10^{{{power}}}" if power else "")
     words = unit.replace(" ", r"\,")
     return number + (rf"\ \mathrm{{{words}}}" if unit else "")
 

@@ -111,12 +111,12 @@ INPUTS: dict[str, Input] = {
         Input(
             "rpm", "speed",
             "Running speed", "Ω", "speed", 10, 300_000, "Speed and whirl",
-            "Every chart marks the point at this speed.",
+            "The speed for which all results hold; every chart marks it.",
         ),
         Input(
             "load", "load",
             "Load per bearing", "Fₒ", "force", 0, 2e6, "Speed and whirl",
-            "Static load on one bearing; without a value of its own, half the rotor's weight.",
+            "Static load on one bearing, half the rotor's weight unless given.",
             least=0.01,
         ),
         Input(
@@ -132,12 +132,13 @@ INPUTS: dict[str, Input] = {
         Input(
             "k", "rotor.shaft_stiffness",
             "Shaft stiffness", "Kᵣₒₜ", "shaft_stiffness", 1e3, 1e11, "Speed and whirl",
-            "Of one side of the shaft; the right end is a rigid shaft.", infinite="rigid",
+            "Stiffness of one side of the shaft. The right end of the slider is a rigid shaft.",
+            infinite="rigid",
         ),
         Input(
             "D", "bearing.diameter",
             "Diameter", "D", "length", 3, 1200, "Bearing",
-            "Of the journal, D = 2R.",
+            "Diameter of the journal, D = 2R.",
         ),
         Input(
             "L", "bearing.length",

@@ -136,11 +136,11 @@ def spectrum(let_go: Release, units: Units) -> Chart:
         style.mark(1.0, unit.of(seen.synchronous), "1×, imbalance"),
     ]
     if seen.whirl > 0.0:
-        name = f"whirl, {seen.whirl_ratio:.4f}×"
+        name = f"whirl, {text.number(seen.whirl_ratio)}×"
         traces.append(style.mark(seen.whirl_ratio, unit.of(seen.whirl), name, style.UNSTABLE))
     if np.isfinite(let_go.whirl.imag):
         at = let_go.whirl.imag / speed
-        name = f"linear theory's whirl, {at:.4f}×"
+        name = f"linear theory's whirl, {text.number(at)}×"
         traces.append(style.line([at, at], [0.0, top], name, LINEAR, dash="dash", width=1.6))
     return style.chart(
         traces, x, y, shapes=_guides(), annotations=_guide_names(), height=460,

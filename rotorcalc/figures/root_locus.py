@@ -10,6 +10,7 @@ from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.figures import cursor, style
 from rotorcalc.figures.animation import ROW, playable, scrubbed
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
+from rotorcalc.figures.text import number
 from rotorcalc.onset import Onset
 from rotorcalc.root_locus import Locus
 from rotorcalc.units import Units
@@ -77,7 +78,7 @@ def beyond(locus: Locus, units: Units) -> str:
         if -left <= value.real <= right and frequency <= top:
             continue
         whirl = f"{frequency:.0f} {units.speed.name}" if value.imag > 0.0 else "does not oscillate"
-        rate = f"{value.real:.3g}".replace("-", "−")
+        rate = number(value.real, 3)
         words.append(f"mode {i} ({whirl}, {rate} {units.growth.name})")
     return f"Outside this view at the running speed: {', '.join(words)}." if words else ""
 
@@ -198,7 +199,7 @@ def _moving(step: list[Trace]) -> list[Trace]:
     """Return the slider's traces at a step."""
     half, rings = step
     line = style.line(half["x"], half["y"], "½× slider speed", style.GREY, dash="dash", width=1.2)
-    ring = style.mark(rings["x"], rings["y"], "at the slider's speed")
+    ring = style.mark(rings["x"], rings["y"], "at the speed chosen below")
     hollow = {"size": 15, "color": "rgba(0,0,0,0)", "line": {"color": style.GREY, "width": 2.5}}
     return [
         line | {"hoverinfo": "skip", "showlegend": False, **style.LIVE_ONLY},

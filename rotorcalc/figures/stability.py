@@ -12,6 +12,7 @@ from rotorcalc.arrays import Array
 from rotorcalc.display import Result
 from rotorcalc.figures import cursor, style
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
+from rotorcalc.figures.text import number
 from rotorcalc.onset import Onset
 from rotorcalc.units import Unit, Units
 from rotorcalc.whirl_energy import Thresholds, WhirlEnergy
@@ -278,7 +279,7 @@ def _over_speed(
     if _inside(here, axes):
         traces += style.here(*here, x, y)
     else:
-        notes.append(_beyond("running speed: no whirl", here[1], y))
+        notes.append(_beyond("running speed: no whirl", here, axes))
     return style.chart(traces, x, y, annotations=notes, legend=LEGEND, margin=MARGIN, **layout)
 
 
@@ -359,7 +360,7 @@ def _film_frame(
     if _inside((place, now), axes):
         marks = style.here(place, now, x, y)
     else:
-        notes.append(_beyond(_where(figure), now, y))
+        notes.append(_beyond(_where(figure), (place, now), axes))
     return style.chart([*lines, *marks], x, y, shapes=shades, annotations=notes)
 
 
@@ -402,7 +403,7 @@ def _energy_axis(top: float, units: Units) -> Axis:
 def _bar(x: Array, y: Array, name: str, colour: str, base: Array | None = None) -> Trace:
     return {
         "type": "bar", "x": x, "y": y, "base": base, "name": name, "width": _WIDE,
-        "marker": {"color": colour}, "text": [f"{value:.3g}" for value in y],
+        "marker": {"color": colour}, "text": [number(float(value), 3) for value in y],
         "textposition": "inside", "insidetextanchor": "end", "textangle": 0,
         "textfont": {"color": "#ffffff"},
     }  # fmt: skip
@@ -425,12 +426,18 @@ def _box(**place: Any) -> Item:
     }  # fmt: skip
 
 
-def _beyond(words: str, value: float, y: Axis) -> Item:
-    """Return a note on a running-speed point outside the chart."""
-    if math.isfinite(value):
-        side = "above" if value > _high(y) else "below"
-        words = f"running speed: {value:.3g}, {side} the axis"
-    return style.note(words, 0.98, 0.88, xanchor="right")
+def _beyond(words: str, point: tuple[float, float], axes: tuple[Axis, Axis]) -> Item:
+    """Return a note on a running-speed point outside the chart, at the edge where it would be."""
+    (at, value), (x, y) = point, axes
+    if not (math.isfinite(at) and math.isfinite(value)):
+        return style.note(words, 0.98, 0.88, xanchor="right")
+    arrow, height = ("↑", 0.98) if value > _high(y) else ("↓", 0.03)
+    (first, last), along = x["range"], math.log10(at) if x["type"] == "log" else at
+    share = min(max((along - first) / (last - first), 0.0), 1.0)
+    # From the place into the chart, so that the words keep within it.
+    side = {"xanchor": "left"} if share < 0.5 else {"xanchor": "right"}
+    place = f"{arrow} running speed: {number(value)}"
+    return style.note(place, share, height, yanchor="top" if height > 0.5 else "bottom", **side)
 
 
 def _inside(point: tuple[float, float], axes: tuple[Axis, Axis]) -> bool:

@@ -31,8 +31,8 @@ def coefficients() -> list[Case]:
     turned, slopes = "Eq. 5.16, ε = 0.05 … 0.95", "by differences, ε = 0.05 … 0.95"
     trace, force = "the trace is invariant under rotation", "of the nonlinear force"
     return [
-        alike(group, f"K_ij and −∂F_i/∂X_j {force}", (K, -by_place), slopes, tolerance=1e-8),
-        alike(group, f"C_ij and −∂F_i/∂Ẋ_j {force}", (C, -by_speed), slopes, tolerance=1e-8),
+        alike(group, f"K_ij and −∂Fᵢ/∂X_j {force}", (K, -by_place), slopes, tolerance=1e-8),
+        alike(group, f"C_ij and −∂Fᵢ/∂Ẋⱼ {force}", (C, -by_speed), slopes, tolerance=1e-8),
         alike(group, "K of Eq. 5.35 and of Eq. 5.30", (K, rotate(K_rt, phi)), turned),
         alike(group, "C of Eq. 5.35 and of Eq. 5.31", (C, rotate(C_rt, phi)), turned),
         alike(group, "K_XX + K_YY and K_rr + K_tt", (_trace(K), _trace(K_rt)), trace),
@@ -77,7 +77,7 @@ def equilibrium() -> list[Case]:
     # I_rr + I_tt = ∫dθ/H, and the trace is invariant under rotation.
     inertia = (d_theta / short.film_thickness(_EPS[:, None], theta)).sum(axis=1, keepdims=True)
     return [
-        alike(group, "σ(ε(σ)) and σ, σ = 1e-6 … 1e6", (there_and_back, sigma), "Eq. 5.8, inverted"),
+        alike(group, "σ(ε(σ)) and σ, σ = 10⁻⁶ … 10⁶", (there_and_back, sigma), "Eq. 5.8, inverted"),
         alike(group, "Nonlinear force at rest and the load", (at_rest, carried), "Eqs. 5.3, 5.8"),
         alike(
             group, "Force and the pressure summed", (short.static_force(_EPS), summed),
@@ -106,15 +106,15 @@ def limits() -> list[Case]:
     K, C = short.film_stiffness(0.0), short.film_damping(0.0)
     series = "series of Eq. 5.35 for small ε"
     limits = (
-        ("k_XX at ε = 1e-6", k[0, 0], 4.0 / math.pi, series),
-        ("k_YY at ε = 1e-6", k[1, 1], 8.0 / math.pi, series),
-        ("ε k_XY at ε = 1e-6", eps * k[0, 1], 1.0, series),
-        ("ε k_YX at ε = 1e-6", eps * k[1, 0], -1.0, series),
-        ("ε c_XX at ε = 1e-6", eps * c[0, 0], 2.0, series),
-        ("c_XY at ε = 1e-6", c[0, 1], 8.0 / math.pi, series),
-        ("k_eq at ε = 1e-6", onset.equivalent_stiffness, 6.0 / math.pi, "Eq. 5.45 of these"),
-        ("Whirl ratio at ε = 1e-6", onset.whirl_ratio, 0.5, "Eq. 5.48"),
-        ("p_s² at ε = 1e-6", onset.critical_mass, 24.0 / math.pi, "k_eq over the ratio squared"),
+        ("k_XX at ε = 10⁻⁶", k[0, 0], 4.0 / math.pi, series),
+        ("k_YY at ε = 10⁻⁶", k[1, 1], 8.0 / math.pi, series),
+        ("ε k_XY at ε = 10⁻⁶", eps * k[0, 1], 1.0, series),
+        ("ε k_YX at ε = 10⁻⁶", eps * k[1, 0], -1.0, series),
+        ("ε c_XX at ε = 10⁻⁶", eps * c[0, 0], 2.0, series),
+        ("c_XY at ε = 10⁻⁶", c[0, 1], 8.0 / math.pi, series),
+        ("k_eq at ε = 10⁻⁶", onset.equivalent_stiffness, 6.0 / math.pi, "Eq. 5.45 of these"),
+        ("Whirl ratio at ε = 10⁻⁶", onset.whirl_ratio, 0.5, "Eq. 5.48"),
+        ("p_s² at ε = 10⁻⁶", onset.critical_mass, 24.0 / math.pi, "k_eq over the ratio squared"),
         ("K_XX without load", K[0, 0], 0.0, "Eq. 5.37"),
         ("K_XY/(Ω C_XX) without load", K[0, 1] / C[0, 0], 0.5, "Eq. 5.37"),
     )

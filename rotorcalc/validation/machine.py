@@ -24,8 +24,8 @@ def onset() -> list[Case]:
     cases: list[Case] = []
     for key, flexible, name in (
         ("sheet-1e8", False, "sheet's rotor, rigid"),
-        ("sheet-1e8", True, "sheet's rotor, K_rot = 1e8 N/m"),
-        ("sheet-1e7", True, "sheet's rotor, K_rot = 1e7 N/m"),
+        ("sheet-1e8", True, "sheet's rotor, K_rot = 10⁸ N/m"),
+        ("sheet-1e7", True, "sheet's rotor, K_rot = 10⁷ N/m"),
         ("friswell-5-5-1", True, "Friswell's bearing"),
     ):
         machine = PRESETS[key].machine
@@ -162,8 +162,8 @@ def sheet() -> list[Case]:
     point = analyse(stiff, 6000.0 * rpm)
     onsets = (
         ("rigid", search.searched_onset(stiff, flexible=False), 10651.9, 5332.6),
-        ("K_rot = 1e8 N/m", search.searched_onset(stiff), 8919.3, None),
-        ("K_rot = 1e7 N/m", search.searched_onset(soft), 4627.1, None),
+        ("K_rot = 10⁸ N/m", search.searched_onset(stiff), 8919.3, None),
+        ("K_rot = 10⁷ N/m", search.searched_onset(soft), 4627.1, None),
     )
     alone = [
         float(modes.undamped_frequency(m.rotor.shaft_stiffness, M)) / rpm for m in (stiff, soft)
@@ -173,10 +173,10 @@ def sheet() -> list[Case]:
         ("Half mass M", M, 136.071, 5e-4, printed, "kg"),
         ("Viscosity at 60 °C", stiff.viscosity, 0.013, 5e-4, printed, "Pa·s"),
         ("Viscosity at 60 °C", stiff.viscosity, 0.012769, 5e-7, "recorded", "Pa·s"),
-        ("Γ/C, K_rot = 1e8 N/m", stiff.static_sag / clearance, 0.222, 5e-4, printed, "-"),
-        ("Γ/C, K_rot = 1e7 N/m", soft.static_sag / clearance, 2.224, 5e-4, printed, "-"),
-        ("√(K_rot/M), K_rot = 1e8 N/m", alone[0], 8186.0, 0.5, printed, "rpm"),
-        ("√(K_rot/M), K_rot = 1e7 N/m", alone[1], 2589.0, 0.5, printed, "rpm"),
+        ("Γ/C, K_rot = 10⁸ N/m", stiff.static_sag / clearance, 0.222, 5e-4, printed, "-"),
+        ("Γ/C, K_rot = 10⁷ N/m", soft.static_sag / clearance, 2.224, 5e-4, printed, "-"),
+        ("√(K_rot/M), K_rot = 10⁸ N/m", alone[0], 8186.0, 0.5, printed, "rpm"),
+        ("√(K_rot/M), K_rot = 10⁷ N/m", alone[1], 2589.0, 0.5, printed, "rpm"),
         ("σ at 6000 rpm", float(point.sommerfeld), 3.91447, 5e-6, "recorded", "-"),
         ("ε at 6000 rpm", float(point.eccentricity_ratio), 0.080116, 5e-7, "recorded", "-"),
         ("Side flow at 6000 rpm", float(point.side_flow) * 6e4, 0.67957, 5e-6, "recorded", "l/min"),

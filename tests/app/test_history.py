@@ -114,7 +114,7 @@ def test_inputs_changed_from_the_preset_are_named_and_reset() -> None:
     assert said in ("Changed from the preset: C, Ω.", "Changed from the preset: Ω, C.")
     at.button(key="reset").click().run()
     assert session_of(at).values == PRESET_VALUES["sheet-1e7"]
-    assert any(text.value == "As the preset." for text in at.caption)
+    assert any(text.value == "Unchanged from the preset." for text in at.caption)
     assert at.button(key="reset").disabled
 
 

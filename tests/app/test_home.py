@@ -32,7 +32,7 @@ def test_onset_speeds_of_the_sheets_two_rotors(preset: str, onset: str) -> None:
 def test_an_unstable_machine_is_called_so() -> None:
     at = visit(HOME, rpm="9000")
     (verdict,) = at.error
-    assert re.match("Unstable at 9000 rpm.*went unstable at 8919 rpm", verdict.value)
+    assert re.match("Unstable at 9000 rpm.*became unstable at 8919 rpm", verdict.value)
     assert not at.success
 
 

@@ -136,7 +136,7 @@ def test_frames_keep_their_traces_over_a_case():
     alone = plane_figure.plane(live.locus, live.onset, SI)
     both = beside(alone, plane_figure.plane(pinned.locus, pinned.onset, SI))
     assert len(both["data"]) > len(alone["data"])
-    assert not [t for t in both["data"] if t["name"] == "A: at the slider's speed"]
+    assert not [t for t in both["data"] if t["name"] == "A: at the speed chosen below"]
     for before, after in zip(alone["frames"], both["frames"], strict=True):
         moved = [both["data"][i]["name"] for i in after["traces"]]
         assert moved == [alone["data"][i]["name"] for i in before["traces"]]

@@ -40,8 +40,8 @@ def draw_buttons() -> None:
         st.button(
             f"Keep as {name}", key="keep", on_click=visitor.keep, args=(name,),
             disabled=len(visitor.cases) >= cases.MOST,
-            help="Keeps this machine as a case: charts draw it thin and in its own colour, "
-            "results show their change from the first case, and a table compares all.",
+            help="Keeps this machine as a case: charts draw it as thin lines in a colour of its "
+            "own, results show their change from the first case, and a table compares all cases.",
         )  # fmt: skip
         # Without their number: Streamlit closes a popover whose label changes.
         opened = st.popover("Cases", key="cases", on_change="rerun")
@@ -53,7 +53,7 @@ def draw_buttons() -> None:
 def _list(kept: Sequence[Case]) -> None:
     """Draw each case with what can be done with it."""
     if not kept:
-        st.caption("No case yet: keep the machine as it is now, then change it.")
+        st.caption("No cases yet. Keep the machine as it is, then change it to compare the two.")
     for place, case in enumerate(kept):
         with st.container(horizontal=True, vertical_alignment="bottom", gap="small"):
             key = f"case_{case.colour}"
@@ -63,7 +63,7 @@ def _list(kept: Sequence[Case]) -> None:
                 on_change=_rename, args=(place, f"{key}_name"),
             )  # fmt: skip
             st.button("Use", key=f"{key}_use", on_click=session().use, args=(place,),
-                      help="Makes it the live machine.")  # fmt: skip
+                      help="Sets the sliders to this case.")  # fmt: skip
             st.button("Remove", key=f"{key}_drop", on_click=session().drop, args=(place,))
 
 

@@ -13,18 +13,18 @@ def draw(visitor: Session) -> None:
     with st.container(horizontal=True, gap="small", key="history"):
         st.button(
             "Undo", key="undo", on_click=visitor.undo, disabled=not visitor.history.can_undo,
-            shortcut="Mod+Z", help="Takes back the last change of the machine or its cases.",
+            shortcut="Mod+Z", help="Takes back the last change to the machine or its cases.",
         )  # fmt: skip
         st.button(
             "Redo", key="redo", on_click=visitor.redo, disabled=not visitor.history.can_redo,
-            shortcut="Mod+Shift+Z", help="Makes again the change that was undone last.",
+            shortcut="Mod+Shift+Z", help="Repeats the change that was undone last.",
         )  # fmt: skip
         st.button(
             "Reset", key="reset", on_click=visitor.set_preset, args=(visitor.preset,),
             disabled=not changed, help="Back to the preset's machine and speeds.",
         )  # fmt: skip
     names = ", ".join(_symbol(key, visitor) for key in changed)
-    st.caption(f"Changed from the preset: {names}." if names else "As the preset.")
+    st.caption(f"Changed from the preset: {names}." if names else "Unchanged from the preset.")
 
 
 def _symbol(key: str, visitor: Session) -> str:

@@ -50,7 +50,7 @@ _STYLE = "\n".join([
     "</style>",
 ])  # fmt: skip
 
-NO_MACHINE = "These inputs make no machine"
+NO_MACHINE = "These inputs do not describe a valid machine"
 HOME = "app.py"
 PAGES = {
     HOME: "Machine",
@@ -274,10 +274,10 @@ def _page(places: Places, views: presentation.Views) -> Page:
 def _offer_the_rest(visitor: Session) -> None:
     """Ask whether to show the machine without what was refused of a link or a file."""
     st.markdown(
-        "Without this it is another machine than the link or file describes, so nothing is "
-        "computed yet. The sidebar shows what would be taken."
+        "Without these values it is a different machine from the one in the link or file, so "
+        "nothing is computed yet. The sidebar shows the values that can be used."
     )
-    st.button("Take what can be taken", key="take", type="primary", on_click=visitor.take)
+    st.button("Use the valid values", key="take", type="primary", on_click=visitor.take)
 
 
 def _navigation(params: dict[str, str]) -> None:

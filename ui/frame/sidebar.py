@@ -96,8 +96,8 @@ def _grades() -> None:
     grade = st.selectbox("ISO viscosity grade", list(ISO_VG), key="grade", persist_state="session")
     shown = amount(visitor.units.temperature, temperature)
     st.caption(
-        "Mineral oil of viscosity index 100, by Walther's law (ASTM D341). The exponential law "
-        f"here takes its viscosity and its slope at the film's temperature, {shown}."
+        "Mineral oil of viscosity index 100, by Walther's equation (ASTM D341). The exponential "
+        f"law used here has the same viscosity and slope at the film temperature, {shown}."
     )
     st.button(
         "Use this grade",
@@ -118,7 +118,9 @@ def _fit() -> None:
             readings.append((warm, thick))
     (T_1, mu_1), (T_2, mu_2) = sorted(readings)
     if not (T_1 < T_2 and mu_1 >= mu_2):
-        st.error("An oil is thinner at the higher one of two different temperatures.")
+        st.error(
+            "The two temperatures must differ, and the viscosity must be lower at the higher one."
+        )
         return
     oil = fitted_oil(temperatures=(T_1, T_2), viscosities=(mu_1, mu_2))
     slope = amount(units.per_temperature, oil.temperature_coefficient)
@@ -174,7 +176,7 @@ def _settings() -> None:
         st.toggle("Type values instead of sliding", key="typed", on_change=_set_typed)
         st.segmented_control(
             "Charts are saved as", ["png", "svg"], key="image_format", on_change=_set_image,
-            required=True, help="The camera above a chart saves it.",
+            required=True, help="The camera button above a chart saves it.",
         )  # fmt: skip
 
 

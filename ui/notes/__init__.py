@@ -2,11 +2,12 @@
 
 import datetime as dt
 import functools
+import re
 from itertools import groupby
 from pathlib import Path
 
 from rotorcalc.validation import Case, validate
-from ui.format import minus
+from ui.format import digits, minus
 from ui.notes.equations import EQUATIONS, Equation
 
 CONVENTIONS_ALT = (
@@ -16,6 +17,10 @@ CONVENTIONS_ALT = (
     "centres, t at a right angle ahead of it. The film is thickest opposite to r, where θ begins, "
     "and thinnest at r."
 )
+
+
+# A symbol with an index, as checks and titles name it.
+_INDEXED = re.compile(r"(?<![A-Za-z_])([A-Za-z])_([A-Za-z]+)")
 
 
 @functools.cache
@@ -37,7 +42,9 @@ def _equation(item: Equation) -> str:
     # An equation without a number in the notes is named by its source.
     number = f"**Eq. {item.number}**" if item.number[0].isdigit() else f"*{item.number}*"
     functions = ", ".join(f"`{name}`" for name in item.functions)
-    return f"{number} · {item.title}\n\n$$\n{item.latex}\n$$\n\n{functions} · {item.pages}"
+    return (
+        f"{number} · {_typeset(item.title)}\n\n$$\n{item.latex}\n$$\n\n{functions} · {item.pages}"
+    )
 
 
 @functools.lru_cache(maxsize=1)
@@ -66,25 +73,28 @@ def checks(cases: tuple[Case, ...]) -> str:
 
 def _row(case: Case) -> str:
     cells = (
-        case.name.replace("|", r"\|"),
+        _typeset(case.name.replace("|", r"\|")),
         _number(case.value),
         _number(case.reference),
         _small(case.difference),
         _small(case.tolerance),
         case.unit,
-        case.source.replace("|", r"\|"),
+        _typeset(case.source.replace("|", r"\|")),
         "✓ holds" if case.holds else "✗ **fails**",
     )
     return f"| {' | '.join(cells)} |"
+
+
+def _typeset(text: str) -> str:
+    return _INDEXED.sub(r"$\1_{\2}$", text)
 
 
 def _number(value: float) -> str:
     if value == 0.0:
         return "0"
     # Nine digits show the printed ones and those in which the program differs.
-    shown = f"{value:.2e}" if abs(value) < 1e-4 else f"{value:.9g}"
-    return minus(shown)
+    return minus(digits(float(f"{value:.3g}")) if abs(value) < 1e-4 else f"{value:.9g}")
 
 
 def _small(value: float) -> str:
-    return "0" if value == 0.0 else minus(f"{value:.1e}")
+    return "0" if value == 0.0 else minus(digits(float(f"{value:.2g}")))

@@ -13,6 +13,9 @@ from ui.computed import Computed
 from ui.format import digits, minus
 from ui.words import citation
 
+# A share from which on its multiple is shown, not per cent.
+_MANY = 10.0
+
 
 @dataclass(frozen=True)
 class Result:
@@ -57,6 +60,8 @@ class Result:
         if value == 0.0 and self.nought:
             return self.nought(computed)
         unit = self.unit(units)
+        if unit.name == "%" and abs(value) >= _MANY:
+            return f"{minus(digits(value))} times"
         number = minus(digits(float(unit.of(value))))
         return number + {"-": "", "°": "°"}.get(unit.name, f" {unit.name}")
 

@@ -153,16 +153,16 @@ STABILITY: tuple[Result, ...] = (
         "whirl_ratio", "Film's whirl ratio ω̄", "number", lambda c: float(c.point.whirl_ratio),
         _RATIO, r"\bar\omega^2 = \frac{(K_{eq}-K_{XX})(K_{eq}-K_{YY})-K_{XY}K_{YX}}"
         r"{\Omega^2(C_{XX}C_{YY}-C_{XY}C_{YX})}", _ratio,
-        "Of the film's synchronous coefficients at this speed's equilibrium, whatever the rotor; 0 "
-        "where it feeds no whirl.",
+        "From the film's synchronous coefficients at this speed's equilibrium, whatever the rotor; "
+        "0 where the film feeds no whirl.",
     ),
     Result(
         "critical_mass", "Critical mass per bearing", "mass",
         lambda c: c.critical_mass, _FLEXIBLE,
         r"M_c = \frac{K_{eq}}{(\bar\omega\,\Omega)^2}\cdot\frac{1}{1+K_{eq}/K_{rot}}",
         _critical_mass,
-        "Of this machine, its load, shaft, damping and journal mass kept: with more mass per "
-        "bearing it is unstable at this speed.",
+        "With more mass per bearing, and the same load, shaft, damping and journal mass, this "
+        "machine would be unstable at this speed.",
         cites=_CITED[_FLEXIBLE], solved=_solved_mass,
     ),
     Result(
@@ -209,7 +209,7 @@ STABILITY: tuple[Result, ...] = (
         r"\frac{\omega_{on}}{\Omega_{on}}",
         lambda c: rf"\frac{{{tex(c.onset.whirl_frequency)}}}{{{tex(c.onset.speed)}}} = "
         rf"{tex(_onset_ratio(c))}",
-        "Of the machine itself. Without midspan damping it is the film's whirl ratio there.",
+        "The whirl ratio of the machine itself; without midspan damping it equals the film's.",
         at_onset=True,
     ),
     Result(
@@ -224,12 +224,12 @@ STABILITY: tuple[Result, ...] = (
         r"\zeta = -\frac{\mathrm{Re}\,\lambda}{|\lambda|}",
         lambda c: rf"{tex(float(modes.damping_ratio(leading(c))))},\quad \lambda = "
         rf"{tex(leading(c).real)} \pm {tex(abs(leading(c).imag))}\,j",
-        "Of the oscillating mode that decays slowest, or grows fastest, at the running speed.",
+        "For the oscillating mode that decays slowest, or grows fastest, at the running speed.",
     ),
     Result(
         "natural_frequency", "Mode's frequency |Im λ|", "speed",
         lambda c: abs(leading(c).imag), "Im λ", r"\omega_d = |\mathrm{Im}\,\lambda|",
         lambda c: tex(abs(leading(c).imag), "rad/s"),
-        "Of the oscillating mode that decays slowest, or grows fastest, at the running speed.",
+        "For the oscillating mode that decays slowest, or grows fastest, at the running speed.",
     ),
 )  # fmt: skip

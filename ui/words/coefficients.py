@@ -82,11 +82,11 @@ def say_other_centre(preview: Preview) -> bool:
     if source(preview.computed, "centre"):
         return False
     st.info(
-        "This film has direct stiffness without load: it holds its journal, and cross-coupling is "
-        "not alone there. At this machine's speed, its load taken off:"
+        "This film has direct stiffness even without load, so cross-coupling does not act alone. "
+        "At this machine's speed, with its load removed:"
         if is_stiff_unloaded(preview.computed)
-        else "This film has no direct stiffness without load. At this machine's speed, its load "
-        "taken off:"
+        else "This film has no direct stiffness without load. At this machine's speed, with its "
+        "load removed:"
     )
     preview.say("centred", lambda c: Text(_centred_stiffness(c, preview.units)))
     return True
@@ -99,13 +99,13 @@ def _centred_stiffness(computed: Computed, units: Units) -> str:
 def show_centred(preview: Preview) -> None:
     """Explain why a centred bearing has only cross-coupling, with this machine's numbers."""
     st.markdown(
-        "Push a centred journal aside by a little. The film is now thinner where the journal went, "
-        "and the turning surface drags oil towards that place: pressure rises a quarter turn "
-        "**before** it, and pushes the journal sideways, on in the sense of rotation. Nothing "
-        "pushes it back: no direct stiffness, only $K_{XY} = -K_{YX}$. If the journal whirls at "
-        "half the shaft's speed, the narrow place travels as fast as the oil does on average, and "
-        "no pressure rises at all: stiffness and damping cancel, so $K_{XY} = "
-        "\\tfrac{\\Omega}{2}C_{XX}$. At this machine's speed, its load taken off:"
+        "Displace a centred journal slightly. The film becomes thinner on that side, and the "
+        "turning surface drags oil into the narrowing gap: the pressure rises a quarter turn "
+        "**before** the thinnest place and pushes the journal sideways, in the sense of rotation. "
+        "Nothing pushes it back: there is no direct stiffness, only $K_{XY} = -K_{YX}$. If the "
+        "journal whirls at half the shaft's speed, the thinnest place travels as fast as the oil "
+        "does on average, and no pressure builds up: stiffness and damping cancel, so $K_{XY} = "
+        "\\tfrac{\\Omega}{2}C_{XX}$. At this machine's speed, with its load removed:"
     )
     preview.say("centred", lambda c: Text(_centred(c, preview.units)))
     st.caption(cited("", preview.computed, "centre"))
@@ -120,7 +120,7 @@ def _centred(computed: Computed, units: Units) -> str:
 
 def _distance_from_centre(computed: Computed, units: Units) -> str:
     if computed.unloaded:
-        return "This machine has no load: it runs exactly there, in the centre."
+        return "This machine has no load, so its journal runs exactly in the centre."
     unit, K = units.stiffness, computed.unloading_here.stiffness
     direct, cross = (minus(digits(float(unit.of(K[place])))) for place in ((0, 0), (0, 1)))
     return (
@@ -174,8 +174,8 @@ def _verdict(share: float) -> str:
     if share < _SMALL:
         return "negligible."
     if share < _LARGE:
-        return "small; it would lower frequencies by about half as much at most."
-    return "not negligible; it would lower natural frequencies and the onset, which neglect it."
+        return "small; it would lower frequencies by at most about half this share."
+    return "not negligible; natural frequencies and the onset, computed without it, would be lower."
 
 
 def _percent(share: float) -> str:

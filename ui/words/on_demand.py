@@ -116,12 +116,12 @@ def say_cycles(branch: Bifurcation, units: Units) -> None:
     """Show whether the onset is subcritical or supercritical."""
     found = branch.hopf
     rate = f"ℓ = {'−' if found.lyapunov < 0.0 else ''}{digits(abs(found.lyapunov))} 1/s"
-    error = f"± {found.lyapunov_error:.1g}"
+    error = f"± {digits(float(f'{found.lyapunov_error:.1g}'))}"
     at = f"ε = {found.eccentricity_ratio:.4f}"
     if found.subcritical is None:
         st.info(
-            f"Subcritical or supercritical is not certain at {at}: {rate} ({error}). "
-            "The chart shows the cycles themselves."
+            f"Whether the onset is subcritical or supercritical is uncertain at {at}: {rate} "
+            f"({error}). The chart shows the limit cycles themselves."
         )
     elif found.subcritical:
         where = ""
@@ -129,14 +129,14 @@ def say_cycles(branch: Bifurcation, units: Units) -> None:
             fold = amount(units.speed, branch.folds.min())
             share = digits((1.0 - branch.folds.min() / found.speed) * 100.0)
             where = (
-                f" From {fold}, {share} % below the onset, a large enough disturbance makes the "
-                "machine whirl permanently; with falling speed whirl persists down to there."
+                f" Above {fold}, {share} % below the onset, a large enough disturbance makes the "
+                "machine whirl permanently, and as the speed falls the whirl persists to there."
             )
         st.warning(f"Subcritical at {at}: {rate} ({error}).{where}")
     else:
         st.info(
-            f"Supercritical at {at}: {rate} ({error}). Above the onset a small whirl grows "
-            "gradually with speed, and disappears as the speed falls below it."
+            f"Supercritical at {at}: {rate} ({error}). Above the onset a whirl grows gradually "
+            "with the speed, and it dies out as the speed falls below the onset."
         )
     st.caption(f"The branch of limit cycles {branch.ended}.")
 
@@ -177,11 +177,11 @@ def say_onsets(found: Onsets, units: Units) -> None:
             st.metric(label, unknown if math.isnan(speed) else reading)
             st.caption(how)
     if found.agree == "agree":
-        st.success(f"They agree: the largest difference is {found.spread:.1e} of the onset.")
+        st.success(f"They agree to {digits(float(f'{found.spread:.2g}'))} of the onset.")
     elif found.agree == "not measured":
         st.warning(
-            "Not measured: from half to twice the onset of the eigenvalues, no change from decay "
-            "to growth was found within the time allowed."
+            "Not measured: between half and twice the onset from the eigenvalues, no change from "
+            "decay to growth was found within the time allowed."
         )
     else:
         st.error(f"They disagree by {found.spread:.1%} of the onset.")

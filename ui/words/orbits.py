@@ -75,7 +75,7 @@ def choose_release(computed: Computed) -> Ask:
         kick = st.slider(
             "Initial displacement over clearance [-]", 0.0, 1.2,
             choice(_KICK, 0.30, lambda kick: 0.0 <= kick <= 1.2), 0.01, key=_KICK,
-            help="Above the equilibrium, against the load; released at rest.",
+            help="From equilibrium, against the load; the journal is released at rest.",
         )  # fmt: skip
     with right:
         turns = st.slider(
@@ -189,8 +189,8 @@ def _followed(asked: Ask, found: Release) -> Text | None:
     if followed >= asked.revolutions or found.stopped:
         return None
     return Text(
-        f"This machine vibrates so many times per revolution that only {followed} revolutions "
-        "are computed.",
+        f"This machine oscillates so often per revolution that only {followed} revolutions are "
+        "computed.",
         "info",
     )
 
@@ -224,7 +224,7 @@ def _outcome(found: Release, units: Units) -> str:
     if _is_whirling(found):
         grows = " and growing" if _trend(found) > _STAYS[1] else ""
         return (
-            f"After {turns} the journal whirls at {seen.whirl_ratio:.3f} of the running speed, up "
+            f"After {turns} the journal whirls at {seen.whirl_ratio:.3g} of the running speed, up "
             f"to {size}{grows}; {thin}."
         )
     if found.last_size < _AT_REST * C:
@@ -265,11 +265,11 @@ def show_measured(preview: Preview, asked: Ask) -> None:
 
 def _measured(computed: Computed, found: Release, units: Units) -> Text:
     seen, C = found.spectrum, found.clearance
-    ratio = "no whirl" if math.isnan(seen.whirl_ratio) else f"{seen.whirl_ratio:.4f}"
+    ratio = "no whirl" if math.isnan(seen.whirl_ratio) else digits(seen.whirl_ratio)
     predicted = found.whirl.imag / computed.speed
     rows = {
         "Whirl ratio, measured": ratio,
-        "Whirl ratio, linear": "none" if math.isnan(predicted) else f"{predicted:.4f}",
+        "Whirl ratio, linear": "none" if math.isnan(predicted) else digits(predicted),
         "Whirl's circle": amount(units.amplitude, seen.whirl),
         "1× circle": amount(units.amplitude, seen.synchronous),
         "Ends within": f"{found.last_size / C:.3g} C of equilibrium",

@@ -56,9 +56,9 @@ def wall(computed: Computed, units: Units) -> Text | None:
         return None
     C = float(units.film.of(computed.machine.bearing.radial_clearance))
     return Text(
-        f"By this linear theory the journal would move {digits(-closest * C)} "
-        f"{units.film.name} into the wall; the clearance is {digits(C)} {units.film.name}. "
-        "The film stiffens well before that: the orbit is then a warning, not an amplitude.",
+        f"By linear theory the journal would move {digits(-closest * C)} {units.film.name} into "
+        f"the wall; the clearance is {digits(C)} {units.film.name}. The film stiffens well before "
+        "that, so this orbit is a warning, not an amplitude.",
         "warning",
     )
 

@@ -13,7 +13,7 @@ from rotorcalc.unbalance_response import orbit_ellipse
 from rotorcalc.units import Units
 from ui.choices import choose
 from ui.computed import Computed
-from ui.format import minus
+from ui.format import digits, minus
 from ui.words.citation import capital, source, without_load
 
 ALTS = {
@@ -92,7 +92,7 @@ def crossing(computed: Computed, onset: Onset, units: Units) -> str:
     if onset.speed > computed.top_speed:
         return f"The onset, {speed}, lies above the top speed of this chart."
     whirl = f"{float(units.speed.of(onset.whirl_frequency)):.0f} {units.speed.name}"
-    ratio = f"{onset.whirl_frequency / onset.speed:.3f}"
+    ratio = f"{onset.whirl_frequency / onset.speed:.3g}"
     return (
         f"A mode crosses the imaginary axis at {speed}, whirling at {whirl}, {ratio} of the speed."
     )
@@ -131,18 +131,18 @@ def table(here: ModeShapes, speed: float, units: Units) -> str:
 
 def _column(here: ModeShapes, i: int, speed: float, units: Units) -> tuple[str, ...]:
     value = complex(here.eigenvalues[i])
-    rate = minus(f"{value.real:.4g}")
+    rate = minus(digits(value.real))
     if value.imag <= 0.0:
         words = "does not oscillate" if value.imag == 0.0 else "mirror image of another mode"
-        return f"{i + 1}", words, "", rate, "", "", "–", "–"
+        return f"{i + 1}", words, "–", rate, "–", "–", "–", "–"
     ratio, decrement = float(modes.damping_ratio(value)), float(modes.logarithmic_decrement(value))
     return (
         f"{i + 1}",
         f"{float(units.speed.of(value.imag)):.0f}",
-        f"{value.imag / speed:.3f}",
+        digits(value.imag / speed),
         rate,
-        minus(f"{ratio:.4f}"),
-        minus(f"{decrement:.3f}"),
+        minus(digits(ratio)),
+        minus(digits(decrement)),
         _direction(here.disk[i]),
         _direction(here.journal[i]),
     )

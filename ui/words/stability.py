@@ -19,8 +19,8 @@ from ui.preview import Text
 from ui.words.citation import capital, without_load
 
 NO_WHIRL = (
-    "This film cannot whirl: it has no cross-coupled stiffness that could feed a whirl, at any "
-    "load, and so no threshold speed to draw. Every rotor is stable on it."
+    "This film cannot whirl: at no load does it have the cross-coupled stiffness that feeds a "
+    "whirl. Every rotor is stable on it, so there is no threshold speed to draw."
 )
 WORK = r"""
 \begin{gathered}
@@ -74,11 +74,12 @@ def ends_of_whirl(computed: Computed) -> str:
         return "Coefficients at the running frequency; at a whirl's own they differ."
     limit = film_figure(computed).limit
     ratio = float(computed.curves.onset.whirl_ratio[-1])
-    light = "Half-speed whirl" if abs(ratio - 0.5) < 1e-3 else f"Whirl at {ratio:.3g} of the speed"
-    light = f"{light} of a light load" if ratio > 0.0 else "No whirl of a light load"
+    share = "half" if abs(ratio - 0.5) < 1e-3 else f"{ratio:.3g} of"
+    light = f"A lightly loaded film whirls at {share} the speed"
+    light = light if ratio > 0.0 else "A lightly loaded film does not whirl"
     if limit is None:
         return f"{light}."
-    return f"{light}; none above ε = {float(limit.film.eccentricity_ratio):.4f}."
+    return f"{light}; above ε = {float(limit.film.eccentricity_ratio):.4f} it cannot whirl."
 
 
 def lowest_threshold(computed: Computed) -> str:

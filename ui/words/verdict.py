@@ -6,7 +6,7 @@ from typing import Literal
 
 from rotorcalc.units import Units
 from ui.computed import Computed
-from ui.format import amount, digits
+from ui.format import above, amount, digits
 from ui.preview import Kind, Text
 from ui.results.stability import leading
 from ui.words import validity
@@ -40,7 +40,7 @@ def verdict(computed: Computed, units: Units) -> Verdict:
         return Verdict(level, sentence)
     return Verdict(
         "outside",
-        "No verdict: the model does not hold for this machine. By the model it is "
+        "No verdict, as the model does not hold for this machine. By the model it would be "
         f"{_lower(sentence)}",
     )
 
@@ -65,10 +65,10 @@ def _outlook(computed: Computed, units: Units) -> str:
     if math.isinf(onset.speed):
         return "no speed makes this machine whirl."
     if onset.speed > computed.speed:
-        margin = (onset.speed / computed.speed - 1.0) * 100.0
+        margin = above(onset.speed / computed.speed)
         beyond = " (outside the model's range)" if computed.onset_is_outside else ""
-        where = f"{amount(units.speed, onset.speed)}{beyond}, {digits(margin)} % above"
-        return f"it goes unstable at {where}, {_whirl(computed, units)}."
+        where = f"{amount(units.speed, onset.speed)}{beyond}, {margin}"
+        return f"it becomes unstable at {where}, {_whirl(computed, units)}."
     return (
         f"it is above its range of whirl, which begins at {amount(units.speed, onset.speed)}, "
         f"{_whirl(computed, units)}."
@@ -81,13 +81,13 @@ def _past(computed: Computed, units: Units) -> str:
     if math.isinf(onset.speed):
         return f"{now}no onset was found."
     below = digits((1.0 - onset.speed / computed.speed) * 100.0)
-    return f"{now}it went unstable at {amount(units.speed, onset.speed)}, {below} % below."
+    return f"{now}it became unstable at {amount(units.speed, onset.speed)}, {below} % below."
 
 
 def _growing(computed: Computed, value: complex, units: Units) -> str:
     """Return how the unstable mode whirls, which is not as the machine whirls at its onset."""
     return (
-        f"it whirls at {_frequency(value.imag, units)}, {value.imag / computed.speed:.3f} of the "
+        f"it whirls at {_frequency(value.imag, units)}, {value.imag / computed.speed:.3g} of the "
         f"running speed, growing at {amount(units.growth, value.real)}"
     )
 
@@ -96,7 +96,7 @@ def _whirl(computed: Computed, units: Units) -> str:
     onset = computed.onset
     ratio = onset.whirl_frequency / onset.speed if onset.speed > 0.0 else math.nan
     return (
-        f"and then whirls at {_frequency(onset.whirl_frequency, units)}, {ratio:.3f} of that speed"
+        f"where it whirls at {_frequency(onset.whirl_frequency, units)}, {ratio:.3g} of that speed"
     )
 
 
