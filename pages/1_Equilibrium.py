@@ -129,7 +129,7 @@ def losses(page: Page) -> None:
 
 show(
     "Static equilibrium",
-    "Where the journal runs at the running speed, how its film carries the load, "
+    "Where the journal settles at the running speed, how its film carries the load, "
     "and its losses and flow.",
     content,
 )

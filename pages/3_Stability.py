@@ -167,7 +167,7 @@ def onset_map(page: Page) -> None:
         while_dragging=lambda c: map_of(c, design.coarse_map(c, x, y, units)),
         alt="Contour map of the onset speed over two inputs, with this machine, and the machines "
         "that are unstable at the running speed shaded.",
-        caption="Onset of this machine with two inputs changed, all others kept.",
+        caption="Onset of this machine with two inputs varied and all others unchanged.",
     )
 
 
@@ -213,7 +213,7 @@ def solved(page: Page, vary: str, wanted: remedy.Wanted) -> None:
         ),
         "solution",
         alt="Onset speed over one input, with the onset wanted and the values that give it.",
-        caption="Onset with one input changed, all others kept; each crossing solved.",
+        caption="Onset with one input varied, all others unchanged; every crossing is solved for.",
     )
 
 

@@ -55,7 +55,7 @@ def orbits(page: Page) -> None:
             ),
             "clearance_orbit",
             alt="The journal's orbit about its equilibrium inside its clearance, over speed.",
-            caption="The journal's centre in its clearance, about the point where it rests. X "
+            caption="The journal's centre in its clearance, about its equilibrium. X "
             "points down, along the load; the shaft turns counterclockwise.",
         )
     with right:

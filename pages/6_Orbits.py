@@ -61,9 +61,9 @@ def orbit(page: Page, asked: ask.Ask) -> None:
         page.chart(
             key="orbits_time",
             **of_release(draw.over_time, page, asked),
-            alt="X and Y of the journal over revolutions, and the linear ones.",
-            caption="X along the load, Y at 90° with the rotation. The linear motion ends where it "
-            "leaves the bearing.",
+            alt="X and Y of the journal over revolutions, and by linear theory.",
+            caption="X along the load, Y at 90° in the sense of rotation. The linear motion ends "
+            "where it leaves the bearing.",
         )
 
 
@@ -110,8 +110,8 @@ def spectrum(page: Page, asked: ask.Ask) -> None:
             key="orbits_points",
             **of_release(draw.once_a_revolution, page, asked),
             alt="Positions of the journal once per revolution.",
-            caption="Once per revolution (Poincaré): synchronous one point, exact half-speed whirl "
-            "two.",
+            caption="Once per revolution (Poincaré): one point if synchronous, two in an exact "
+            "half-speed whirl.",
         )
 
 
@@ -149,8 +149,8 @@ def onset_three_ways(page: Page) -> None:
             lambda c: draw.onset_growth(*on_demand.three_onsets(c), units), "orbits_onset",
             while_dragging=not_at_once,
             alt="Growth rate over speed: eigenvalues as a line, measured rates as points.",
-            caption="Each point: eight whirls of the nonlinear motion from a whirl of C/10000, "
-            "exponentials fitted to them. Without imbalance. Eqs. 5.38, 5.45 to 5.50.",
+            caption="Each point: exponentials fitted to eight whirls of the nonlinear motion from "
+            "C/10000. Without imbalance. Eqs. 5.38, 5.45 to 5.50.",
         )  # fmt: skip
 
 

@@ -20,7 +20,7 @@ CONVENTIONS_ALT = (
 
 
 # A symbol with an index, as checks and titles name it.
-_INDEXED = re.compile(r"(?<![A-Za-z_])([A-Za-z])_([A-Za-z]+)")
+_INDEXED = re.compile(r"(?<![A-Za-z_])([A-Za-zΑ-Ωα-ω])_([A-Za-z]+)")
 
 
 @functools.cache

@@ -76,7 +76,7 @@ def explanation(result: Result, computed: Computed, units: Units) -> str:
         lines = [
             *cited,
             display(result.equation),
-            ":small[Without load: the limit of a vanishing load.]",
+            ":small[Without load: the limit as the load vanishes.]",
         ]
     else:
         lines = [*cited, display(result.equation), display(f"= {result.filled(computed)}")]

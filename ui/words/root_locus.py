@@ -37,7 +37,7 @@ CAPTIONS = {
     r"$\sqrt{K_{rot}/M}$ of the shaft in rigid bearings. The rigid rotor's onset is where its mode "
     r"meets $\sqrt{K_{eq}/M}$.",
     "decrement": "δ = −2π Re λ/|Im λ|: each cycle's amplitude is e^(−δ) times the previous one's.",
-    "shape": "Right eigenvector of λ, its largest displacement 1; orbits about equilibrium. X "
+    "shape": "Right eigenvector of λ, scaled to a largest displacement of 1, about equilibrium. X "
     "points down along the load, the shaft turns counterclockwise, from X to Y.",
 }
 _HOW_TO_READ = r"""
@@ -52,8 +52,8 @@ _HOW_TO_READ = r"""
 """
 _HALF_SPEED = " Below the onset its mode follows half the running speed instead."
 ABOUT_MODES = """
-Film and shaft carry the whirl in series: the disk moves more than the journals by what the shaft
-bends. Near the onset the orbit is nearly a circle and turns **forward**, with the shaft: the
+In a whirl, film and shaft act in series: the disk moves more than the journals by the bending of
+the shaft. Near the onset the orbit is nearly a circle and turns **forward**, with the shaft: the
 cross-coupled stiffness $K_{XY} − K_{YX}$ can feed only a forward whirl.
 
 The table gives the direction and the ratio of the orbit's axes, minor to major. A real eigenvalue
@@ -66,7 +66,7 @@ def choose_shaft(computed: Computed) -> bool:
     if computed.machine.rotor.is_rigid:
         st.caption("The shaft is rigid: disk and journals move as one.")
         return False
-    about = "The shaft of the sidebar, or the same rotor on a rigid shaft."
+    about = "The shaft as set in the sidebar, or the same rotor on a rigid shaft."
     return choose("Shaft", ["flexible", "rigid"], "locus_shaft", help=about) != "rigid"
 
 

@@ -40,7 +40,7 @@ def verdict(computed: Computed, units: Units) -> Verdict:
         return Verdict(level, sentence)
     return Verdict(
         "outside",
-        "No verdict, as the model does not hold for this machine. By the model it would be "
+        "No verdict: the model does not hold for this machine. By the model it is "
         f"{_lower(sentence)}",
     )
 
