@@ -151,7 +151,7 @@ SECTIONS: dict[str, tuple[Figure, ...]] = {
     "Stability": (
         Figure(
             "threshold", "Threshold speed", _of_thresholds(stability.threshold),
-            "Where it meets the line Ω the rotor goes unstable.", (), "Eqs. 5.45, 5.46, 5.50",
+            "Where it meets the line Ω the rotor becomes unstable.", (), "Eqs. 5.45, 5.46, 5.50",
             width=FULL, height=290, missing=_no_whirl,
         ),
         Figure(
