@@ -35,7 +35,9 @@ def _labels(app: AppPage) -> dict[str, str]:
 
 
 def _chart(app: AppPage, key: str) -> Locator:
-    return app.page.locator(f".st-key-chart_{key} .live-view")
+    # Streamlit writes a key's other letters as hyphens.
+    name = re.sub("[^a-zA-Z0-9_-]", "-", key)
+    return app.page.locator(f".st-key-chart_{name} .live-view")
 
 
 def _point_at(app: AppPage, key: str, share: float, height: float = 0.5) -> None:
