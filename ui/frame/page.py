@@ -152,7 +152,10 @@ def show(title: str, sentence: str, content: Callable[[Page], None]) -> None:
         visitor = session()
         whole, visitor.whole = visitor.whole, False
         if whole:
-            _content(content, places, whole=True)
+            # As a fragment's content stands in a container: elsewhere it would stand twice, beside
+            # the old, until the run ends.
+            with st.container():
+                _content(content, places, whole=True)
         else:
             st.fragment(_content)(content, places, whole=False)
 
