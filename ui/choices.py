@@ -19,8 +19,10 @@ T = TypeVar("T", str, float, int, bool)
 NAMES = frozenset((
     "tab", "scale", "over", "axes", "shaft", "spiral", "shown", "varied", "x", "y", "vary",
     "wanted", "margin", "target", "kick", "revolutions",
+    "speeds", "balance", "pace", "picture",
 ))  # fmt: skip
 _KEY = "rotorcalc_choices"
+_OF_A_RELEASE = ("orbits_kick", "orbits_revolutions")
 
 
 @dataclass
@@ -49,6 +51,17 @@ class Choices:
         """Return every choice, for a server without this session."""
         self._look()
         return self.chosen
+
+    def release(self) -> dict[str, Value]:
+        """Return the choices of a release, which undo brings back with its machine."""
+        kept = self.kept()
+        return {key: kept[key] for key in _OF_A_RELEASE if key in kept}
+
+    def restore(self, release: Mapping[str, Value]) -> None:
+        """Bring back choices; before the widgets of a run are drawn."""
+        self.chosen |= release
+        for key in release.keys() & st.session_state.keys():
+            st.session_state[key] = release[key]
 
     def recall(self, kept: object) -> None:
         """Restore what a browser kept."""

@@ -29,8 +29,10 @@ class History(Generic[State]):
         return self._at + 1 < len(self._states)
 
     def record(self, state: State) -> None:
-        """Take a state for the present, where it differs."""
+        """Take a state for the present; where it differs, as one more."""
         if state == self._states[self._at]:
+            # An equal one may hold more that undo brings back, and is not compared.
+            self._states[self._at] = state
             return
         # The oldest states are forgotten.
         self._states = [*self._states[: self._at + 1], state][-_MOST:]

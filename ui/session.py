@@ -5,6 +5,7 @@ survives a change of page, whether it was moved or came with a link.
 """
 
 import secrets
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
@@ -15,6 +16,7 @@ from rotorcalc.units import SYSTEMS, Units, with_amplitudes
 from ui import cases
 from ui.bearing import KIND, Value, Values
 from ui.cases import Case
+from ui.choices import Value as Choice
 from ui.choices import choices
 from ui.history import History
 from ui.inputs import PRESET_VALUES
@@ -31,6 +33,8 @@ class Work:
     preset: str
     values: Values
     cases: tuple[Case, ...]
+    # Those of a page's choices that belong to a state, but make none by themselves.
+    release: Mapping[str, Choice] = field(default_factory=dict, compare=False)
 
 
 @dataclass
@@ -119,10 +123,11 @@ class Session:
         self._restore(self.history.redo())
 
     def _work(self) -> Work:
-        return Work(self.preset, dict(self.values), self.cases)
+        return Work(self.preset, dict(self.values), self.cases, choices().release())
 
     def _restore(self, work: Work) -> None:
         self.preset, self.values, self.cases = work.preset, dict(work.values), work.cases
+        choices().restore(work.release)
         self.take()
 
     def framed(self) -> tuple[object, ...]:
