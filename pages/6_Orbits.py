@@ -1,31 +1,42 @@
-from functools import partial
-
 import streamlit as st
 
 from rotorcalc.figures import orbits as draw
+from rotorcalc.figures import run_up as draw_run
+from rotorcalc.nonlinear.run_up import RunUp
+from ui.choices import choose
 from ui.frame.page import Page, show
 from ui.preview import Draw, not_at_once
 from ui.words import on_demand
 from ui.words import orbits as ask
+from ui.words import run_up as run_ups
 from ui.words.citation import cited, remark
 
 
-def content(shown: Page) -> None:
-    answer = st.container(key="outcome")
-    with st.container(key="release"):
-        asked = ask.choose_release(shown.computed)
-    page = ask.try_out(shown, asked)
-    with answer:
-        ask.say_outcome(page.preview, asked)
+def content(page: Page) -> None:
     page.tabs("orbits_tab", {
-        "Orbit": partial(orbit, asked=asked),
-        "In time": partial(in_time, asked=asked),
-        "Spectrum": partial(spectrum, asked=asked),
+        "Orbit": of_a_release(orbit),
+        "In time": of_a_release(in_time),
+        "Spectrum": of_a_release(spectrum),
         "Run-up": on_release(run_up),
         "Limit cycles": on_release(limit_cycles),
         "Onset three ways": on_release(onset_three_ways),
     })  # fmt: skip
     page.results("onset_speed", "whirl_frequency", "margin", "damping_ratio")
+
+
+def of_a_release(content):
+    """Return a tab's content that begins with a release, and what the journal did."""
+
+    def released(page: Page) -> None:
+        answer = st.container(key="outcome")
+        with st.container(key="release"):
+            asked = ask.choose_release(page.computed)
+        shown = ask.try_out(page, asked)
+        with answer:
+            ask.say_outcome(shown.preview, asked)
+        content(shown, asked)
+
+    return released
 
 
 def on_release(content):
@@ -116,15 +127,37 @@ def spectrum(page: Page, asked: ask.Ask) -> None:
 
 
 def run_up(page: Page) -> None:
-    computed, units = page.computed, page.units
-    if (run := on_demand.ask_run_up(page)) is not None:
-        page.alone().chart(
-            lambda _, run=run: draw.waterfall(run, units), "orbits_waterfall",
+    asked = run_ups.choose_run(page.computed)
+    run = run_ups.ask_run(page, asked)
+    if run is not None:
+        run_ups.say_seen(page.computed, asked, run, page.units)
+        run_up_charts(page.alone(), asked, run)
+    run_ups.say_why(page.computed, asked, page.units)
+
+
+def run_up_charts(page: Page, asked: run_ups.AskRun, run: RunUp) -> None:
+    units, marks = page.units, run_ups.marks(page.computed, asked)
+    picture = choose("Picture", ["Amplitude", "Spectra rising", "Spectra falling"],
+                     "orbits_picture", hidden=True)  # fmt: skip
+    if picture == "Amplitude":
+        branch = on_demand.known_cycles(page.computed)
+        page.chart(
+            lambda _: draw_run.hysteresis(run, branch, marks, units), "orbits_hysteresis",
             while_dragging=not_at_once,
-            alt="Spectra over running speed: imbalance at 1×, whirl near ½× past the "
-            "onset.",
-            caption=on_demand.run_up_caption(computed),
+            alt="Amplitude over speed as it rises and as it falls, the onset marked.",
+            caption=run_ups.caption(branch),
         )  # fmt: skip
+        if branch is None and on_demand.ask_cycles(page) is not None:
+            st.rerun()
+        return
+    passage = run.up if picture == "Spectra rising" else run.down
+    page.chart(
+        lambda _: draw_run.waterfall(passage, run.clearance, marks, units), "orbits_waterfall",
+        while_dragging=not_at_once,
+        alt="Spectra over running speed: imbalance at 1×, whirl near ½× past the onset.",
+        caption="The journal's forward circles, each spectrum of 64 revolutions; dashed: Im λ/Ω of "
+        "the least damped whirl. Colours are logarithmic.",
+    )  # fmt: skip
 
 
 def limit_cycles(page: Page) -> None:

@@ -1,4 +1,4 @@
-"""Charts of nonlinear orbits: a released journal, its spectrum, a run-up, and the limit cycles.
+"""Charts of nonlinear orbits: a released journal, its spectrum, and the limit cycles.
 
 In the plane X, along the load, points down and Y to the right, so the shaft turns counterclockwise.
 The linear theory is always drawn in purple, broken.
@@ -17,7 +17,6 @@ from rotorcalc.figures.style import Axis, Chart, Trace, titled
 from rotorcalc.nonlinear.limit_cycles import Bifurcation
 from rotorcalc.nonlinear.measured_onset import GrowthCurve, Onsets
 from rotorcalc.nonlinear.release import Release
-from rotorcalc.nonlinear.run_up import RunUp
 from rotorcalc.units import Unit, Units
 
 LINEAR = style.PURPLE
@@ -60,18 +59,19 @@ def orbit(let_go: Release, units: Units) -> Chart:
 
 def over_time(let_go: Release, units: Units) -> Chart:
     """Return X and Y of the journal over revolutions, and the linear theory's."""
-    unit, at = units.film, _thin(let_go.revolutions)
+    unit, at = units.film, let_go.revolutions
     last = float(let_go.revolutions[-1])
     (X, Y) = unit.of(np.abs(let_go.wall).max(axis=0))
     x = style.axis("Revolutions since the release [-]", 0.0, last, anchor="y2")
     y = style.axis(f"X [{unit.name}]", -X, X, domain=style.UPPER)
     y2 = style.axis(f"Y [{unit.name}]", -Y, Y, domain=style.LOWER)
-    motion, linear = unit.of(_thin(let_go.motion.journal)), unit.of(_thin(let_go.linear))
+    motion, linear = unit.of(let_go.motion.journal), unit.of(let_go.linear)
     panes = [
         [
-            style.line(at, motion[:, i], "journal", style.JOURNAL, width=1.4, showlegend=i == 0),
             style.line(at, linear[:, i], "linear theory", LINEAR, width=1.2, dash="dot",
-                       showlegend=i == 0),
+                       showlegend=i == 0, **_long(let_go)),
+            style.line(at, motion[:, i], "journal", style.JOURNAL, width=1.4, showlegend=i == 0,
+                       **_long(let_go)),
             style.mark(last, motion[-1, i], "end", showlegend=False),
         ]
         for i in (0, 1)
@@ -93,8 +93,8 @@ def film(let_go: Release, units: Units) -> Chart:
     y = style.axis(titled("Thinnest film", "h", unit.name), 0.0, float(unit.of(top)))
     least = f"least, {text.amount(unit, thickness[place])}"
     traces = [
-        style.line(_thin(let_go.revolutions), unit.of(_thin(thickness)), "thinnest film",
-                   style.JOURNAL, width=1.4),
+        style.line(let_go.revolutions, unit.of(thickness), "thinnest film", style.JOURNAL,
+                   width=1.4, **_long(let_go)),
         style.mark(let_go.revolutions[place], unit.of(thickness[place]), least),
     ]  # fmt: skip
     return _over_turns(style.chart(traces, x, y, margin=_MARGIN, legend=_LEGEND), let_go)
@@ -166,35 +166,6 @@ def once_a_revolution(let_go: Release, units: Units) -> Chart:
     )  # fmt: skip
 
 
-def waterfall(run: RunUp, units: Units) -> Chart:
-    """Return the spectra of a run-up over orders and speed, the linear theory's whirl on them."""
-    unit, seen = units.amplitude, run.seen
-    speed = units.speed.of(seen.speed)
-    x = style.axis("Frequency over running speed, order [-]", 0.0, 1.5, dtick=0.25)
-    y = style.axis(titled("Running speed", "Ω", units.speed.name), speed.min(), speed.max())
-    title = f"Amplitude of the circle [{unit.name}]"
-    top = float(np.quantile(unit.of(seen.amplitude), 0.9995))
-    heat: Trace = {
-        "type": "heatmap", "name": "spectrum", "x": seen.order, "y": speed,
-        "z": unit.of(seen.amplitude).astype(np.float32), "zmin": 0.0, "zmax": style.ceiling(top),
-        "colorscale": "Cividis",
-        "colorbar": {"title": {"text": title, "side": "right"}, "thickness": 14, "outlinewidth": 0},
-        "hovertemplate": f"%{{x:.3f}}×, %{{y:.0f}} {units.speed.name}<br>%{{z:.3g}} {unit.name}"
-        "<extra></extra>",
-    }  # fmt: skip
-    traces = [
-        heat,
-        style.line(run.whirl_order, speed, "linear theory's whirl", LINEAR, dash="dash", width=3),
-    ]
-    traces.append(_across(run.onset, "onset", style.UNSTABLE, units, y))
-    traces.append(_across(run.running_speed, "running speed", style.HERE, units, y))
-    chart = style.chart(
-        traces, x, y, shapes=_guides(), annotations=_guide_names(), height=560,
-        margin={**_MARGIN, "t": 40}, legend=_LEGEND,
-    )  # fmt: skip
-    return cursor.over_speed(chart, run.running_speed, units, axis="y")
-
-
 def cycles(
     branch: Bifurcation, swept: tuple[Array, Array, Array], running_speed: float, units: Units
 ) -> Chart:
@@ -212,7 +183,7 @@ def cycles(
     x = style.axis(titled("Running speed", "Ω", units.speed.name), *ends)
     y = style.axis("Largest distance from rest, a/C [-]", 0.0, _top(size))
     traces = [
-        *_branch_lines(at, size, branch),
+        *branch_lines(at, size, branch),
         style.line([ends[0], onset], [0.0, 0.0], "rest, stable", style.JOURNAL, width=3.2,
                    showlegend=False, cliponaxis=False),
         style.line([onset, ends[1]], [0.0, 0.0], "rest, unstable", style.JOURNAL, dash="dot",
@@ -338,6 +309,14 @@ def _over_turns(chart: Chart, let_go: Release, **how: Any) -> Chart:
 # --- Over orders and speed --------------------------------------------------------------------
 
 
+def _long(let_go: Release) -> dict[str, Any]:
+    """Return what makes a line an envelope where its swings lie too close to be seen.
+
+    Its value is the number of points in a swing: two revolutions, a turn of a whirl at half speed.
+    """
+    return {"meta": {"envelope": int(np.searchsorted(let_go.motion.angle, 4.0 * math.pi))}}
+
+
 def _thin(values: Array) -> Array:
     """Return values thinned evenly to at most 6000 points."""
     return values[:: max(1, math.ceil(len(values) / _MOST_POINTS))]
@@ -359,20 +338,11 @@ def _guide_names() -> list[dict[str, Any]]:
     ]  # fmt: skip
 
 
-def _across(speed: float, name: str, colour: str, units: Units, y: Axis) -> Trace:
-    """Return a line across the orders at a speed, where that is within the axis."""
-    at = float(units.speed.of(speed))
-    inside = y["range"][0] <= at <= y["range"][1]
-    words = f"{name}, {at:.0f} {units.speed.name}" if inside else f"{name}: outside"
-    ends = np.array([0.0, 1.5] if inside else np.empty(0))
-    return style.line(ends, np.full(len(ends), at), words, colour, width=2.0)
-
-
 def _top(size: Array) -> float:
     return max(1.0, 1.08 * float(size.max()))
 
 
-def _branch_lines(at: Array, size: Array, branch: Bifurcation) -> list[Trace]:
+def branch_lines(at: Array, size: Array, branch: Bifurcation) -> list[Trace]:
     """Return the branch in two lines that meet, stable solid and unstable broken."""
     stable = np.append(branch.stable[0], branch.stable)
     unstable = ~stable

@@ -62,6 +62,12 @@ class Bifurcation(Result):
     paths: tuple[Array, ...]
 
     @property
+    def zero_to_peak(self) -> Array:
+        """Half the larger of the ranges of X and Y in each cycle [m], as probes read it, (n,)."""
+        dense = (_dense(path) for path in self.paths)
+        return np.array([0.5 * float(np.ptp(path, axis=0).max()) for path in dense])
+
+    @property
     def folds(self) -> Array:
         """Speeds at which the branch turns back [rad/s], shape (folds,)."""
         return self._turns()[0]
@@ -256,6 +262,12 @@ def start_on_cycle(machine: Machine, branch: Bifurcation, place: int) -> Start:
         journal_velocity=np.sum(swing * journal, axis=0).real,
         disk_velocity=np.sum(swing * disk, axis=0).real,
     )
+
+
+def _dense(path: Array) -> Array:
+    """Return a path with eight times as many points, by its Fourier series."""
+    m = len(path)
+    return np.fft.irfft(8.0 * np.fft.rfft(path, axis=0), n=8 * m, axis=0)
 
 
 class _Found(NamedTuple):

@@ -47,14 +47,16 @@ __all__ = [
 ]
 
 # Bounds of time and memory: two million samples of up to 17 numbers take 0.3 GB.
-MOST_REVOLUTIONS = 5000
+MOST_REVOLUTIONS = 20_000
 MOST_SAMPLES = 2_000_000
 # Relative tolerance of each step of LSODA; the absolute one is a hundredth of it, in clearances.
 TOLERANCE = 1e-10
 # LSODA refuses a tolerance of 1e-14, which is near its own rounding.
 _TOLERANCES = (1e-13, 1e-3)
-# Revolutions after which progress is reported and contact with the wall is checked.
-_STRETCH = 20
+# Revolutions after which progress is reported, contact with the wall is checked, and the disk is
+# pushed where it is; the golden angle, whose multiples by squares are the directions of the pushes:
+# they never repeat, and unlike those of an even turn do not cancel one another.
+_STRETCH, _GOLDEN = 20, math.pi * (3.0 - math.sqrt(5.0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +87,7 @@ class Transient(Result):
     speed: Array
     angle: Array
     # A function, as the velocity of a massless journal is costly and seldom needed.
-    _journal_velocity: Callable[[], Array]
+    _journal_velocity: Callable[[slice], Array]
     inner: Array | None = None
 
     @cached_property
@@ -94,7 +96,12 @@ class Transient(Result):
 
         Without journal mass it is solved from the film's force, sample by sample.
         """
-        return self._journal_velocity()
+        return self._journal_velocity(slice(None))
+
+    @property
+    def last_journal_velocity(self) -> Array:
+        """The journal's velocity at the end in X, Y [m/s], (2,)."""
+        return self._journal_velocity(slice(-1, None))[0]
 
 
 class TransientError(RuntimeError):
@@ -119,6 +126,7 @@ def simulate(  # noqa: PLR0913 - how long, from where, to which speed
     samples_per_revolution: int = 64,
     start: ArrayLike | Start | None = None,
     final_speed: float | None = None,
+    pushes: float = 0.0,
     tolerance: float = TOLERANCE,
     progress: Callable[[float], object] | None = None,
 ) -> Transient:
@@ -131,7 +139,7 @@ def simulate(  # noqa: PLR0913 - how long, from where, to which speed
     speed : float
         Running speed, Ω [rad/s], positive; at t = 0 where it runs up or down.
     revolutions : int
-        Number of revolutions, 1 to 5000.
+        Number of revolutions, 1 to 20000.
     samples_per_revolution : int
         Samples in each, evenly spaced in the angle of rotation, 1 or more.
     start : array_like (2,), Start or None
@@ -139,6 +147,10 @@ def simulate(  # noqa: PLR0913 - how long, from where, to which speed
         sag; or the whole state; None for the static equilibrium.
     final_speed : float or None
         Speed at the end of a linear run-up or run-down [rad/s]; None for constant speed.
+    pushes : float
+        Velocity that the disk is given every 20 revolutions, each time in another direction [m/s],
+        zero or more: a machine is never quite undisturbed, and without a disturbance a balanced one
+        would not leave an unstable equilibrium.
     tolerance : float
         Relative error allowed in each of the integrator's steps, 1e-13 to 1e-3. The default keeps
         a motion over 200 revolutions to better than 1e-6.
@@ -153,18 +165,20 @@ def simulate(  # noqa: PLR0913 - how long, from where, to which speed
     Raises
     ------
     ValueError
-        Where a speed, the number of revolutions or samples, the start or the tolerance is out of
-        bounds.
+        Where a speed, the number of revolutions or samples, the start, the pushes or the tolerance
+        is out of bounds.
     TransientError
         Where the integration fails, with time and position; it holds the motion computed so far.
     """
     speeds = _checked_speeds(speed, final_speed)
     _check_length(revolutions, samples_per_revolution)
     _check_tolerance(tolerance)
+    if not 0.0 <= pushes < math.inf:
+        raise ValueError(f"pushes = {pushes} m/s: must be zero or more, and finite")
     model = Equations(machine, *speeds, turned=2.0 * math.pi * revolutions)
     state = model.initial(_checked_start(machine, speeds[0], start))
     angles = np.linspace(0.0, model.turned, revolutions * samples_per_revolution + 1)
-    run = _Run(angles, _STRETCH * samples_per_revolution, tolerance)
+    run = _Run(angles, _STRETCH * samples_per_revolution, tolerance, pushes / (model.C * speeds[0]))
     return _integrate(model, state, run, progress)
 
 
@@ -215,7 +229,7 @@ def last_state(motion: Transient) -> Start:
     return Start(
         journal=motion.journal[-1],
         disk=motion.disk[-1],
-        journal_velocity=motion.journal_velocity[-1],
+        journal_velocity=motion.last_journal_velocity,
         disk_velocity=motion.disk_velocity[-1],
         inner=None if motion.inner is None else motion.inner[-1],
     )
@@ -223,11 +237,19 @@ def last_state(motion: Transient) -> Start:
 
 @dataclass(frozen=True, eq=False)
 class _Run:
-    """Angles at which to return the state, their number in a stretch, and the tolerance."""
+    """Angles at which to return the state, their number in a stretch, tolerance and pushes [CΩ]."""
 
     angles: Array
     stretch: int
     tolerance: float
+    pushes: float
+
+    def pushed(self, state: Array, first: int) -> Array:
+        """Return the state at the beginning of a stretch with the disk pushed."""
+        turn = (first // self.stretch) ** 2 * _GOLDEN
+        pushed = state.copy()
+        pushed[2:4] += self.pushes * np.array([math.cos(turn), math.sin(turn)])
+        return pushed
 
 
 def _integrate(
@@ -240,8 +262,9 @@ def _integrate(
     for first in range(0, len(angles) - 1, run.stretch):
         span = slice(first, min(first + run.stretch, len(angles) - 1) + 1)
         # Every stretch starts LSODA again: its history is lost, which costs a few small steps.
-        rows, message = _stretch(model, motion, states[first], angles[span], run.tolerance)
-        states[first : first + len(rows)] = rows
+        start = run.pushed(states[first], first)
+        rows, message = _stretch(model, motion, start, angles[span], run.tolerance)
+        states[first + 1 : first + len(rows)] = rows[1:]
         done = first + len(rows)
         if message:
             partial = _transient(model, angles[:done], states[:done])
@@ -266,9 +289,13 @@ def _transient(model: Equations, angles: Array, states: Array) -> Transient:
         disk_velocity=states[:, 2:4] * unit,
         speed=model.speed(angles),
         angle=angles,
-        _journal_velocity=partial(model.journal_velocity, angles, states),
+        _journal_velocity=partial(_velocities, model, angles, states),
         inner=model.inner_states(states),
     )
+
+
+def _velocities(model: Equations, angles: Array, states: Array, rows: slice) -> Array:
+    return model.journal_velocity(angles[rows], states[rows])
 
 
 def _stretch(

@@ -57,7 +57,7 @@ def test_a_kick_out_of_the_clearance_raises_a_valueerror() -> None:
 def test_long_work_starts_on_demand_and_is_kept_until_the_machine_changes() -> None:
     at = visit(ORBITS)
     for tab, key, chart in (
-        ("Run-up", "orbits_run_up", "chart_orbits_waterfall"),
+        ("Run-up", "orbits_run_up", "chart_orbits_hysteresis"),
         ("Limit cycles", "orbits_cycles", "chart_orbits_cycles"),
     ):
         open_part(at, "orbits_tab", tab)
@@ -71,6 +71,74 @@ def test_long_work_starts_on_demand_and_is_kept_until_the_machine_changes() -> N
     at.run()
     assert charts(at) == {}
     assert at.button(key="orbits_cycles")
+
+
+def test_a_run_up_says_what_comes_what_was_seen_and_why_whirl_is_late() -> None:
+    at = visit(ORBITS, tab="Run-up")
+    before = " ".join(text.value for text in at.markdown)
+    assert re.search(r"rises from 8027 rpm to 9633 rpm within .* about 3 s", before), before
+    assert re.search(r"grows at 1\.\d+ 1/s.*hundredfold.*above the onset", before), before
+    press(at, "orbits_run_up")
+    expected = re.search(r"reaches C/10 at (\d+) rpm", before)
+    seen = re.search(r"Rising, whirl shows from (\d+) rpm", said(at))
+    lasts = re.search(r"Falling, it lasts down to (\d+) rpm, (\S+) % below the onset", said(at))
+    assert expected, before
+    assert seen, said(at)
+    assert lasts, said(at)
+    assert 8919 < int(seen[1]) == pytest.approx(int(expected[1]), rel=0.01)
+    # The fold of the limit cycles is at 8659 rpm.
+    assert 8400 < int(lasts[1]) < 8680
+    (names,) = [[trace["name"] for trace in one["data"]] for one in charts(at).values()]
+    assert {"speed rising ▸", "speed falling ◂", "onset, 8919 rpm"} <= set(names)
+    for picture in ("Spectra rising", "Spectra falling"):
+        at.segmented_control(key="orbits_picture").set_value(picture).run()
+        assert set(charts(at)) == {"chart_orbits_waterfall"}
+        assert faults(at) == []
+    assert at.query_params == {"tab": "Run-up", "picture": "Spectra falling"}
+
+
+def test_the_limit_cycles_stand_behind_a_run_up_once_computed() -> None:
+    at = visit(ORBITS, tab="Run-up", C="63")
+    press(at, "orbits_run_up")
+    press(at, "orbits_cycles")
+    (chart,) = charts(at).values()
+    names = [trace["name"] for trace in chart["data"]]
+    assert names[:3] == ["limit cycle, stable", "limit cycle, unstable", "speed rising ▸"]
+
+
+def test_an_imbalance_that_suppresses_whirl_is_named() -> None:
+    at = visit(ORBITS, tab="Run-up", balance="its own")
+    press(at, "orbits_run_up")
+    assert "No whirl was seen as the speed rose. The imbalance drives the journal" in said(at)
+
+
+@pytest.mark.parametrize("query", [{"load": "0"}, {"cs": "100000"}])
+def test_a_machine_without_an_onset_runs_to_the_top_speed(query: dict[str, str]) -> None:
+    at = visit(ORBITS, tab="Run-up", **query)
+    assert "from 1200 rpm to 12000 rpm" in " ".join(text.value for text in at.markdown)
+    press(at, "orbits_run_up")
+    assert set(charts(at)) == {"chart_orbits_hysteresis"}
+
+
+def test_buttons_say_what_they_change_and_undo_brings_machine_and_release_back() -> None:
+    at = visit(ORBITS, T="65")
+    at.slider(key="orbits_kick").set_value(0.5).run()
+    at.slider(key="orbits_revolutions").set_value(60).run()
+    before = session_of(at).preset, dict(session_of(at).values)
+    for name in ("below", "above", "small", "big"):
+        button = at.button(key=f"orbits_{name}")
+        press(at, f"orbits_{name}")
+        now = session_of(at).values
+        changed = {key for key in now if now[key] != before[1].get(key)}
+        assert {"rpm", "u"} <= changed
+        assert ("machine" in button.label) == bool(changed - {"rpm", "u"})
+        assert re.search("sets (Ω, u, |machine and )release$", button.label)
+        press(at, "orbits_undo")
+        assert (session_of(at).preset, session_of(at).values) == before
+        assert at.slider(key="orbits_kick").value == 0.5
+        assert at.slider(key="orbits_revolutions").value == 60
+    at.button(key="redo").click().run()
+    assert at.slider(key="orbits_kick").value == 0.25
 
 
 def test_cancel_ends_the_computation() -> None:

@@ -17,7 +17,7 @@ _FRAMES = "() => document.querySelector('.js-plotly-plot')._transitionData._fram
 
 def press(app: AppPage, label: str) -> None:
     with app.run():
-        app.page.get_by_role("button", name=label, exact=True).click()
+        app.page.get_by_role("button", name=re.compile(f"^{label}")).click()
 
 
 def test_demonstrations_set_up_machine_kick_and_answer(app: AppPage) -> None:
@@ -72,13 +72,20 @@ def test_long_work_shows_progress_and_can_be_cancelled(server: Replica, app: App
     app.open("Orbits", k="inf")
     app.open_tab("Run-up")
     with server.held():
-        app.page.get_by_role("button", name="Run up to the top speed").click()
+        app.page.get_by_role("button", name="Run up and down").click()
         expect(app.page.get_by_role("progressbar")).to_be_visible()
+        # Nothing stands twice meanwhile, and what stands is not the last run's.
+        expect(app.page.get_by_role("tablist")).to_have_count(1)
+        expect(app.page.get_by_role("tab", name="Run-up")).to_have_count(1)
+        expect(app.page.get_by_role("button", name=re.compile("^Subcritical: big"))).to_have_count(
+            1
+        )
+        expect(app.page.get_by_role("button", name="Cancel", exact=True)).to_have_count(1)
         app.page.get_by_role("button", name="Cancel", exact=True).click()
-    expect(app.page.get_by_role("button", name="Run up to the top speed")).to_be_enabled()
+    expect(app.page.get_by_role("button", name="Run up and down")).to_be_enabled()
     app.rest()
     expect(app.charts()).to_have_count(0)
-    press(app, "Run up to the top speed")
+    press(app, "Run up and down")
     expect(app.charts()).to_have_count(1)
     expect(app.page.get_by_role("button", name="Cancel", exact=True)).to_have_count(0)
 
@@ -101,3 +108,67 @@ def test_kick_and_length_survive_a_change_of_page(app: AppPage) -> None:
     app.go("Notes")
     app.go("Orbits")
     assert app.slider("Initial displacement").input_value() == "0.31"
+
+
+def test_a_demonstration_is_undone_with_its_release(app: AppPage) -> None:
+    app.open("Orbits", T="65", kick="0.5", revolutions="60")
+    press(app, "Subcritical: big kick")
+    assert app.query()["kick"] == "0.25"
+    with app.run():
+        app.page.locator(".st-key-orbits_undo button").click()
+    assert app.query() == {"T": "65", "kick": "0.5", "revolutions": "60"}
+    assert app.slider("Initial displacement").input_value() == "0.5"
+    assert app.slider("Revolutions").input_value() == "60"
+
+
+_JOURNAL = """() => {
+  const chart = [...document.querySelectorAll('.js-plotly-plot')].at(-1);
+  const journal = chart._fullData.find(trace => trace.name === 'journal');
+  return [journal.fill, journal.x.length, journal.line.width, Math.max(...journal.y)];
+}"""
+_ZOOM = """range => Plotly.relayout([...document.querySelectorAll('.js-plotly-plot')].at(-1),
+  {'xaxis.range': range})"""
+
+
+def test_a_long_signal_is_an_envelope_and_a_zoom_shows_its_turns(app: AppPage) -> None:
+    app.open("Orbits", revolutions="400", u="0", rpm="9500", kick="0.05")
+    fill, points, _, top = app.page.evaluate(_JOURNAL)
+    assert fill == "toself"
+    assert points < 1000
+    app.page.evaluate(_ZOOM, [200, 210])
+    app.rest()
+    assert app.changes(lambda: app.page.evaluate(_JOURNAL)[0], "toself")
+    zoomed = app.page.evaluate(_JOURNAL)
+    assert zoomed[1] == 400 * 32 + 1
+    # The band reaches as far as the signal itself.
+    assert abs(zoomed[3] - top) < 1e-4 * top
+    app.page.evaluate(_ZOOM, [0, 400])
+    assert app.changes(lambda: app.page.evaluate(_JOURNAL)[0] == "toself", False)
+
+
+def test_a_run_up_and_down_shows_the_hysteresis_before_the_limit_cycles(app: AppPage) -> None:
+    app.open("Orbits", tab="Run-up", C="63")
+    main = app.page.get_by_test_id("stMain")
+    expect(main.get_by_text("Here will stand the journal's amplitude")).to_be_visible()
+    expect(main.get_by_text("Why whirl shows late")).to_be_visible()
+    press(app, "Run up and down")
+    expect(
+        main.get_by_text(re.compile("Rising, whirl shows from .*above the onset"))
+    ).to_be_visible()
+    (names,) = app.traces()
+    assert {"speed rising ▸", "speed falling ◂"} <= set(names)
+    expect(main.get_by_text("From the onset, whirl of one size")).to_be_visible()
+    press(app, "Follow the limit cycles")
+    (names,) = app.traces()
+    assert "limit cycle, unstable" in names
+    with app.run():
+        app.page.get_by_role("radio", name="Spectra falling").click()
+    expect(app.charts().first).to_contain_text("½×, whirl")
+    assert app.query() == {"C": "63", "tab": "Run-up", "picture": "Spectra falling"}
+
+
+def test_every_tab_says_what_will_come(app: AppPage) -> None:
+    app.open("Orbits", tab="Limit cycles")
+    expect(
+        app.page.get_by_text(re.compile("Here will stand their size over speed.*15 s"))
+    ).to_be_visible()

@@ -6,15 +6,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorcalc import bifurcation, onsets, simulate
+from rotorcalc import bifurcation, onset_speed, onsets
 from rotorcalc.figures import SI, US, orbits
+from rotorcalc.figures import run_up as of_run_up
+from rotorcalc.figures.run_up import Marks
 from rotorcalc.figures.style import HERE
 from rotorcalc.films import film_of
 from rotorcalc.nonlinear.limit_cycles import sweep
 from rotorcalc.nonlinear.measured_onset import GrowthCurve
 from rotorcalc.nonlinear.release import release
-from rotorcalc.nonlinear.run_up import RunUp
-from rotorcalc.nonlinear.signals import waterfall
+from rotorcalc.nonlinear.run_up import run_up
+from rotorcalc.units import with_amplitudes
 from tests.figures.charts import (
     check_case_is_behind,
     check_plotly_takes_it,
@@ -22,7 +24,7 @@ from tests.figures.charts import (
     notes,
 )
 from tests.films.models import BEARINGS, MOVING
-from tests.machines import ROTORS, RPM, SHEET, C, balanced, near_hopf, with_rotor
+from tests.machines import ROTORS, RPM, SHEET, C, balanced, near_hopf
 
 OF_A_RELEASE = [
     orbits.orbit, orbits.over_time, orbits.film, orbits.growth, orbits.spectrum,
@@ -94,7 +96,7 @@ def test_the_charts_show_the_records_numbers(releases):
     assert least["y"][0] == pytest.approx(found.film.min() * 1e6)
     names = [trace["name"] for trace in orbits.spectrum(found, SI)["data"]]
     assert f"whirl, {found.spectrum.whirl_ratio:.4f}×" in names
-    x = orbits.over_time(found, SI)["data"][0]["y"]
+    x = next(t for t in orbits.over_time(found, SI)["data"] if t["name"] == "journal")["y"]
     assert np.nanmax(np.abs(x)) == pytest.approx(np.abs(found.motion.journal[:, 0]).max() * 1e6)
 
 
@@ -107,19 +109,41 @@ def test_a_long_line_is_thinned_to_what_a_screen_shows(points):
     assert points < 6000 or len(thinned) > 2500
 
 
-def test_a_run_up_and_its_marks():
-    motion = simulate(
-        with_rotor(imbalance=2e-6), 8000 * RPM, revolutions=60, samples_per_revolution=16,
-        final_speed=10000 * RPM, tolerance=1e-7,
-    )  # fmt: skip
-    seen = waterfall(motion, spectra=20, width=16)
-    run = RunUp(seen, np.full(20, 0.5), onset=8919 * RPM, running_speed=6000 * RPM)
-    chart = orbits.waterfall(run, US)
+@pytest.mark.parametrize("units", [SI, with_amplitudes(US, "p-p")], ids=["0-p", "p-p"])
+def test_a_run_up_and_a_run_down_with_their_marks(units):
+    machine, *_ = near_hopf(0.06, 1.0)
+    onset = onset_speed(machine).speed
+    run = run_up(machine, 0.98 * onset, 1.06 * onset, revolutions=200)
+    marks = Marks(onset, running_speed=2.0 * onset, expected=math.nan)
+    branch = bifurcation(machine, lowest=0.95, highest=1.01)
+    chart = of_run_up.hysteresis(run, branch, marks, units)
     check_plotly_takes_it(chart)
-    assert [trace["name"] for trace in chart["data"][2:]] == [
-        "onset, 8919 rpm", "running speed: outside",
-    ]  # fmt: skip
-    assert chart["data"][0]["z"].shape == (20, len(seen.order))
+    named = {trace["name"].split(",")[0]: trace for trace in chart["data"]}
+    assert list(named)[-4:] == [
+        "speed rising ▸",
+        "speed falling ◂",
+        "onset",
+        "running speed: outside",
+    ]
+    assert "limit cycle" in named
+    up, unit = named["speed rising ▸"], units.amplitude
+    np.testing.assert_allclose(up["y"], unit.of(run.up.amplitude))
+    assert chart["layout"]["yaxis"]["title"]["text"] == f"Amplitude of the journal [{unit.name}]"
+    alone = of_run_up.hysteresis(run, None, marks, units)
+    assert not any("cycle" in trace["name"] for trace in alone["data"])
+    for passage in (run.up, run.down):
+        chart = of_run_up.waterfall(passage, run.clearance, marks, units)
+        check_plotly_takes_it(chart)
+        heat = chart["data"][0]
+        assert np.all(np.diff(heat["y"]) > 0.0)
+        assert heat["z"].shape == (300, len(passage.seen.order))
+        top = heat["customdata"].max()
+        assert top == pytest.approx(float(unit.of(passage.seen.amplitude.max())), rel=1e-6)
+        assert {"½×, whirl", "1×, imbalance"} == {note["text"] for note in notes_of(chart)}
+
+
+def notes_of(chart):
+    return chart["layout"]["annotations"]
 
 
 @pytest.mark.parametrize("eps", [0.06, 0.30])

@@ -24,7 +24,7 @@ def made(circles, *, revolutions=40, samples=32, growth=0.0):
     path = np.stack([signal.real, signal.imag], axis=-1)
     return Transient(
         time=time, journal=path, disk=2.0 * path, disk_velocity=path,
-        speed=np.full_like(angle, SPEED), angle=angle, _journal_velocity=lambda: path,
+        speed=np.full_like(angle, SPEED), angle=angle, _journal_velocity=lambda rows: path[rows],
     )  # fmt: skip
 
 

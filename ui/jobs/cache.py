@@ -43,6 +43,11 @@ class Cached(Generic[T]):
                 wait_while(lambda: THE_SAME if args in self._under_way else "", self._changed)
         return found[0]
 
+    def known(self, *args: Hashable) -> T | None:
+        """Return a cached result, None where it would have to be computed."""
+        found = self._look(args)
+        return None if found is None else found[0]
+
     def _begin(self, key: object) -> bool:
         """Start a computation, unless another has started or finished it meanwhile."""
         with self._changed:

@@ -39,9 +39,15 @@ def release(
     )
 
 
-def run_up(machine: Machine, top_speed: float, progress: Progress | None = None) -> RunUp:
-    """Return a run-up's spectra."""
-    return run_ups.run_up(machine, top_speed, progress=progress)
+def run_up(
+    machine: Machine,
+    lowest: float,
+    highest: float,
+    revolutions: int,
+    progress: Progress | None = None,
+) -> RunUp:
+    """Return a run-up and the run-down from its end, amplitudes and spectra."""
+    return run_ups.run_up(machine, lowest, highest, revolutions=revolutions, progress=progress)
 
 
 def three_onsets(machine: Machine) -> tuple[Onsets, GrowthCurve]:

@@ -3,6 +3,8 @@
 // `data` is JSON in UTF-8: key, chart (data, layout, frames), config, alt, presenting, and the
 // addresses of the scripts: Plotly, move.js, cursor.js, drawing.js.
 //
+// A trace whose `meta.envelope` is a number is a long signal: see `envelop`.
+//
 // The chart is as high as the window allows. A button shows it alone on the whole screen. There, and in a
 // presentation, type and lines are larger. `layout.meta.whole` has what an overview leaves out, and the screen shows;
 // `layout.meta.cursor` is for cursor.js.
@@ -141,12 +143,45 @@ function enlarge({ data, layout }, factor) {
   }
 }
 
+// The part of the x axis that is seen, where it is zoomed, else all of it.
+function visible(chart, { xaxis }) {
+  const given = new Map(chart.ranges).get("xaxis");
+  const now = chart.element.layout?.xaxis?.range;
+  return given && now && differ(now, given) ? now : xaxis?.range;
+}
+
+// Draws a long signal as its envelope, where one of its swings would take less than six pixels: the band between
+// the least and the largest value of each swing. Zoomed in it is drawn itself. It names how many points a swing has.
+function envelop(trace, [low, high], width, { numbers }) {
+  const swing = trace.meta?.envelope;
+  if (!swing) return;
+  const [xs, ys] = [numbers(trace.x), numbers(trace.y)];
+  const inside = xs.filter((x) => x >= low && x <= high).length;
+  if (6 * inside <= swing * width) return;
+  const columns = Array.from({ length: Math.min(Math.floor(inside / swing), Math.ceil(width)) }, () => [Infinity, -Infinity]);
+  xs.forEach((x, k) => {
+    const column = columns[Math.min(Math.floor(((x - low) / (high - low)) * columns.length), columns.length - 1)];
+    if (!column || !Number.isFinite(ys[k])) return;
+    column[0] = Math.min(column[0], ys[k]);
+    column[1] = Math.max(column[1], ys[k]);
+  });
+  const places = columns.map((column, k) => [low + ((k + 0.5) / columns.length) * (high - low), ...column]).filter(([, least]) => least < Infinity);
+  const back = [...places].reverse();
+  Object.assign(trace, {
+    x: [...places, ...back].map(([x]) => x),
+    y: [...places.map(([, least]) => least), ...back.map(([, , largest]) => largest)],
+    fill: "toself", fillcolor: `${trace.line.color}66`, line: { ...trace.line, width: 1, dash: "solid" },
+  });
+}
+
 async function redrawn(Plotly, chart, { chart: figure, config, presenting }) {
   const whole = document.fullscreenElement === chart.view;
   const copy = structuredClone(unfolded(figure, whole)); // Plotly writes into what it is given
   if (whole || presenting) enlarge(copy, large());
   delete copy.layout.height; // the element's
   delete copy.layout.meta; // not Plotly's
+  const seen = visible(chart, copy.layout);
+  if (seen) for (const trace of copy.data) envelop(trace, seen, chart.element.clientWidth, chart.tools);
   keepZoom(chart, copy);
   await Plotly.react(chart.element, { ...copy, config });
   if (!chart.listens) chart.element.on("plotly_relayout", (changed) => zoomed(chart, changed));

@@ -85,6 +85,7 @@ function path(points, end) {
 function moveTrace(gd, trace, i, changed) {
   const { uid, visible, ...full } = gd._fullData[i];
   if (visible !== true) return;
+  need(!trace.meta?.envelope); // what is drawn is not what is given
   need(trace.type === "scatter" && (!trace.fill || trace.fill === "toself") && trace.line?.shape !== "spline");
   const label = changed.includes("name") && gd.querySelector(`.legendtext[data-unformatted="${full.name}"]`);
   if (label) say(label, trace.name);

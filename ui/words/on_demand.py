@@ -1,9 +1,9 @@
-"""Run-up, limit cycles, the onset three ways: computed once a visitor asks, and words for them."""
+"""Limit cycles and the onset three ways: computed once a visitor asks, and words for them."""
 
 import hashlib
 import math
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
@@ -12,10 +12,8 @@ import streamlit as st
 from rotorcalc import Bifurcation, BifurcationError, Machine, Onsets, TransientError, bifurcation
 from rotorcalc.arrays import Array
 from rotorcalc.figures import Units
-from rotorcalc.nonlinear import run_up
 from rotorcalc.nonlinear.limit_cycles import sweep
 from rotorcalc.nonlinear.measured_onset import GrowthCurve
-from rotorcalc.nonlinear.run_up import RunUp
 from ui.computed import Computed
 from ui.format import amount, digits
 from ui.frame.page import Page
@@ -27,27 +25,49 @@ from ui.words.citation import capital, without_load
 
 T = TypeVar("T")
 
+_CYCLES = (
+    "From the onset, whirl of one size can go on at each speed: a limit cycle. Here will stand "
+    "their size over speed, without imbalance: stable cycles, on which a machine stays, unstable "
+    "ones, beyond which a disturbance grows, and the fold where both end. About 15 s."
+)
+_THREE = (
+    "The onset comes three ways: by the notes' equations, by eigenvalues, and measured on the "
+    "nonlinear motion. A few seconds …"
+)
 _STARTED_AGAIN = "This computation was interrupted and has started again."
 
-_run_up = cache.Cached(work.run_up, entries=8, megabytes=16)
 _cycles = cache.Cached(bifurcation, entries=16, megabytes=16)
 _three = cache.Cached(work.three_onsets, entries=16, megabytes=4)
 
 
+@dataclass(frozen=True)
+class Job:
+    """What a visitor may ask for: its button's label and key, and what will come, and when."""
+
+    label: str
+    key: str
+    comes: str
+
+
 def on_demand(
-    page: Page, label: str, key: str, token: object, work: Callable[[Progress | None], T]
+    page: Page, job: Job, token: object, work: Callable[[Progress | None], T]
 ) -> T | None:
-    """Return what work gives once a visitor asks for it; until then show a button.
+    """Return what work gives once a visitor asks for it; until then say what comes, with a button.
 
     `token` names what the work is about: when it changes, the visitor is asked again. While it
     runs, a bar shows how far it is, and a button ends it: its click makes the page run anew, and
     the next word of progress ends the old run. That it had to start again stands beside the result
     until the visitor's next action: it may take too short to be read meanwhile.
     """
+    key = job.key
     visitor, done, place = session(), f"{key}_done", st.empty()
     name = hashlib.sha256(repr(token).encode()).hexdigest()
     if visitor.asked.get(key) != name:
-        place.button(label, key=key, on_click=visitor.ask_for, args=(key, name))
+        with place.container():
+            st.markdown(job.comes)
+            st.button(
+                job.label, key=key, type="primary", on_click=visitor.ask_for, args=(key, name)
+            )
         return None
     if st.session_state.get(done) == name:
         return work(None)
@@ -69,39 +89,22 @@ def on_demand(
     return result
 
 
-def ask_run_up(page: Page) -> RunUp | None:
-    """Return the run-up's spectra, on request."""
-    computed = page.computed
-    token = ("run-up", computed.machine, computed.top_speed)
-    found = on_demand(
-        page, "Run up to the top speed", "orbits_run_up", token,
-        lambda tell: _try(lambda: _run_up(computed.machine, computed.top_speed, tell=tell)),
-    )  # fmt: skip
-    if found is None:
-        return None
-    return replace(found, onset=computed.onset.speed, running_speed=computed.speed)
-
-
-def run_up_caption(computed: Computed) -> str:
-    """Return the caption of the waterfall."""
-    stirred = computed.machine.rotor.imbalance == 0.0
-    return (
-        f"{run_up.REVOLUTIONS} revolutions from {run_up.FROM:g} times the top speed to "
-        "the top speed, the journal's forward circles; dashed: Im λ/Ω of the least damped whirl."
-        + (" An imbalance of C/1000 excites the balanced rotor." if stirred else "")
-    )
-
-
 def ask_cycles(page: Page) -> Bifurcation | None:
     """Return the limit cycles on request, or show why there are none."""
     computed, onset = page.computed, page.computed.onset.speed
     if not 0.0 < onset < math.inf:
         st.info(_no_onset(computed))
         return None
+    machine = balanced(computed.machine)
     return on_demand(
-        page, "Follow the limit cycles", "orbits_cycles", ("cycles", _balanced(computed.machine)),
-        lambda tell: _try(lambda: _cycles(_balanced(computed.machine), tell=tell)),
+        page, Job("Follow the limit cycles", "orbits_cycles", _CYCLES), ("cycles", machine),
+        lambda tell: attempt(lambda: _cycles(machine, tell=tell)),
     )  # fmt: skip
+
+
+def known_cycles(computed: Computed) -> Bifurcation | None:
+    """Return the limit cycles where they have been computed."""
+    return _cycles.known(balanced(computed.machine))
 
 
 def swept(branch: Bifurcation) -> tuple[Array, Array, Array]:
@@ -147,12 +150,16 @@ def ask_onsets(computed: Computed) -> tuple[Onsets, GrowthCurve] | None:
     if not 0.0 < onset < math.inf:
         st.info(_no_onset(computed))
         return None
-    return _try(lambda: three_onsets(computed))
+    place = st.empty()
+    place.markdown(_THREE)
+    found = attempt(lambda: three_onsets(computed))
+    place.empty()
+    return found
 
 
 def three_onsets(computed: Computed) -> tuple[Onsets, GrowthCurve]:
     """Return the onset found three ways, and growth over speed, of a machine that has one."""
-    found, curve = _three(_balanced(computed.machine))
+    found, curve = _three(balanced(computed.machine))
     here = leading(computed).real
     return found, replace(curve, running_speed=computed.speed, running_rate=here)
 
@@ -187,7 +194,7 @@ def say_onsets(found: Onsets, units: Units) -> None:
         st.error(f"They disagree by {found.spread:.1%} of the onset.")
 
 
-def _balanced(machine: Machine) -> Machine:
+def balanced(machine: Machine) -> Machine:
     return replace(machine, rotor=replace(machine.rotor, imbalance=0.0))
 
 
@@ -200,7 +207,7 @@ def _no_onset(computed: Computed) -> str:
     return "No speed makes this machine whirl: it has no onset, and no limit cycles."
 
 
-def _try(work: Callable[[], T]) -> T | None:
+def attempt(work: Callable[[], T]) -> T | None:
     """Return the result of a computation, or show why there is none."""
     try:
         return work()

@@ -36,17 +36,30 @@ _SUBCRITICAL = PRESET_VALUES["sheet-1e8"] | {
 }  # fmt: skip
 
 Demo = Literal["below", "above", "small", "big"]
-_DEMOS: dict[Demo, tuple[str, float, int]] = {
-    "below": ("5 % below onset", 0.30, 60),
-    "above": ("5 % above onset", 0.05, 160),
-    "small": ("Subcritical: small kick", 0.01, 400),
-    "big": ("Subcritical: big kick", 0.25, 400),
+
+
+@dataclass(frozen=True)
+class _Demo:
+    """A demonstration: its name, what it changes of the machine, displacement and revolutions."""
+
+    name: str
+    changes: str
+    kick: float
+    revolutions: int
+
+    @property
+    def label(self) -> str:
+        """The button's label: the name, and all that it changes."""
+        return f"{self.name}, sets {self.changes}"
+
+
+_HERE, _THERE = "Ω, u, release", "machine and release"
+_DEMOS: dict[Demo, _Demo] = {
+    "below": _Demo("5 % below onset", _HERE, 0.30, 60),
+    "above": _Demo("5 % above onset", _HERE, 0.05, 160),
+    "small": _Demo("Subcritical: small kick", _THERE, 0.01, 400),
+    "big": _Demo("Subcritical: big kick", _THERE, 0.25, 400),
 }
-_ABOUT_DEMOS = (
-    "The first two take this machine without its imbalance, which can suppress whirl. The last two "
-    "take a rigid rotor 0.5 % below its onset, at ε = 0.06, where the linear theory predicts that "
-    "every whirl decays."
-)
 
 
 @dataclass(frozen=True)
@@ -64,12 +77,18 @@ _long_release = cache.Cached(work.release, entries=16, megabytes=40)
 
 def choose_release(computed: Computed) -> Ask:
     """Show the demonstrations, displacement and length; return the chosen release."""
-    with st.container(horizontal=True, gap="small"):
-        for demo, (label, _, _) in _DEMOS.items():
+    with st.container(horizontal=True, gap="small", key="demonstrations"):
+        for name, demo in _DEMOS.items():
             st.button(
-                label, key=f"orbits_{demo}", help=_ABOUT_DEMOS, on_click=_set_up, args=(demo,),
-                disabled=not _can_set_up(demo, computed),
+                demo.label, key=f"orbits_{name}", on_click=_set_up, args=(name,),
+                disabled=not _can_set_up(name, computed),
             )  # fmt: skip
+        visitor = session()
+        st.button(
+            "Undo", key="orbits_undo", on_click=visitor.undo,
+            help="Machine and release, as they were before the last change.",
+            disabled=not visitor.history.can_undo,
+        )  # fmt: skip
     left, right = st.columns(2)
     with left:
         kick = st.slider(
@@ -103,7 +122,8 @@ def _set_up(demo: Demo) -> None:
         rpm = _demo_rpm(demo, computed_from(visitor.values))
         visitor.set_value("u", 0.0)
         visitor.set_value("rpm", rpm)
-    _, st.session_state[_KICK], st.session_state[_REVOLUTIONS] = _DEMOS[demo]
+    shown = _DEMOS[demo]
+    st.session_state[_KICK], st.session_state[_REVOLUTIONS] = shown.kick, shown.revolutions
 
 
 def let_go(computed: Computed, ask: Ask, tell: Progress | None = None) -> Release:
