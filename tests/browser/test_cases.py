@@ -50,7 +50,7 @@ def test_each_kind_of_change_is_undone(app: AppPage) -> None:
     changes = {
         "slider": lambda: app.press("Film temperature", "ArrowRight"),
         "case": lambda: _press(app, "Keep as A"),
-        "demonstration": lambda: _press(app, "Subcritical: small kick"),
+        "demonstration": lambda: _press(app, "Subcritical: small kick, sets all"),
         "preset": lambda: _choose_preset(app),
         "oil": lambda: _use_grade(app),
     }

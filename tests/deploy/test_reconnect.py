@@ -226,7 +226,7 @@ def test_a_running_computation_restarts_and_the_page_says_so(
     tab = tabs["a kick"]
     tab.open_tab("Run-up")
     with place.server.held():
-        tab.page.get_by_role("button", name="Run up to the top speed").click()
+        tab.page.get_by_role("button", name="Run up and down").click()
         expect(tab.page.get_by_role("button", name="Cancel")).to_be_visible()
         place.server.kill()
     lost(tab)
@@ -235,7 +235,7 @@ def test_a_running_computation_restarts_and_the_page_says_so(
     said = tab.page.get_by_text("This computation was interrupted and has started again.")
     expect(said).to_be_visible()
     expect(tab.page.locator(".live-chart")).to_be_visible()
-    kick(tab)
+    slide(tab)
     expect(said).to_be_hidden()
 
 

@@ -53,7 +53,7 @@ class _Demo:
         return f"{self.name}, sets {self.changes}"
 
 
-_HERE, _THERE = "Ω, u, release", "machine and release"
+_HERE, _THERE = "Ω, u, release", "all"
 _DEMOS: dict[Demo, _Demo] = {
     "below": _Demo("5 % below onset", _HERE, 0.30, 60),
     "above": _Demo("5 % above onset", _HERE, 0.05, 160),
@@ -85,7 +85,7 @@ def choose_release(computed: Computed) -> Ask:
             )  # fmt: skip
         visitor = session()
         st.button(
-            "Undo", key="orbits_undo", on_click=visitor.undo,
+            "Undo last change", key="orbits_undo", on_click=visitor.undo,
             help="Machine and release, as they were before the last change.",
             disabled=not visitor.history.can_undo,
         )  # fmt: skip
