@@ -115,6 +115,7 @@ def _demo_rpm(demo: Demo, computed: Computed) -> float:
 
 def _set_up(demo: Demo) -> None:
     visitor = session()
+    visitor.record()  # with the release as it was
     if demo in ("small", "big"):
         visitor.set_preset("sheet-1e8")
         visitor.values |= _SUBCRITICAL
