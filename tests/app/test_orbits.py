@@ -23,7 +23,7 @@ def press(at: AppTest, key: str) -> None:
     ("demo", "words"),
     [
         ("below", "returns to equilibrium|still decaying"),
-        ("above", "whirls at 0.5.. of the running speed.*unstable"),
+        ("above", r"whirls at 0\.5\d* of the running speed.*unstable"),
         ("small", "still decaying|returns to equilibrium"),
         ("big", "up to 0.86. C.*stable.*too large"),
     ],
