@@ -44,7 +44,8 @@ def on_release(content):
 
     def dimmed(page: Page) -> None:
         with page.preview.dimmed(content.__name__):
-            content(page)
+            if on_demand.has_motion(page.computed.machine.bearing):
+                content(page)
 
     return dimmed
 

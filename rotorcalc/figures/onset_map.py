@@ -131,7 +131,8 @@ def _along(share: float, axis: Axis) -> float:
 def _crossings(onset: Array, level: float) -> list[Place]:
     """Return where the rows of a map pass a level, as shares of width and height."""
     rows, columns = onset.shape
-    with np.errstate(invalid="ignore"):
+    # Where neighbours are equal no level lies between.
+    with np.errstate(divide="ignore", invalid="ignore"):
         passed = (onset[:, 1:] > level) != (onset[:, :-1] > level)
         part = (level - onset[:, :-1]) / (onset[:, 1:] - onset[:, :-1])
     found = np.argwhere(passed & np.isfinite(part))

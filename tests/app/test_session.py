@@ -273,7 +273,7 @@ def test_oils_without_a_valid_law_raise_a_valueerror() -> None:
     at = visit(HOME)
     open_part(at, "oil_library")
     at.number_input(key="fit_T2_SI").set_value(40.0).run()
-    assert any("two different temperatures" in box.value for box in at.error)
+    assert any("two temperatures must differ" in box.value for box in at.error)
     assert at.exception == []
 
 

@@ -17,6 +17,7 @@ from ui.computed import Computed
 from ui.inputs import values_of
 from ui.results.table import RESULTS
 from ui.sharing import report
+from ui.sharing.labels import Labels
 from ui.words.citation import cited
 
 # Balance of forces, definitions, the rotor's equations: they hold on any film.
@@ -83,7 +84,7 @@ def test_no_verdict_cites_what_the_film_does_not_name(name: str, load: str) -> N
 @pytest.mark.parametrize("name", BEARINGS)
 def test_the_report_cites_what_the_film_names(name: str) -> None:
     shown = Computed(machine(name), SPEED, TOP)
-    page = report.report(shown, None, SI, "link", "0").decode()
+    page = report.report(shown, [], SI, "link", Labels()).decode()
     text = page[: page.index("<script>")]
     assert numbers(text) - ON_ANY_FILM - own(name) == set()
     assert ("The model of this bearing&#x27;s film does not give it." in text) == (name != "short")

@@ -143,7 +143,7 @@ def test_a_log_as_text_has_the_same_id_and_no_visitor_data_either(
     said = " ".join(finished(_visit(failing_in_text.address)))
     (number,) = re.findall(r"\*\*([0-9a-f]{8})\*\*", said)
     written = failing_in_text.log.read_text()
-    assert f"failed id={number} type=ValueError places=" in written
+    assert f"failed id={number} times=1 type=ValueError places=" in written
     assert "page.py:4" in written
     assert ENTERED not in written
     assert "Traceback" not in written

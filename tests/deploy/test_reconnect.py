@@ -33,10 +33,10 @@ def nothing(_: AppPage) -> None:
 
 
 def slide(tab: AppPage) -> None:
-    """Move a slider by one step."""
+    """Move a slider by one step, half a micrometre."""
     before = tab.query()["C"]
     tab.press(CLEARANCE, "ArrowRight")
-    assert float(tab.query()["C"]) == float(before) + 1
+    assert float(tab.query()["C"]) == float(before) + 0.5
 
 
 def open_a_tab(tab: AppPage) -> None:
@@ -204,7 +204,7 @@ def test_after_a_lost_connection_the_last_action_stands_and_the_next_works(
 def test_a_value_being_sent_is_not_lost(place: Place, tabs: dict[str, AppPage]) -> None:
     """Sent to a server that stops before it arrives, or moved while there is no server."""
     sliding, typing = tabs["a slider"], tabs["a typed value"]
-    wanted = [float(tab.query()["C"]) + step for tab, step in ((sliding, 2), (typing, 1))]
+    wanted = [float(tab.query()["C"]) + step for tab, step in ((sliding, 1), (typing, 1))]
     place.line.fall_silent()
     sliding.slider(CLEARANCE).press("ArrowRight")
     fill_in(typing, wanted[1])

@@ -9,9 +9,18 @@ from typing import TypeVar
 import numpy as np
 import streamlit as st
 
-from rotorcalc import Bifurcation, BifurcationError, Machine, Onsets, TransientError, bifurcation
+from rotorcalc import (
+    Bifurcation,
+    BifurcationError,
+    JournalBearing,
+    Machine,
+    Onsets,
+    TransientError,
+    bifurcation,
+)
 from rotorcalc.arrays import Array
 from rotorcalc.figures import Units
+from rotorcalc.films import journal_motion
 from rotorcalc.nonlinear.limit_cycles import sweep
 from rotorcalc.nonlinear.measured_onset import GrowthCurve
 from ui.computed import Computed
@@ -205,6 +214,11 @@ def _no_onset(computed: Computed) -> str:
             "onset from which limit cycles could branch off, and none to compare."
         )
     return "No speed makes this machine whirl: it has no onset, and no limit cycles."
+
+
+def has_motion(bearing: JournalBearing) -> bool:
+    """Return whether a film gives a force in any motion; show why not where it gives none."""
+    return attempt(lambda: journal_motion(bearing)) is not None
 
 
 def attempt(work: Callable[[], T]) -> T | None:
