@@ -20,7 +20,7 @@ from rotorcalc import (
 )
 from rotorcalc.arrays import Array
 from rotorcalc.figures import Units
-from rotorcalc.films import journal_motion
+from rotorcalc.films import film_of
 from rotorcalc.nonlinear.limit_cycles import sweep
 from rotorcalc.nonlinear.measured_onset import GrowthCurve
 from ui.computed import Computed
@@ -218,7 +218,7 @@ def _no_onset(computed: Computed) -> str:
 
 def has_motion(bearing: JournalBearing) -> bool:
     """Return whether a film gives a force in any motion; show why not where it gives none."""
-    return attempt(lambda: journal_motion(bearing)) is not None
+    return attempt(lambda: film_of(bearing).motion()) is not None
 
 
 def attempt(work: Callable[[], T]) -> T | None:
