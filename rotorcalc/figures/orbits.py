@@ -143,7 +143,7 @@ def spectrum(let_go: Release, units: Units) -> Chart:
         name = f"linear theory's whirl, {text.number(at)}×"
         traces.append(style.line([at, at], [0.0, top], name, LINEAR, dash="dash", width=1.6))
     return style.chart(
-        traces, x, y, shapes=_guides(), annotations=_guide_names(), height=460,
+        traces, x, y, shapes=guides(), annotations=guide_names(), height=460,
         margin={**_MARGIN, "t": 40}, legend=_LEGEND,
     )  # fmt: skip
 
@@ -322,19 +322,21 @@ def _thin(values: Array) -> Array:
     return values[:: max(1, math.ceil(len(values) / _MOST_POINTS))]
 
 
-def _guides() -> list[dict[str, Any]]:
+def guides(colour: str = style.GREY, width: float = 1.4) -> list[dict[str, Any]]:
+    """Return lines at half the running speed and at the running speed, over an axis of orders."""
     return [
         {"type": "line", "x0": order, "x1": order, "y0": 0, "y1": 1, "yref": "paper",
-         "line": {"color": style.GREY, "width": 1.4, "dash": "dot"}}
+         "line": {"color": colour, "width": width, "dash": "dot"}}
         for order in (0.5, 1.0)
     ]  # fmt: skip
 
 
-def _guide_names() -> list[dict[str, Any]]:
+def guide_names(half: str = "½×", once: str = "1×") -> list[dict[str, Any]]:
+    """Return the names of these lines."""
     return [
         {"text": name, "x": order, "y": 1.0, "yref": "paper", "yanchor": "bottom",
          "showarrow": False}
-        for order, name in ((0.5, "½×"), (1.0, "1×"))
+        for order, name in ((0.5, half), (1.0, once))
     ]  # fmt: skip
 
 

@@ -2,13 +2,12 @@
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from rotorcalc.arrays import Array
 from rotorcalc.figures import cursor, style
-from rotorcalc.figures.orbits import DOWN, LINEAR, UP, branch_lines
+from rotorcalc.figures.orbits import DOWN, LINEAR, UP, branch_lines, guide_names, guides
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
 from rotorcalc.nonlinear.limit_cycles import Bifurcation
 from rotorcalc.nonlinear.run_up import Passage, RunUp
@@ -77,7 +76,8 @@ def waterfall(passage: Passage, clearance: float, marks: Marks, units: Units) ->
         _across(marks.running_speed, "running speed", style.HERE, units, y),
     ]  # fmt: skip
     chart = style.chart(
-        traces, x, y, shapes=_guides(), annotations=_guide_names(), height=_HEIGHT,
+        traces, x, y, shapes=guides(_ON_DARK, 1.2),
+        annotations=guide_names("½×, whirl", "1×, imbalance"), height=_HEIGHT,
         margin=_MARGIN, legend=_LEGEND,
     )  # fmt: skip
     return cursor.over_speed(chart, marks.running_speed, units, axis="y")
@@ -133,19 +133,3 @@ def _across(speed: float, name: str, colour: str, units: Units, y: Axis) -> Trac
     words = f"{name}, {at:.0f} {units.speed.name}" if inside else f"{name}: outside"
     ends = np.array([0.0, 1.5] if inside else np.empty(0))
     return style.line(ends, np.full(len(ends), at), words, colour, width=2.0)
-
-
-def _guides() -> list[dict[str, Any]]:
-    return [
-        {"type": "line", "x0": order, "x1": order, "y0": 0, "y1": 1, "yref": "paper",
-         "line": {"color": _ON_DARK, "width": 1.2, "dash": "dot"}}
-        for order in (0.5, 1.0)
-    ]  # fmt: skip
-
-
-def _guide_names() -> list[dict[str, Any]]:
-    return [
-        {"text": name, "x": order, "y": 1.0, "yref": "paper", "yanchor": "bottom",
-         "showarrow": False}
-        for order, name in ((0.5, "½×, whirl"), (1.0, "1×, imbalance"))
-    ]  # fmt: skip
