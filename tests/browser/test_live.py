@@ -227,7 +227,7 @@ _MOVED = """async ([name, value]) => {
   const moved = {};
   for (const [key, figure] of Object.entries((await answer.json()).charts)) {
     const { element, given } = window.rotorcalcCharts.get(key);
-    const { move } = await import(location.origin + given.mover);
+    const { move } = await import(location.origin + given.scripts.move);
     moved[key] = move(element, given.chart, figure);
     if (moved[key]) move(element, figure, given.chart);
   }
