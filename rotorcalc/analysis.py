@@ -74,7 +74,9 @@ class Sweep(Result):
         film cannot whirl.
     rigid_threshold, flexible_threshold : array, (n,)
         Ω_s and Ω_sf [rad/s] (Eqs. 5.45 to 5.50) at this speed's equilibrium; the machine is
-        unstable where its speed lies above. Without midspan damping and journal mass.
+        unstable where its speed lies above. Without midspan damping and journal mass, and with the
+        film's synchronous coefficients: the onset of a film that depends on the whirl's frequency
+        is `onset_speed` alone.
     disk_response, journal_response : complex array, (n, 2)
         Phasors of X and Y due to imbalance [m].
     """
@@ -265,7 +267,13 @@ class FilmCurves(Result):
 
 
 @checked
-def film_curves(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmCurves:
+def film_curves(
+    bearing: JournalBearing,
+    sommerfeld: ArrayLike,
+    *,
+    viscosity: ArrayLike = 1.0,
+    speed: ArrayLike = 1.0,
+) -> FilmCurves:
     """Return a bearing's film and threshold over the modified Sommerfeld number (Figs. 5.5 to 5.9).
 
     Parameters
@@ -275,6 +283,8 @@ def film_curves(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmCurves:
     sommerfeld : array_like, (...)
         σ [-], positive; infinite without load, where the threshold is the limit for a vanishing
         one: for a circular bore k_eq = 6/π, whirl ratio ½ and p_s² = 24/π.
+    viscosity, speed : array_like, (...)
+        μ [Pa·s] and Ω [rad/s]: a film of fixed parts depends on σ alone, others on these too.
 
     Returns
     -------
@@ -286,11 +296,12 @@ def film_curves(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmCurves:
     ValueError
         Where σ is not positive.
     """
-    film = film_state(bearing, sommerfeld)
+    film = film_state(bearing, sommerfeld, viscosity=viscosity, speed=speed)
     loaded = film
     if np.any(np.isinf(film.sommerfeld)):
         # k and c are in units of the load, which vanishes: the limit is taken at a very light load.
-        loaded = film_state(bearing, np.minimum(film.sommerfeld, _LIGHTEST))
+        lightest = np.minimum(film.sommerfeld, _LIGHTEST)
+        loaded = film_state(bearing, lightest, viscosity=viscosity, speed=speed)
     return FilmCurves(film=film, onset=whirl_onset(loaded.k, loaded.c))
 
 

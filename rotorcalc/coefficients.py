@@ -388,8 +388,9 @@ def film_forces(machine: Machine, speed: ArrayLike, *, sommerfeld: ArrayLike) ->
     ValueError
         Where a speed is not positive and finite or σ is not positive.
     """
-    film = film_state(machine.bearing, sommerfeld)
-    unit = FilmUnits(machine.bearing, machine.viscosity, checked_speed(speed)).force
+    mu, omega = machine.viscosity, checked_speed(speed)
+    film = film_state(machine.bearing, sommerfeld, viscosity=mu, speed=omega)
+    unit = FilmUnits(machine.bearing, mu, omega).force
     # Eq. 5.5; the unit has one value for each speed, the force two components.
     F = film.force * np.asarray(unit)[..., None]
     return FilmForces(
@@ -466,8 +467,9 @@ def unloading(machine: Machine, speed: float, *, sommerfeld: ArrayLike) -> Unloa
     ValueError
         Where the speed is not positive and finite or σ is not positive.
     """
-    film = film_state(machine.bearing, sommerfeld)
-    units = FilmUnits(machine.bearing, machine.viscosity, float(checked_speed(speed)))
+    mu, omega = machine.viscosity, float(checked_speed(speed))
+    film = film_state(machine.bearing, sommerfeld, viscosity=mu, speed=omega)
+    units = FilmUnits(machine.bearing, mu, omega)
     return Unloading(
         eccentricity_ratio=film.eccentricity_ratio,
         stiffness=film.stiffness * units.stiffness,

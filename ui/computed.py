@@ -114,7 +114,20 @@ class Computed:
     @property
     def curves(self) -> FilmCurves:
         """The bearing's dimensionless film over the modified Sommerfeld number."""
-        return _curves(self.machine.bearing, *_decades(float(self.point.sommerfeld)))
+        decades = _decades(float(self.point.sommerfeld))
+        if film_of(self.machine.bearing).curve is not None:  # of σ alone
+            return _curves(self.machine.bearing, *decades)
+        return _curves(self.machine.bearing, *decades, self.machine.viscosity, self.speed)
+
+    @property
+    def curves_here(self) -> FilmCurves:
+        """The bearing's dimensionless film at the running speed."""
+        return film_curves(
+            self.machine.bearing,
+            self.point.sommerfeld,
+            viscosity=self.machine.viscosity,
+            speed=self.speed,
+        )
 
     @cached_property
     def at_round_speeds(self) -> Equilibrium:
@@ -223,8 +236,7 @@ class Computed:
 
     def film_coefficients_here(self, axes: Axes) -> ForceCoefficients:
         """Return k and c at the running speed, in one frame."""
-        here = film_curves(self.machine.bearing, self.point.sommerfeld)
-        return force_coefficients(here, axes=axes)
+        return force_coefficients(self.curves_here, axes=axes)
 
     @property
     def unloading(self) -> Unloading:
@@ -362,9 +374,15 @@ def _family(machine: Machine, top_speed: float, rotors: tuple[Rotor, ...]) -> Re
 
 
 @lru_cache(maxsize=16)
-def _curves(bearing: JournalBearing, lowest: int, highest: int) -> FilmCurves:
+def _curves(
+    bearing: JournalBearing,
+    lowest: int,
+    highest: int,
+    viscosity: float = 1.0,
+    speed: float = 1.0,
+) -> FilmCurves:
     return _from_first_answer(
-        lambda sigma: film_curves(bearing, sigma),
+        lambda sigma: film_curves(bearing, sigma, viscosity=viscosity, speed=speed),
         np.geomspace(10.0**lowest, 10.0**highest, POINTS),
     )
 

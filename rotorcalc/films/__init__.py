@@ -89,7 +89,13 @@ def journal_motion(bearing: JournalBearing) -> FilmMotion:
 
 
 @checked
-def film_state(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmState:
+def film_state(
+    bearing: JournalBearing,
+    sommerfeld: ArrayLike,
+    *,
+    viscosity: ArrayLike = 1.0,
+    speed: ArrayLike = 1.0,
+) -> FilmState:
     """Return the film of a bearing in static equilibrium over the modified Sommerfeld number.
 
     Parameters
@@ -98,6 +104,8 @@ def film_state(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmState:
         The bearing.
     sommerfeld : array_like, (...)
         Modified Sommerfeld number, σ [-], positive; infinite without load.
+    viscosity, speed : array_like, (...)
+        μ [Pa·s] and Ω [rad/s]: a film of fixed parts depends on σ alone, others on these too.
 
     Returns
     -------
@@ -109,7 +117,8 @@ def film_state(bearing: JournalBearing, sommerfeld: ArrayLike) -> FilmState:
     ValueError
         Where σ is not positive.
     """
-    return film_of(bearing).state(OperatingPoints.at_sommerfeld(bearing, sommerfeld))
+    points = OperatingPoints.at_sommerfeld(bearing, sommerfeld, viscosity=viscosity, speed=speed)
+    return film_of(bearing).state(points)
 
 
 @checked

@@ -49,19 +49,30 @@ class OperatingPoints:
 
     @classmethod
     def at_sommerfeld(
-        cls, bearing: JournalBearing, sommerfeld: ArrayLike, *, viscosity: float = 1.0
+        cls,
+        bearing: JournalBearing,
+        sommerfeld: ArrayLike,
+        *,
+        viscosity: ArrayLike = 1.0,
+        speed: ArrayLike = 1.0,
     ) -> "OperatingPoints":
-        """Return points of a bearing at 1 rad/s with these σ, positive, or raise ValueError."""
+        """Return points with these σ, positive, at μ [Pa·s] and Ω [rad/s]: the load fits.
+
+        Raises
+        ------
+        ValueError
+            Where σ is not positive.
+        """
         sigma = real_array("sommerfeld", sommerfeld)
         if sigma.size and not sigma.min() > 0.0:
             worst = sigma[~(sigma > 0.0)].flat[0]
             raise ValueError(f"sommerfeld = {worst}: must be positive")
-        # Dimensionless results of a fixed bore depend on σ alone: any speed will do, the load fits.
-        unit = FilmUnits(bearing, viscosity, 1.0).force
+        mu, omega = (np.asarray(one, dtype=float) for one in (viscosity, speed))
+        unit = FilmUnits(bearing, mu, omega).force
         return cls(
             sommerfeld=sigma,
-            viscosity=np.array(viscosity),
-            speed=np.array(1.0),
+            viscosity=mu,
+            speed=omega,
             load=np.asarray(unit / (4.0 * sigma)),
         )
 

@@ -247,6 +247,11 @@ class RingedFilm(_TestFilm):
     frequency_dependent: bool = field(default=True, init=False)
 
     @property
+    def curve(self) -> Hashable:
+        # A ring's inertia goes with the speed squared.
+        return None if self.bearing.geometry.ring_mass > 0.0 else self.bearing.geometry
+
+    @property
     def _numbers(self):
         shape = self.bearing.geometry
         return shape.share, shape.outer_force, shape.outer_clearance / self.bearing.radial_clearance

@@ -9,8 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotorcalc import Machine, analyse
-from rotorcalc.coefficients import dynamics, equilibrium, stiffness_and_damping
+from rotorcalc import Machine, analyse, film_curves
+from rotorcalc.coefficients import (
+    dynamics,
+    equilibrium,
+    film_forces,
+    stiffness_and_damping,
+    unloading,
+)
 from rotorcalc.films import FilmMotion, FilmUnits, film_of, reduced
 from tests.films.models import BEARINGS, MOVING, Preloaded, Ringed, Sprung, points
 from tests.machines import ROTORS, SHEET, log_uniform
@@ -150,6 +156,21 @@ def test_arrays_of_points_answer_as_each_alone(bearing):
     assert whole.stiffness[1, 0] == pytest.approx(alone.stiffness, rel=1e-10)
     assert whole.damping[1, 0] == pytest.approx(alone.damping, rel=1e-10)
     assert film.state(points(bearing, sigma)).position.shape == (2, 2, 2)
+
+
+@ALL
+def test_a_film_over_sigma_is_the_machines_own_at_its_speed(bearing):
+    """A heavy ring's film depends on the speed too, not on σ alone."""
+    machine = machine_on(bearing)
+    point = analyse(machine, 700.0)
+    here = film_curves(bearing, point.sommerfeld, viscosity=machine.viscosity, speed=700.0)
+    per_load = bearing.radial_clearance / machine.static_load
+    assert here.film.k == pytest.approx(point.stiffness * per_load, rel=1e-9)
+    assert here.film.c == pytest.approx(point.damping * per_load * 700.0, rel=1e-9)
+    forces = film_forces(machine, 700.0, sommerfeld=point.sommerfeld)
+    assert forces.total == pytest.approx(machine.static_load, rel=1e-9)
+    unloaded = unloading(machine, 700.0, sommerfeld=point.sommerfeld)
+    assert unloaded.stiffness == pytest.approx(point.stiffness, rel=1e-9)
 
 
 @ALL

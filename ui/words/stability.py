@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 import streamlit as st
 
-from rotorcalc import JournalBearing, film_curves, whirl_energy
+from rotorcalc import JournalBearing, whirl_energy
 from rotorcalc.analysis import FilmCurves
 from rotorcalc.arrays import Array
 from rotorcalc.figures.stability import Crossing, Energies, FilmFigure
@@ -62,7 +62,7 @@ def _neglected(computed: Computed) -> list[str]:
 def film_figure(computed: Computed, over_eccentricity: bool = False) -> FilmFigure:
     """Return the common data of the notes' figures."""
     bearing = computed.machine.bearing
-    here = None if computed.unloaded else film_curves(bearing, computed.point.sommerfeld)
+    here = None if computed.unloaded else computed.curves_here
     return FilmFigure(
         computed.curves, _film_limit(computed.curves, bearing), here, over_eccentricity
     )
