@@ -90,7 +90,7 @@ def test_a_link_to_another_page_contains_the_machine(app: AppPage) -> None:
     link = app.page.get_by_test_id("stMain").get_by_role("link", name="Response", exact=True)
     address = urlsplit(link.evaluate("link => link.href"))
     assert address.path == "/Response"
-    assert dict(parse_qsl(address.query)) == app.query() == {"C": "71", "D": "160"}
+    assert dict(parse_qsl(address.query)) == app.query() == {"C": "70.5", "D": "160"}
 
 
 def test_the_browsers_reload_keeps_the_machine(app: AppPage) -> None:
