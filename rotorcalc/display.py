@@ -31,7 +31,8 @@ class Result:
 
     def __init_subclass__(cls) -> None:
         """Keep `dataclass` from giving a subclass a repr with every number of its arrays."""
-        cls.__repr__ = Result.__repr__  # `dataclass` leaves a repr alone that the class defines
+        if "__repr__" not in vars(cls):
+            cls.__repr__ = Result.__repr__  # `dataclass` leaves a repr alone that the class defines
 
     def __repr__(self) -> str:
         """Return at most `LINES` lines of at most `WIDTH` columns."""
@@ -128,7 +129,7 @@ def _shape(value: Any) -> str:
 
 def _values(value: Any) -> str:
     if isinstance(value, np.ndarray):
-        return _range(cast("np.ndarray[Any, Any]", value))
+        return in_brief(cast("np.ndarray[Any, Any]", value))
     if isinstance(value, tuple):
         kinds = {type(each).__name__ for each in cast("tuple[object, ...]", value)}
         return " or ".join(sorted(kinds))
@@ -137,7 +138,7 @@ def _values(value: Any) -> str:
     return f"{value:.5g}" if isinstance(value, float | complex) else reprlib.repr(value)
 
 
-def _range(values: Any) -> str:
+def in_brief(values: Any) -> str:
     """Return all numbers of an array where they are few, else the smallest and the largest."""
     if values.dtype.kind not in "fc":  # booleans and texts are counted: "3 False, 5 True"
         found, counts = np.unique(values, return_counts=True)
@@ -145,6 +146,6 @@ def _range(values: Any) -> str:
     if values.size <= _FEW:
         return ", ".join(f"{number:.5g}" for number in values.ravel().tolist())
     if values.dtype.kind == "c":
-        return f"size {_range(np.abs(values))}"
+        return f"size {in_brief(np.abs(values))}"
     known = values[~np.isnan(values)]
     return f"{known.min():.5g} … {known.max():.5g}" if known.size else "nan"

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from rotorcalc.analysis import Sweep
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
-from rotorcalc.display import Result
+from rotorcalc.display import Result, in_brief
 from rotorcalc.films import film_of
 from rotorcalc.unbalance_response import orbit_ellipse
 
@@ -52,6 +52,10 @@ class Check(Result):
     limit: Array
     level: NDArray[np.str_]
     reason: str
+
+    def __repr__(self) -> str:
+        """Return name, verdict and value in a line, as there are several in a tuple."""
+        return f"<{self.name}: {self.worst}, {in_brief(self.value)}>"
 
     @cached_property
     def worst(self) -> Level:

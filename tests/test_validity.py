@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from rotorcalc import PRESETS, analyse
@@ -104,3 +105,10 @@ def test_the_worst_verdict_of_a_sweep_is_that_of_its_worst_speed():
     # ρΩRC/μ = 4.51 s · Ω: 45, 1804 and 13530 against 1453 and 2000.
     assert reynolds.level.tolist() == ["good", "caution", "outside"]
     assert reynolds.worst == "outside"
+
+
+def test_all_checks_print_within_a_screen():
+    checks = repr(validity(analyse(SHEET.machine, np.linspace(100.0, 900.0, 50))))
+    assert checks.count("\n") == 0
+    assert len(checks) < 8 * 100
+    assert "Static sag over clearance, Γ/C: good" in checks
