@@ -294,7 +294,7 @@ def film_curves(
     Raises
     ------
     ValueError
-        Where σ is not positive.
+        Where σ, μ or Ω is not positive.
     """
     film = film_state(bearing, sommerfeld, viscosity=viscosity, speed=speed)
     loaded = film

@@ -115,7 +115,7 @@ def film_state(
     Raises
     ------
     ValueError
-        Where σ is not positive.
+        Where σ, μ or Ω is not positive.
     """
     points = OperatingPoints.at_sommerfeld(bearing, sommerfeld, viscosity=viscosity, speed=speed)
     return film_of(bearing).state(points)

@@ -61,13 +61,10 @@ class OperatingPoints:
         Raises
         ------
         ValueError
-            Where σ is not positive.
+            Where one of them is not positive.
         """
-        sigma = real_array("sommerfeld", sommerfeld)
-        if sigma.size and not sigma.min() > 0.0:
-            worst = sigma[~(sigma > 0.0)].flat[0]
-            raise ValueError(f"sommerfeld = {worst}: must be positive")
-        mu, omega = (np.asarray(one, dtype=float) for one in (viscosity, speed))
+        sigma = _positive("sommerfeld", sommerfeld)
+        mu, omega = _positive("viscosity", viscosity), _positive("speed", speed)
         unit = FilmUnits(bearing, mu, omega).force
         return cls(
             sommerfeld=sigma,
@@ -75,6 +72,13 @@ class OperatingPoints:
             speed=omega,
             load=np.asarray(unit / (4.0 * sigma)),
         )
+
+
+def _positive(name: str, given: ArrayLike) -> Array:
+    values = real_array(name, given)
+    if values.size and not values.min() > 0.0:
+        raise ValueError(f"{name} = {values[~(values > 0.0)].flat[0]}: must be positive")
+    return values
 
 
 @dataclass(frozen=True, eq=False)
