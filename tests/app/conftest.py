@@ -2,7 +2,15 @@
 
 import pytest
 
+from ui.words import design
+
 
 @pytest.fixture(autouse=True)
 def streamlits_own(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROTORCALC_LIVE", "off")
+
+
+@pytest.fixture
+def coarse_maps(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Give maps a few points, which may take a tenth of a second each: the page says the same."""
+    monkeypatch.setattr(design, "_COARSE", 4)

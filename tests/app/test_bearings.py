@@ -135,6 +135,7 @@ def test_files_are_written_for_every_bearing(name: str) -> None:
         assert f"<td>{words}</td>" in page or f'<td class="n">{words}</td>' in page
 
 
+@pytest.mark.usefixtures("coarse_maps")
 @pytest.mark.parametrize("path", PAGES)
 @pytest.mark.parametrize("name", OTHERS)
 def test_every_page_shows_every_bearing(path: str, name: str) -> None:

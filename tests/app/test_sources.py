@@ -59,6 +59,7 @@ def test_the_short_film_names_what_the_notes_have() -> None:
     assert own("sprung") == own("ringed") == set()
 
 
+@pytest.mark.usefixtures("coarse_maps")
 @pytest.mark.parametrize("path", [page for page in PAGES if page != NOTES])
 @pytest.mark.parametrize("name", BEARINGS)
 def test_no_page_cites_what_the_film_does_not_name(path: str, name: str) -> None:

@@ -80,7 +80,7 @@ class AppPage:
     def rest(self) -> None:
         """Wait until the app is at rest."""
         self.page.evaluate("() => { window.framesAtRest = 0; }")
-        self.page.wait_for_function(_AT_REST)
+        self.page.wait_for_function(_AT_REST, polling=50)
 
     @contextmanager
     def run(self) -> Iterator[None]:
