@@ -8,11 +8,16 @@ PATIENCE = 60.0  # seconds; what is waited for takes milliseconds, but the machi
 
 
 def until(holds: Callable[[], object]) -> None:
-    """Return once it holds; fail where it does not come to hold."""
+    """Return once it holds; fail where it does not come to hold.
+
+    Looks are first a millisecond apart, then ever longer: each may ask a server.
+    """
     end = time.monotonic() + PATIENCE
+    pause = 0.001
     while not holds():
         assert time.monotonic() < end, "waited in vain"
-        time.sleep(0.001)
+        time.sleep(pause)
+        pause = min(1.5 * pause, 0.1)
 
 
 def take(event: threading.Event) -> None:

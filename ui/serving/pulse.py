@@ -8,6 +8,7 @@ has computed or drawn nothing well for 45 s gives none either: it may only be bu
 
 import asyncio
 import importlib
+import logging
 import os
 import socket
 import time
@@ -60,7 +61,7 @@ class Pulse:
         if not self._found.keys() & _VITAL:
             self._well = self._looked
         if self._found and self._found != before:
-            log.event("unhealthy", why=self._found)
+            log.event("unhealthy", level=logging.WARNING, why=self._found)
         return self._found
 
     async def go_on(self) -> None:
