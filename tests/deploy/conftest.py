@@ -1,4 +1,4 @@
-"""Two replicas behind the real nginx, with the project's own configuration, on loopback."""
+"""A server, and two replicas behind the real nginx with the project's own configuration."""
 
 import os
 import shutil
@@ -76,6 +76,14 @@ class Site:
     def start(self, name: str) -> None:
         """Restart a replica at its address."""
         self.replicas[name] = _replica(name, self.replicas[name].port).wait()
+
+
+@pytest.fixture(scope="session")
+def server() -> Iterator[Replica]:
+    """A server as anybody starts it, for tests that leave it as it was."""
+    replica = Replica()
+    yield replica.wait()
+    replica.stop()
 
 
 @pytest.fixture(scope="session")

@@ -37,17 +37,20 @@ def _is_allowed(command: list[str]) -> bool:
     return subprocess.run([*command, "true"], check=False, capture_output=True).returncode == 0
 
 
-def _visited(shut: list[str], word: str) -> dict[str, Any]:
-    command = [*shut, sys.executable, "-m", "tests.deploy.alone", *([word] if shut else [])]
+@pytest.fixture(scope="module")
+def visited(shut: list[str]) -> dict[str, Any]:
+    """What was asked outside while a server was started and visited."""
+    command = [*shut, sys.executable, "-m", "tests.deploy.alone", *(["shut"] if shut else [])]
     done = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True)
     return json.loads(done.stdout)
 
 
-def test_a_server_starts_and_is_visited_and_asks_nobody_outside(shut: list[str]) -> None:
-    assert _visited(shut, "shut") == {"asked": [], "without a way": 0}
+def test_a_server_starts_and_is_visited_and_asks_nobody_outside(visited: dict[str, Any]) -> None:
+    assert visited["asked"] == []
+    assert visited["without a way"] == 0
 
 
-def test_one_packet_outside_would_be_counted(shut: list[str]) -> None:
+def test_one_packet_outside_is_counted(shut: list[str], visited: dict[str, Any]) -> None:
     if not shut:
         pytest.skip("this machine lets nobody make a network namespace (unshare --net)")
-    assert _visited(shut, "stray")["without a way"] >= 1
+    assert visited["without a way after one more"] >= 1

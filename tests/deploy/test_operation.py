@@ -27,28 +27,15 @@ if "C" in st.query_params:
 
 
 @pytest.fixture(scope="module")
-def script(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The app, but for its page."""
+def failing(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Replica]:
+    """A server of the app, but for its page."""
     folder = tmp_path_factory.mktemp("failing")
     page, app = folder / "page.py", folder / "app.py"
     page.write_text(_FAILING)
     text = (ROOT / "app.py").read_text()
     assert text.count("__file__") == 1
     app.write_text(text.replace("__file__", f"{str(page)!r}"))
-    return app
-
-
-@pytest.fixture(scope="module")
-def failing(script: Path) -> Iterator[Replica]:
-    replica = Replica(script=script, PYTHONPATH=str(ROOT), ROTORCALC_LOG="json")
-    yield replica.wait()
-    replica.stop()
-
-
-@pytest.fixture(scope="module")
-def failing_in_text(script: Path) -> Iterator[Replica]:
-    """The same, with the log that a server writes by default."""
-    replica = Replica(script=script, PYTHONPATH=str(ROOT))
+    replica = Replica(script=app, PYTHONPATH=str(ROOT), ROTORCALC_LOG="json")
     yield replica.wait()
     replica.stop()
 
@@ -135,15 +122,3 @@ def test_the_commit_of_another_users_checkout_is_known(
         assert re.fullmatch("[0-9a-f]{7,12}", version.commit())
     finally:
         version.commit.cache_clear()
-
-
-def test_a_log_as_text_has_the_same_id_and_no_visitor_data_either(
-    failing_in_text: Replica,
-) -> None:
-    said = " ".join(finished(_visit(failing_in_text.address)))
-    (number,) = re.findall(r"\*\*([0-9a-f]{8})\*\*", said)
-    written = failing_in_text.log.read_text()
-    assert f"failed id={number} times=1 type=ValueError places=" in written
-    assert "page.py:4" in written
-    assert ENTERED not in written
-    assert "Traceback" not in written

@@ -2,7 +2,6 @@
 
 import asyncio
 import json
-from collections.abc import Iterator
 from contextlib import closing
 from http.client import HTTPConnection
 from urllib.parse import urlsplit
@@ -13,13 +12,6 @@ from tests.deploy.conftest import Site
 from tests.deploy.test_replicas import awaited
 from tests.load.client import Visitor
 from tests.load.replicas import Replica
-
-
-@pytest.fixture(scope="module")
-def server() -> Iterator[Replica]:
-    replica = Replica()
-    yield replica.wait()
-    replica.stop()
 
 
 @awaited

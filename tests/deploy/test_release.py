@@ -7,7 +7,7 @@ import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from urllib.request import urlopen
@@ -45,9 +45,21 @@ class Host:
         for words in (["init", "-q"], ["add", "--all"], ["commit", "-qm", title]):
             subprocess.run([*git, *words], cwd=self.checkout, check=True)
 
-    def laid_out(self) -> Path:
-        """Lay out the last commit."""
-        return release.lay_out(self.checkout, self.root, BASE)
+    def release(self, ports: Iterable[str], restart: Callable[[str], bool]) -> Path:
+        """Lay out the last commit and restart replicas on it."""
+        new = release.lay_out(self.checkout, self.root, BASE)
+        release.release(list(ports), self.root, new, restart)
+        return new
+
+    def change_a_script(self) -> None:
+        """Let a browser's file have another name in the next release."""
+        script = self.checkout / "ui/live/slider.js"
+        script.write_text(f"{script.read_text()}// the next release\n")
+
+    def restart(self, port: str) -> bool:
+        """Restart a replica, and return whether it is ready."""
+        self.replicas[port].stop()
+        return self.replicas[port].start()
 
     def address(self, port: str) -> str:
         return f"http://127.0.0.1:{port}/{BASE}"
@@ -70,27 +82,27 @@ class Host:
         return said
 
 
-@pytest.fixture
-def host(tmp_path: Path) -> Iterator[Host]:
-    checkout, root = project.copy(tmp_path / "checkout"), tmp_path / "srv"
+@pytest.fixture(scope="module")
+def host(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Host]:
+    """Two replicas of the second release; the tests leave them running, on this or a later one."""
+    folder = tmp_path_factory.mktemp("host")
+    checkout, root = project.copy(folder / "checkout"), folder / "srv"
     packages = release.packages_of(checkout / "deploy/requirements.txt", root)
     packages.parent.mkdir(parents=True)
     packages.symlink_to(sys.prefix)
     packages.with_name(f"{packages.name}.made").touch()
     ports = [str(free_port()) for _ in range(2)]
     settings = {"STREAMLIT_SERVER_BASE_URL_PATH": BASE}
-    units = {port: Unit(root, int(port), tmp_path / f"{port}.log", **settings) for port in ports}
+    units = {port: Unit(root, int(port), folder / f"{port}.log", **settings) for port in ports}
     host = Host(checkout, root, units)
-    host.commit("One release")
-    release.release(ports, root, host.laid_out(), lambda port: units[port].start())
+    host.commit("The first release")
+    host.release([], host.restart)
+    host.change_a_script()
+    host.commit("The second release")
+    host.release(ports, lambda port: units[port].start())
     yield host
     for unit in units.values():
         unit.stop()
-
-
-def _restart(host: Host, port: str) -> bool:
-    host.replicas[port].stop()
-    return host.replicas[port].start()
 
 
 def test_an_update_breaks_no_page_of_replicas_that_still_run(host: Host) -> None:
@@ -100,24 +112,26 @@ def test_an_update_breaks_no_page_of_replicas_that_still_run(host: Host) -> None
         f"import streamlit as st\nst.markdown({MARK!r})\n"
     )
     (host.checkout / "ui/words/response.py").write_text("")  # what the old page takes from there
-    script = host.checkout / "ui/live/slider.js"
-    script.write_text(f"{script.read_text()}// the next release\n")
+    host.change_a_script()
     host.commit("The next release")
-    new = host.laid_out()
 
     def restart(port: str) -> bool:
-        """See that who is not restarted goes on as before, and restart."""
-        assert (host.root / "current").resolve() == new
-        for still in host.replicas if port == first else [other]:
-            assert host.released(still) == old
+        """See that one goes on as before until it is restarted, after the other."""
+        assert (host.root / "current").resolve().name != old
+        assert host.released(other) == old
+        if port == other:
+            assert host.released(first) != old
             for name in PAGES:
-                assert MARK not in host.page(still, name)
-        return _restart(host, port)
+                assert MARK not in host.page(other, name)
+        return host.restart(port)
 
-    release.release(list(host.replicas), host.root, new, restart)
+    new = host.release(host.replicas, restart)
     for port in host.replicas:
         assert host.released(port) == new.name
         assert MARK in host.page(port, "Response")
+    # What belonged to the release before the last one is gone.
+    assert {path.name for path in (host.root / "releases").iterdir()} == {old, new.name}
+    assert len(list((host.root / "venvs").iterdir())) == 2
     www = host.root / "www" / BASE / "app/static"
     assert len(list(www.glob("slider-*.js"))) == 2
     assert len(list(www.glob("plotly-*.min.js"))) == 1
@@ -127,12 +141,13 @@ def test_an_update_breaks_no_page_of_replicas_that_still_run(host: Host) -> None
 def test_a_release_that_does_not_start_is_taken_back_and_its_visitors_stay(host: Host) -> None:
     first, other = host.replicas
     old, untouched = host.released(first), host.replicas[other].process
-    (host.checkout / "ui/words/home.py").write_text("raise RuntimeError('a mistake')\n")
+    home = host.checkout / "ui/words/home.py"
+    words = home.read_text()
+    home.write_text("raise RuntimeError('a mistake')\n")
     host.commit("A mistake")
+    home.write_text(words)
     with pytest.raises(release.ReleaseError, match=f"{first} does not start.*{old} is put back"):
-        release.release(
-            list(host.replicas), host.root, host.laid_out(), lambda port: _restart(host, port)
-        )
+        host.release(host.replicas, host.restart)
     assert host.replicas[other].process == untouched
     assert (host.root / "current").resolve().name == old
     assert host.released(first) == old
@@ -152,24 +167,6 @@ def _answers(host: Host, port: str) -> bool:
         return bool(host.released(port))
     except OSError:
         return False
-
-
-def test_only_the_last_two_releases_are_kept(host: Host) -> None:
-    """Replicas are not started here, only laid out."""
-    (first,) = (host.root / "releases").iterdir()
-    script = host.checkout / "ui/live/slider.js"
-    for number in (1, 2):
-        script.write_text(f"{script.read_text()}// {number}\n")
-        host.commit(f"Release {number}")
-        release.release([], host.root, host.laid_out(), lambda _: True)
-    kept = {path.name for path in (host.root / "releases").iterdir()}
-    assert first.name not in kept
-    assert len(kept) == 2
-    assert host.laid_out().name in kept
-    assert len(list((host.root / "venvs").iterdir())) == 2
-    www = host.root / "www" / BASE / "app/static"
-    assert len(list(www.glob("slider-*.js"))) == 2
-    assert len(list(www.glob("plotly-*.min.js"))) == 1
 
 
 def test_the_path_is_the_one_of_the_replicas_settings(tmp_path: Path) -> None:

@@ -2,9 +2,6 @@
 
 import asyncio
 import random
-from collections.abc import Iterator
-
-import pytest
 
 from tests.deploy.test_replicas import awaited
 from tests.load.client import Tally, Visitor
@@ -13,13 +10,6 @@ from tests.load.replicas import Replica
 from tests.load.walk import act, is_refused
 
 PATIENCE = 5.0  # seconds: far more than a page takes here, far less than the heavy ones
-
-
-@pytest.fixture(scope="module")
-def server() -> Iterator[Replica]:
-    replica = Replica()
-    yield replica.wait()
-    replica.stop()
 
 
 async def _asks_for_maps(visitor: Visitor, ended: asyncio.Event) -> None:
