@@ -65,6 +65,7 @@ class AppPage:
         self.page = page
         self.url = url
         self.faults: list[str] = []
+        self.session = ""  # by which the server knows the tab
         self._finished = 0
         page.set_default_timeout(TIMEOUT)
         page.on("console", self._heard)
@@ -210,7 +211,9 @@ class AppPage:
     def _received(self, frame: bytes | str) -> None:
         with suppress(DecodeError):
             if isinstance(frame, bytes):
-                self._finished += ForwardMsg.FromString(frame).HasField("script_finished")
+                message = ForwardMsg.FromString(frame)
+                self._finished += message.HasField("script_finished")
+                self.session = message.new_session.initialize.session_id or self.session
 
 
 def _is_streamlits_search(message: ConsoleMessage) -> bool:

@@ -1,27 +1,30 @@
 """A browser that loses its server or its network: nothing is lost, and the next action works.
 
-Each visitor has done something else last. All of them are there at once, so that a server need not
-be killed for each.
+The browser's clock stands still during a break, but for what a test lets pass.
 """
 
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
 import pytest
 from playwright.sync_api import BrowserContext, expect
+from websockets.asyncio.client import connect
 
 from tests.browser.app_page import AppPage
 from tests.browser.conftest import browser_type_launch_args, chromium, desk
 from tests.deploy.line import Line
+from tests.deploy.test_replicas import finished
 from tests.load.replicas import Replica
 
 __all__ = ["browser_type_launch_args", "chromium", "desk"]
 
 _STATE = "document.querySelector('[data-testid=stApp]').dataset.testConnectionState"
 CLEARANCE = "Radial clearance"
+KEPT = 128  # sessions of lost tabs that Streamlit keeps
 
-# Several pages are opened at once, and servers started.
+# Pages are opened, and servers started.
 pytestmark = pytest.mark.timeout(300)
 
 
@@ -39,15 +42,11 @@ def slide(tab: AppPage) -> None:
     assert float(tab.query()["C"]) == float(before) + 0.5
 
 
-def open_a_tab(tab: AppPage) -> None:
-    tab.open_tab("Forces")
-
-
 def keep_a_case(tab: AppPage) -> None:
-    """Keep the machine as a case, where there is none."""
-    if not tab.page.locator("table.cases").count():
-        with tab.run():
-            tab.page.get_by_role("button", name="Keep as A").click()
+    """Open one of the page's tabs, and keep the machine as a case."""
+    tab.open_tab("Forces")
+    with tab.run():
+        tab.page.get_by_role("button", name="Keep as A").click()
 
 
 def type_a_value(tab: AppPage) -> None:
@@ -75,59 +74,26 @@ def choose_typing(tab: AppPage) -> None:
 
 def kick(tab: AppPage) -> None:
     """Increase the initial displacement."""
-    tab.slider("Initial displacement").focus()
-    with tab.run():
-        tab.slider("Initial displacement").press("ArrowRight")
+    tab.press("Initial displacement", "ArrowRight")
 
 
 # --- What must still be there -----------------------------------------------------------------
 
 
-def machine(tab: AppPage) -> object:
-    return tab.query(), tab.metrics()
+_INPUTS = """() => [...document.querySelectorAll('[role=slider], input[type=text]')].map(
+  input => input.value ?? input.ariaValueNow)"""
 
 
-def tab_open(tab: AppPage) -> object:
-    return tab.query(), tab.page.locator("[role=tab][aria-selected=true]").inner_text()
-
-
-def compared(tab: AppPage) -> object:
-    return (
-        tab.metrics(),
-        tab.page.locator("table.cases").inner_text(),
-        tab.page.get_by_test_id("stMetricDelta").all_inner_texts(),
-    )
-
-
-def field(tab: AppPage) -> object:
-    return tab.page.get_by_role("textbox", name=CLEARANCE).input_value()
-
-
-def height(tab: AppPage) -> object:
-    return tab.slider("Initial displacement").evaluate(
-        "handle => handle.value ?? handle.ariaValueNow"
-    )
-
-
-@dataclass(frozen=True)
-class Visit:
-    """A visitor's page, what was done there last, what must still be there, the next action."""
-
-    page: str
-    last: Callable[[AppPage], None]
-    there: Callable[[AppPage], object]
-    then: Callable[[AppPage], None] = slide
-    first: Callable[[AppPage], None] = nothing
-
-
-VISITS = {
-    "nothing": Visit("Equilibrium", nothing, machine),
-    "a slider": Visit("Machine", slide, machine),
-    "a tab": Visit("Equilibrium", open_a_tab, tab_open),
-    "a case": Visit("Stability", keep_a_case, compared, first=keep_a_case),
-    "a typed value": Visit("Machine", type_a_value, field, type_a_value, first=choose_typing),
-    "a kick": Visit("Orbits", kick, height, kick),
-}
+def shown(tab: AppPage) -> dict[str, object]:
+    """Return a page's address and inputs, its results, its open tab, and the cases."""
+    return {
+        "address": tab.page.url,
+        "inputs": tab.page.evaluate(_INPUTS),
+        "results": tab.metrics(),
+        "tab": tab.page.locator("[role=tab][aria-selected=true]").all_inner_texts(),
+        "cases": tab.page.locator("table.cases").all_inner_texts(),
+        "changes": tab.page.get_by_test_id("stMetricDelta").all_inner_texts(),
+    }
 
 
 # --- Where it happens -------------------------------------------------------------------------
@@ -144,11 +110,59 @@ class Place:
     def address(self) -> str:
         return f"http://127.0.0.1:{self.line.port}"
 
-    def mend(self) -> None:
-        """Start a server where there is none, and let visitors reach it."""
+    def lose(self, how: str) -> None:
+        """Let visitors lose their server by a crash or a restart, or their network."""
+        if how in ("kill", "stop"):
+            {"kill": self.server.kill, "stop": self.server.stop}[how]()
+        if how == "silent":
+            self.line.fall_silent()
+        else:
+            self.line.cut()
+
+    def prepare(self, how: str) -> None:
+        """Start a server where there is none, which nobody reaches yet."""
         if self.server.process.poll() is not None:
             self.server = Replica(port=self.server.port).wait()
+        if how == "forgotten":
+            finished(self._forget())
+
+    def mend(self) -> None:
+        """Start a server where there is none, and let visitors reach it."""
+        self.prepare("")
         self.line.mend()
+
+    async def _forget(self) -> None:
+        """Let so many others come and go that no session of a lost tab is kept."""
+        stream = f"{self.server.address.replace('http', 'ws')}/_stcore/stream"
+        for _ in range(KEPT):
+            async with connect(
+                stream, origin=self.server.address, subprotocols=["streamlit", "-"], proxy=None
+            ):  # type: ignore[arg-type] # fmt: skip
+                pass
+
+
+class Tabs:
+    """Three visitors' tabs, each opened when first asked for."""
+
+    def __init__(self, desk: BrowserContext, address: str) -> None:
+        self._desk, self._address = desk, address
+        self._open: dict[str, AppPage] = {}
+
+    def __call__(self, *names: str) -> list[AppPage]:
+        """Return the tabs of these names, and close the others."""
+        for name in self._open.keys() - set(names):
+            self._open.pop(name).page.close()
+        for name in set(names) - self._open.keys():
+            self._open[name] = self._opened(name)
+        return [self._open[name] for name in names]
+
+    def _opened(self, name: str) -> AppPage:
+        tab = AppPage(self._desk.new_page(), self._address)
+        tab.page.clock.install()
+        tab.open("Orbits" if name == "releasing" else "Equilibrium", C="70", D="160")
+        if name == "typing":
+            choose_typing(tab)
+        return tab
 
 
 @pytest.fixture(scope="module")
@@ -160,15 +174,10 @@ def place() -> Iterator[Place]:
 
 
 @pytest.fixture(scope="module")
-def tabs(desk: BrowserContext, place: Place) -> Iterator[dict[str, AppPage]]:
-    """A tab for each visitor."""
-    opened = {name: AppPage(desk.new_page(), place.address) for name in VISITS}
-    for name, tab in opened.items():
-        tab.open(VISITS[name].page, C="70", D="160")
-        VISITS[name].first(tab)
-    yield opened
-    for tab in opened.values():
-        tab.page.close()
+def tabs(desk: BrowserContext, place: Place) -> Iterator[Tabs]:
+    tabs = Tabs(desk, place.address)
+    yield tabs
+    tabs()
 
 
 def lost(tab: AppPage) -> None:
@@ -182,28 +191,88 @@ def back(tab: AppPage) -> None:
     tab.rest()
 
 
-@pytest.mark.parametrize("goes", ["kill", "stop", "cut"])
-def test_after_a_lost_connection_the_last_action_stands_and_the_next_works(
-    goes: str, place: Place, tabs: dict[str, AppPage]
+# --- A break: the browser's clock stands, and is put forward ----------------------------------
+
+
+@contextmanager
+def stopped_clock(tab: AppPage) -> Iterator[None]:
+    """Stop the browser's clock meanwhile, at a time that no machine reaches before."""
+    now = tab.page.evaluate("Date.now()") / 1e3
+    tab.page.clock.pause_at(datetime.fromtimestamp(now + 300, UTC))
+    try:
+        yield
+    finally:
+        tab.page.clock.resume()
+
+
+def pass_time(tab: AppPage, seconds: float, *, pause: float = 60, until: str = "") -> bool:
+    """Put the browser's clock forward, and let it answer what comes meanwhile; see if it holds."""
+    for _ in range(round(seconds * 4)):
+        tab.page.clock.run_for(250)
+        tab.page.wait_for_timeout(pause)
+        if until and tab.page.evaluate(until):
+            return True
+    return False
+
+
+@dataclass(frozen=True)
+class Break:
+    """Whose connection breaks, what was done there last, and what is done next."""
+
+    who: str
+    last: Callable[[AppPage], None]
+    then: Callable[[AppPage], None] = slide
+
+
+BREAKS = {
+    "kill": Break("sliding", nothing),
+    "silent": Break("sliding", slide),
+    "forgotten": Break("sliding", keep_a_case),
+    "cut": Break("typing", type_a_value, type_a_value),
+    "stop": Break("releasing", kick, kick),
+}
+
+
+@pytest.mark.parametrize("how", BREAKS)
+def test_two_seconds_after_a_break_all_is_there_and_the_next_action_works(
+    how: str, place: Place, tabs: Tabs
 ) -> None:
-    """A crash, a restart, and a short failure of the network."""
-    there = {}
-    for name, tab in tabs.items():
-        VISITS[name].last(tab)
-        there[name] = VISITS[name].there(tab)
-    {"kill": place.server.kill, "stop": place.server.stop, "cut": place.line.cut}[goes]()
-    for tab in tabs.values():
-        lost(tab)
-    place.mend()
-    for name, tab in tabs.items():
-        back(tab)
-        assert VISITS[name].there(tab) == there[name], name
-        VISITS[name].then(tab)
+    """A crash, a restart, a network that fails or falls silent, and a session long forgotten."""
+    (tab,) = tabs(BREAKS[how].who)
+    BREAKS[how].last(tab)
+    before, session = shown(tab), tab.session
+    with stopped_clock(tab):
+        place.lose(how)
+        assert pass_time(tab, 12, until=f"{_STATE} !== 'CONNECTED'")
+        if how == "forgotten":
+            tab.page.clock.fast_forward(300_000)
+        place.prepare(how)
+        pass_time(tab, 10)
+        wait_for_the_worst_moment(tab, how)
+        place.mend()
+        # Two seconds of the browser's clock, however long a busy machine takes over them.
+        assert pass_time(tab, 2, pause=1000, until=f"{_STATE} === 'CONNECTED'")
+    back(tab)
+    assert shown(tab) == before
+    assert how in ("cut", "silent") or tab.session != session
+    BREAKS[how].then(tab)
 
 
-def test_a_value_being_sent_is_not_lost(place: Place, tabs: dict[str, AppPage]) -> None:
+def wait_for_the_worst_moment(tab: AppPage, how: str) -> None:
+    """Put the clock forward until Streamlit has just been refused, or has just begun to wait.
+
+    It looks up to four seconds apart, and waits fifteen for who is silent.
+    """
+    looks: list[str] = []
+    event = "request" if how == "silent" else "requestfailed"
+    tab.page.on(event, lambda asked: looks.append(asked.url))  # type: ignore[call-overload]
+    while not any("host-config" in url for url in looks):
+        pass_time(tab, 0.25)
+
+
+def test_a_value_being_sent_is_not_lost(place: Place, tabs: Tabs) -> None:
     """Sent to a server that stops before it arrives, or moved while there is no server."""
-    sliding, typing = tabs["a slider"], tabs["a typed value"]
+    sliding, typing = tabs("sliding", "typing")
     wanted = [float(tab.query()["C"]) + step for tab, step in ((sliding, 1), (typing, 1))]
     place.line.fall_silent()
     sliding.slider(CLEARANCE).press("ArrowRight")
@@ -214,16 +283,15 @@ def test_a_value_being_sent_is_not_lost(place: Place, tabs: dict[str, AppPage]) 
         lost(tab)
     sliding.slider(CLEARANCE).press("ArrowRight")
     place.mend()
-    for tab in tabs.values():
+    for tab in (sliding, typing):
         back(tab)
     assert [float(tab.query()["C"]) for tab in (sliding, typing)] == wanted
-    assert field(typing) == f"{wanted[1]:g}"
+    field = typing.page.get_by_role("textbox", name=CLEARANCE)
+    assert field.input_value() == f"{wanted[1]:g}"
 
 
-def test_a_running_computation_restarts_and_the_page_says_so(
-    place: Place, tabs: dict[str, AppPage]
-) -> None:
-    tab = tabs["a kick"]
+def test_a_running_computation_restarts_and_the_page_says_so(place: Place, tabs: Tabs) -> None:
+    (tab,) = tabs("releasing")
     tab.open_tab("Run-up")
     with place.server.held():
         tab.page.get_by_role("button", name="Run up and down").click()
@@ -237,50 +305,3 @@ def test_a_running_computation_restarts_and_the_page_says_so(
     expect(tab.page.locator(".live-chart")).to_be_visible()
     slide(tab)
     expect(said).to_be_hidden()
-
-
-# --- Long breaks: the browser's clock is put forward ------------------------------------------
-
-
-@pytest.fixture
-def clocked(desk: BrowserContext, place: Place) -> Iterator[AppPage]:
-    """A tab whose clock stands still but when a test puts it forward."""
-    tab = AppPage(desk.new_page(), place.address)
-    tab.page.clock.install()
-    tab.open("Equilibrium", C="70")
-    # The clock still goes on by itself: it is stopped at a time that no machine reaches meanwhile.
-    now = tab.page.evaluate("Date.now()") / 1e3
-    tab.page.clock.pause_at(datetime.fromtimestamp(now + 300, UTC))
-    yield tab
-    tab.page.close()
-
-
-def pass_time(tab: AppPage, seconds: float, *, pause: float = 60, until: str = "") -> bool:
-    """Put the browser's clock forward, and let it answer what comes meanwhile; see if it holds."""
-    for _ in range(round(seconds * 4)):
-        tab.page.clock.run_for(250)
-        tab.page.wait_for_timeout(pause)
-        if until and tab.page.evaluate(until):
-            return True
-    return False
-
-
-# At the worst moment Streamlit has just been refused, or has just begun to wait.
-@pytest.mark.parametrize(("how", "worst"), [("cut", "requestfailed"), ("silent", "request")])
-def test_after_a_long_break_it_is_back_within_two_seconds(
-    how: str, worst: str, place: Place, clocked: AppPage
-) -> None:
-    """Streamlit alone looks up to four seconds apart, and waits fifteen for who is silent."""
-    {"cut": place.line.cut, "silent": place.line.fall_silent}[how]()
-    assert pass_time(clocked, 12, until=f"{_STATE} !== 'CONNECTED'")
-    pass_time(clocked, 20)
-    looks: list[str] = []
-    clocked.page.on(worst, lambda asked: looks.append(asked.url))  # type: ignore[call-overload]
-    while not any("host-config" in url for url in looks):
-        pass_time(clocked, 0.25)
-    place.line.mend()
-    # Two seconds of the browser's clock, however long a busy machine takes over them.
-    assert pass_time(clocked, 2, pause=1000, until=f"{_STATE} === 'CONNECTED'")
-    clocked.page.clock.resume()
-    back(clocked)
-    slide(clocked)
