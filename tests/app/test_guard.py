@@ -9,6 +9,7 @@ import streamlit as st
 from starlette.types import Message, Receive, Scope, Send
 from streamlit.proto.ForwardMsg_pb2 import ForwardMsg
 
+from tests.waiting import finished
 from ui.serving.guard import bounds, browsers, turns
 from ui.serving.guard.bounds import Bucket, network
 from ui.serving.guard.browsers import OwnBrowser
@@ -60,7 +61,7 @@ _GONE = {"type": "websocket.disconnect", "code": 1001}
 
 
 def _run(work: Callable[[], Coroutine[Any, Any, None]]) -> None:
-    asyncio.run(work())
+    finished(work())
 
 
 @pytest.fixture
@@ -180,7 +181,7 @@ def test_the_browser_of_an_open_page_is_known_however_many_come_after(
 
     monkeypatch.setattr(browsers, "_KEPT", 2)
     leaves, one = asyncio.Event(), OwnBrowser(app)
-    assert asyncio.run(go()) == [True, False, False, True, True, True]
+    assert finished(go()) == [True, False, False, True, True, True]
 
 
 def _page(secret: str) -> Scope:

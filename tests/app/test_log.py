@@ -1,11 +1,11 @@
 """What is written of what happens often."""
 
-import asyncio
 from types import SimpleNamespace
 
 import pytest
 from starlette.types import Message, Receive, Scope, Send
 
+from tests.waiting import finished
 from ui.serving import log
 from ui.serving.guard import refusal, strangers
 
@@ -88,5 +88,5 @@ def test_the_paths_of_a_login_are_there_where_one_is_set_up(
         "type": "http", "method": "GET", "path": "/oauth2callback",
         "headers": [(b"host", b"localhost:8501")], "client": ("127.0.0.1", 1),
     }  # fmt: skip
-    asyncio.run(strangers.OwnSite(app)(scope, None, send))  # type: ignore[arg-type]
+    finished(strangers.OwnSite(app)(scope, None, send))  # type: ignore[arg-type]
     assert sent[0]["status"] == status

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from tests.waiting import finished
 from ui.jobs import queue
 from ui.serving import health, own_visit, pulse
 from ui.serving.pulse import Pulse
@@ -32,7 +33,7 @@ class Host:
     def looks(self) -> dict[str, str]:
         """Let the server look at itself a minute later."""
         self.now += 60.0
-        return asyncio.run(self.pulse.look(patience=0.5))
+        return finished(self.pulse.look(patience=0.5))
 
     def beats(self) -> bool:
         """Return whether it says now that it lives."""
@@ -43,7 +44,7 @@ class Host:
             beating.cancel()
 
         self.said.clear()
-        asyncio.run(once())
+        finished(once())
         return self.said == ["WATCHDOG=1"]
 
 

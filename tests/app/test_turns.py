@@ -10,7 +10,7 @@ from streamlit.proto.ForwardMsg_pb2 import ForwardMsg
 
 from tests.app.session import visit
 from tests.app.test_guard import Socket
-from tests.waiting import PATIENCE
+from tests.waiting import PATIENCE, finished
 from ui.serving import one_at_a_time
 from ui.serving.guard import turns
 from ui.serving.guard.bounds import Bounds
@@ -39,7 +39,7 @@ def _said(name: str) -> dict[str, Any]:
 
 
 def _run(work: Callable[[], Coroutine[Any, Any, None]]) -> None:
-    asyncio.run(asyncio.wait_for(work(), PATIENCE))
+    finished(asyncio.wait_for(work(), PATIENCE))
 
 
 def test_one_page_has_its_turn_at_a_time(clock: list[float]) -> None:

@@ -9,6 +9,7 @@ from starlette.types import Message, Receive, Scope, Send
 from streamlit.runtime.memory_uploaded_file_manager import MemoryUploadedFileManager
 from streamlit.runtime.uploaded_file_manager import UploadedFileRec
 
+from tests.waiting import finished
 from ui.serving.guard import uploads
 from ui.serving.guard.uploads import Uploads
 from ui.serving.settings import Limits
@@ -81,18 +82,18 @@ async def _at_once(desk: Desk, count: int, page: Callable[[int], str]) -> list[i
 def test_of_many_files_at_once_only_those_are_taken_for_which_there_is_room(
     page: Callable[[int], str], room: int, desk: Desk
 ) -> None:
-    told = asyncio.run(_at_once(desk, 60, page))
+    told = finished(_at_once(desk, 60, page))
     assert told.count(204) == desk.asked == room
     assert told.count(413) == 60 - room
 
 
 def test_a_file_in_chunks_is_refused_whatever_length_it_names(desk: Desk) -> None:
     desk.open.set()
-    assert asyncio.run(desk.put(length=5, chunked=True)) == 400
-    assert asyncio.run(desk.put(length=None, chunked=True)) == 400
-    assert asyncio.run(desk.put(length=None)) == 411
+    assert finished(desk.put(length=5, chunked=True)) == 400
+    assert finished(desk.put(length=None, chunked=True)) == 400
+    assert finished(desk.put(length=None)) == 411
     assert desk.asked == 0
-    assert asyncio.run(desk.put(length=5)) == 204
+    assert finished(desk.put(length=5)) == 204
 
 
 @pytest.mark.parametrize(
@@ -101,9 +102,9 @@ def test_a_file_in_chunks_is_refused_whatever_length_it_names(desk: Desk) -> Non
 def test_many_small_files_and_long_names_fill_a_page_too(count: int, name: str, desk: Desk) -> None:
     desk.open.set()
     desk.filled(count // 2, name=name)
-    assert asyncio.run(desk.put(length=100)) == 204
+    assert finished(desk.put(length=100)) == 204
     desk.filled(count, name=name)
-    assert asyncio.run(desk.put(length=100)) == 413
+    assert finished(desk.put(length=100)) == 413
 
 
 def test_the_id_of_a_file_counts_while_it_arrives(desk: Desk) -> None:
@@ -115,7 +116,7 @@ def test_the_id_of_a_file_counts_while_it_arrives(desk: Desk) -> None:
         desk.open.set()
         return await asyncio.gather(*puts)
 
-    assert asyncio.run(go()).count(204) == 4 * MEGABYTE // 61_100
+    assert finished(go()).count(204) == 4 * MEGABYTE // 61_100
 
 
 def test_a_file_that_does_not_come_gives_up_its_room(
@@ -128,4 +129,4 @@ def test_a_file_that_does_not_come_gives_up_its_room(
         return [*told, await desk.put(length=MEGABYTE, page="last")]
 
     monkeypatch.setattr(uploads, "SLOWEST", 0.01)
-    assert asyncio.run(go()) == [408] * 31 + [204]
+    assert finished(go()) == [408] * 31 + [204]

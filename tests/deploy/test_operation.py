@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 
 import rotorcalc
-from tests.deploy.test_replicas import finished
 from tests.load.client import Visitor
 from tests.load.replicas import ROOT, Replica
+from tests.waiting import finished
 from ui.serving import health, settings, version
 
 ENTERED = "81.2345"  # stands for what a visitor entered

@@ -20,9 +20,10 @@ from websockets.exceptions import InvalidStatus
 from tests.browser.app_page import AppPage
 from tests.browser.conftest import CHROMIUM_ARGS, browser_type_launch_args, chromium
 from tests.deploy.conftest import HOST, OUTER, Site
-from tests.deploy.test_replicas import awaited, finished
+from tests.deploy.test_replicas import awaited
 from tests.load.client import Visitor
 from tests.load.replicas import ROOT
+from tests.waiting import finished
 from ui.serving import own_origin
 from ui.serving.guard import browsers
 

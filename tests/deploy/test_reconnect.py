@@ -15,8 +15,8 @@ from websockets.asyncio.client import connect
 from tests.browser.app_page import AppPage
 from tests.browser.conftest import browser_type_launch_args, chromium, desk
 from tests.deploy.line import Line
-from tests.deploy.test_replicas import finished
 from tests.load.replicas import Replica
+from tests.waiting import finished
 
 __all__ = ["browser_type_launch_args", "chromium", "desk"]
 

@@ -17,11 +17,10 @@ import pytest
 from deploy import release
 from deploy.watch import Watch
 from tests.deploy import project
-from tests.deploy.test_replicas import finished
 from tests.deploy.unit import Unit
 from tests.load.client import Visitor
 from tests.load.replicas import ROOT, free_port
-from tests.waiting import until
+from tests.waiting import finished, until
 
 BASE = "rotorcalc"
 MARK = "This is the next release."

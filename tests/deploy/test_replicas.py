@@ -4,26 +4,19 @@ import asyncio
 import re
 import signal
 from collections.abc import Callable, Coroutine
-from concurrent.futures import ThreadPoolExecutor
 from functools import wraps
-from typing import Any, ParamSpec, TypeVar
+from typing import Any, ParamSpec
 
 import pytest
 
 from tests.deploy.conftest import BASE, NAMES, Site
 from tests.load.client import ServerError, Visitor
 from tests.load.replicas import ROOT
+from tests.waiting import finished
 
 P = ParamSpec("P")
-T = TypeVar("T")
 COOKIE = "rotorcalc_replica"
 PATIENCE = 5.0  # seconds in which a visitor is sent on
-
-
-def finished(work: Coroutine[Any, Any, T]) -> T:
-    """Run a coroutine to its end, in a thread: a browser's test leaves a loop in this one."""
-    with ThreadPoolExecutor(1) as pool:
-        return pool.submit(asyncio.run, work).result()
 
 
 def awaited(test: Callable[P, Coroutine[Any, Any, None]]) -> Callable[P, None]:
