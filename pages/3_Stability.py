@@ -1,6 +1,6 @@
 import streamlit as st
 
-from rotorcalc import whirl_energy
+from rotorcalc import thresholds
 from rotorcalc.figures import cursor
 from rotorcalc.figures import design as what_if
 from rotorcalc.figures import stability as figures
@@ -27,7 +27,7 @@ def content(page: Page) -> None:
 
 def over_speed(draw, units):
     return lambda c: draw(
-        whirl_energy.thresholds(c.sweep), whirl_energy.thresholds(c.point), ask.crossing(c), units
+        thresholds.at_each_speed(c.sweep), thresholds.at_each_speed(c.point), ask.crossing(c), units
     )
 
 

@@ -9,7 +9,7 @@ import numpy as np
 from hypothesis import strategies as st
 from scipy.optimize import linear_sum_assignment
 
-from rotorcalc import JournalBearing, Machine, Oil, Rotor, whirl_onset
+from rotorcalc import PRESETS, JournalBearing, Machine, Oil, Rotor, whirl_onset
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.films import short
 
@@ -42,6 +42,15 @@ ROTORS = {
     "damped": replace(SHEET.rotor, disk_damping=2e4),
     "journal mass": replace(SHEET.rotor, journal_mass=15.0),
     "journal mass, damped": replace(SHEET.rotor, journal_mass=15.0, disk_damping=2e4),
+}
+# Machines of every kind, the presets among them.
+MACHINES = {
+    **{key: preset.machine for key, preset in PRESETS.items()},
+    "midspan damping": with_rotor(disk_damping=1e4),
+    "journal mass": with_rotor(journal_mass=20.0),
+    "both": with_rotor(disk_damping=5e3, journal_mass=10.0, shaft_stiffness=1e7),
+    "rigid and damped": with_rotor(disk_damping=1e4, shaft_stiffness=math.inf),
+    "heavy": replace(SHEET, load=20000.0),
 }
 C = SHEET.bearing.radial_clearance
 

@@ -18,7 +18,7 @@ from rotorcalc import (
     film_curves,
     modes,
     onset_speed,
-    whirl_energy,
+    thresholds,
 )
 from rotorcalc.analysis import Axes, FilmCurves, ForceCoefficients, force_coefficients
 from rotorcalc.arrays import Array, ComplexArray
@@ -194,7 +194,7 @@ class Computed:
     @cached_property
     def critical_mass(self) -> float:
         """Mass per bearing with which the machine would be at its onset at the running speed."""
-        return whirl_energy.critical_mass(self.point)
+        return thresholds.critical_mass(self.point)
 
     def locus(self, flexible: bool) -> Locus:
         """Return the root locus over the sweep, and the modes at the running speed."""

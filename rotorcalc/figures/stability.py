@@ -14,8 +14,9 @@ from rotorcalc.figures import cursor, style
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
 from rotorcalc.figures.text import number
 from rotorcalc.onset import Onset
+from rotorcalc.thresholds import Thresholds
 from rotorcalc.units import Unit, Units
-from rotorcalc.whirl_energy import Thresholds, WhirlEnergy
+from rotorcalc.whirl_energy import WhirlEnergy
 
 Item = dict[str, Any]
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorcalc import PRESETS, analyse, onset_speed, whirl_energy
+from rotorcalc import PRESETS, analyse, onset_speed, thresholds
 from rotorcalc.figures import SI, US, Chart, cursor, modes, response, root_locus, stability, style
 from rotorcalc.figures import equilibrium as place
 from rotorcalc.root_locus import root_locus as locus_of
@@ -26,9 +26,9 @@ def said(chart: Chart) -> dict:
 
 def over_speed(units) -> Iterator[Chart]:
     crossing = stability.Crossing(onset_speed(PRESET.machine), closed_form=True)
-    thresholds = whirl_energy.thresholds(SWEEP), whirl_energy.thresholds(POINT)
+    found = thresholds.at_each_speed(SWEEP), thresholds.at_each_speed(POINT)
     for draw in (stability.threshold, stability.whirl_frequency, stability.critical_mass):
-        yield draw(*thresholds, crossing, units)
+        yield draw(*found, crossing, units)
     for draw in (place.power_loss, place.side_flow, place.position_over_speed):
         yield draw(SWEEP, POINT, units)
     locus = locus_of(

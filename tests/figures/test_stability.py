@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from rotorcalc import PRESETS, design, variation, whirl_energy
+from rotorcalc import PRESETS, design, thresholds, variation
 from rotorcalc.figures import SI, US, Chart, Units
 from rotorcalc.figures import design as what_if
 from rotorcalc.figures import stability as figures
@@ -44,7 +44,7 @@ every_machine = pytest.mark.parametrize("values", VALUES.values(), ids=VALUES.ke
 
 def _over_speed(draw: Callable[..., Chart], c: Computed, units: Units) -> Chart:
     return draw(
-        whirl_energy.thresholds(c.sweep), whirl_energy.thresholds(c.point), ask.crossing(c), units
+        thresholds.at_each_speed(c.sweep), thresholds.at_each_speed(c.point), ask.crossing(c), units
     )
 
 

@@ -6,7 +6,7 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from rotorcalc import whirl_energy
+from rotorcalc import thresholds
 from rotorcalc.figures import (
     Chart,
     coefficients,
@@ -81,7 +81,7 @@ def _of_modes(draw: Callable[[modes.OverSpeed], Chart]) -> Callable[[Computed, U
 
 def _of_thresholds(draw: Callable[..., Chart]) -> Callable[[Computed, Units], Chart]:
     return lambda c, u: draw(
-        whirl_energy.thresholds(c.sweep), whirl_energy.thresholds(c.point), ask.crossing(c), u
+        thresholds.at_each_speed(c.sweep), thresholds.at_each_speed(c.point), ask.crossing(c), u
     )
 
 

@@ -2,7 +2,7 @@
 
 import streamlit as st
 
-from rotorcalc import whirl_energy
+from rotorcalc import thresholds
 from rotorcalc.figures import equilibrium, machine, response, stability, style
 from ui.choices import choose
 from ui.computed import Computed
@@ -74,8 +74,8 @@ def _threshold(page: Page) -> None:
     page.chart(
         lambda c: style.small(
             stability.threshold(
-                whirl_energy.thresholds(c.sweep),
-                whirl_energy.thresholds(c.point),
+                thresholds.at_each_speed(c.sweep),
+                thresholds.at_each_speed(c.point),
                 crossing(c),
                 units,
             )

@@ -6,7 +6,7 @@ from functools import lru_cache
 import numpy as np
 import streamlit as st
 
-from rotorcalc import JournalBearing, whirl_energy
+from rotorcalc import JournalBearing, thresholds, whirl_energy
 from rotorcalc.analysis import FilmCurves
 from rotorcalc.arrays import Array
 from rotorcalc.figures.stability import Crossing, Energies, FilmFigure
@@ -86,7 +86,7 @@ def lowest_threshold(computed: Computed) -> str:
     """Return in words at which eccentricity the bearing's threshold speed is lowest."""
     if film_of(computed.machine.bearing).frequency_dependent:
         return ""
-    eps = whirl_energy.lowest_threshold(computed.machine.bearing)
+    eps = thresholds.lowest_threshold(computed.machine.bearing)
     return "" if math.isnan(eps) else f", lowest at ε = {eps:.3f}"
 
 
@@ -122,14 +122,14 @@ def sags(computed: Computed) -> tuple[float, ...]:
 
 def flexible_curves(computed: Computed) -> Array:
     """Return p_sf for each of the sags over the film's curves."""
-    return whirl_energy.flexible_curves(computed.curves, sags(computed))
+    return thresholds.flexible_curves(computed.curves, sags(computed))
 
 
 def flexible_here(computed: Computed) -> float:
     """Return this machine's p_sf at the running speed."""
     here = film_figure(computed).here
     return (
-        math.nan if here is None else whirl_energy.flexible_curves(here, sags(computed)[-1:]).item()
+        math.nan if here is None else thresholds.flexible_curves(here, sags(computed)[-1:]).item()
     )
 
 
@@ -181,7 +181,7 @@ def _film_limit(curves: FilmCurves, bearing: JournalBearing) -> FilmCurves | Non
 
 @lru_cache(maxsize=16)
 def _end_of_whirl(bearing: JournalBearing) -> FilmCurves:
-    return whirl_energy.film_limit(bearing)
+    return thresholds.film_limit(bearing)
 
 
 def choose_abscissa() -> bool:
