@@ -5,6 +5,7 @@ own rates by factors 1/σ and K_rot/K_eq. Where both are small, sixteen digits d
 """
 
 import functools
+import math
 from collections.abc import Callable
 from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal, localcontext
 from typing import Any, ParamSpec, TypeVar
@@ -96,11 +97,12 @@ class ExactPolynomial:
         """Return a zero of the determinant in more digits, and ω of the roots ±jω there [rad/s].
 
         Secant steps from a speed that is the zero to a float's digits: ω from Routh's scheme can
-        change millions of times as fast as the speed.
+        change millions of times as fast as the speed. NaN where the film has no more digits.
         """
         before, here = Decimal(speed) * (1 + _ASIDE), Decimal(speed)
         if not self._is_short:
-            return speed, float(routh.axis_frequency(self._at(here)))
+            # A film known in floats only: more digits of its polynomial would be noise.
+            return speed, math.nan
         value = self._determinant(before)
         for _ in range(_SECANTS):
             there = self._determinant(here)

@@ -7,8 +7,8 @@ digits.
 
 import functools
 import math
-from collections.abc import Callable, Iterator
-from dataclasses import replace
+from collections.abc import Callable, Hashable, Iterator
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.polynomial.polynomial import polyval
@@ -25,8 +25,8 @@ from rotorcalc.onset.characteristic import ExactPolynomial, polynomial
 from rotorcalc.onset.growth import growth, growth_crossing
 from rotorcalc.onset.whirl import Method, Onset, whirl_onset
 
-# Speeds per decade of the scan before the search refines.
-_POINTS_PER_DECADE = 30
+# Speeds per decade of the scan before the search refines, and σ of the scan for the film's whirl.
+_POINTS_PER_DECADE, _SIGMAS = 30, 200
 # Speeds evaluated at once, in floats and in sixty digits; the scan ends with the block it needs.
 _BLOCK, _EXACT_BLOCK = 64, 4
 # Whirl ratio assumed where synchronous coefficients allow no whirl but inner coordinates may.
@@ -262,7 +262,7 @@ def search_range(machine: Machine, flexible: bool = True) -> tuple[float, float,
     """
     unit = float(modified_sommerfeld(machine, 1.0))
     # σ is proportional to speed: `unit` is σ at 1 rad/s.
-    lightest, centred = film_of(machine.bearing).sommerfeld_range
+    lightest, centred = _whirl_range(machine.bearing)
     is_loaded = math.isfinite(unit)
     lowest = lightest / unit if is_loaded else 1e-3 * _slowest_rate(machine, flexible)
     centred = centred / unit if is_loaded else lowest
@@ -270,6 +270,32 @@ def search_range(machine: Machine, flexible: bool = True) -> tuple[float, float,
     if film_of(machine.bearing).inner:  # modes of the film's own parts, beside the rotor's
         highest *= _INNER
     return lowest, highest, 1 + math.ceil(_POINTS_PER_DECADE * math.log10(highest / lowest))
+
+
+def _whirl_range(bearing: JournalBearing) -> tuple[float, float]:
+    """Return σ below which no rotor whirls, and σ above which the film no longer changes."""
+    film = film_of(bearing)
+    heavy, centred = film.sommerfeld_range
+    # Of a film that depends on the frequency the synchronous coefficients decide nothing.
+    curve = None if film.frequency_dependent else film.curve
+    return (heavy if curve is None else _whirls_above(_Curve(curve, bearing))), centred
+
+
+@dataclass(frozen=True)
+class _Curve:
+    """A film's k and c over σ; equal for all bearings with the same."""
+
+    name: Hashable
+    bearing: JournalBearing = field(compare=False)
+
+
+@functools.lru_cache(maxsize=256)
+def _whirls_above(curve: _Curve) -> float:
+    """Return σ below which a film's whirl ratio is 0: at no frequency does it feed a whirl."""
+    sigma = np.geomspace(*film_of(curve.bearing).sommerfeld_range, _SIGMAS)
+    whirls = whirl_onset(*film_coefficients(curve.bearing, sigma)).whirl_ratio > 0.0
+    first = int(np.argmax(whirls)) if whirls.any() else len(sigma) - 1
+    return float(sigma[max(first - 1, 0)])
 
 
 def _beyond_all_onsets(machine: Machine, centred: float, flexible: bool) -> float:
