@@ -7,7 +7,16 @@ rotation. `analyse(machine, speed)` computes the whole chain; the modules hold i
 from rotorcalc import coefficients, films, frames, modes, oils, stability, unbalance_response
 from rotorcalc.analysis import FilmCurves, Sweep, analyse, film_curves
 from rotorcalc.design import onset_map, sensitivities, solve_onset
-from rotorcalc.geometry import Plain
+from rotorcalc.geometry import (
+    AxialGrooves,
+    Elliptical,
+    Lobes,
+    MultiDam,
+    OffsetHalves,
+    PartialArc,
+    Plain,
+    PressureDam,
+)
 from rotorcalc.machine import JournalBearing, Machine, Oil, Rotor
 from rotorcalc.nonlinear import signals
 from rotorcalc.nonlinear.continuation import BifurcationError
@@ -31,19 +40,26 @@ __version__ = "0.2.0"
 
 __all__ = [
     "PRESETS",
+    "AxialGrooves",
     "Bifurcation",
     "BifurcationError",
+    "Elliptical",
     "EnergyBalance",
     "FilmCurves",
     "Hopf",
     "JournalBearing",
+    "Lobes",
     "Machine",
+    "MultiDam",
+    "OffsetHalves",
     "Oil",
     "Onset",
     "Onsets",
     "OrbitEllipse",
+    "PartialArc",
     "Plain",
     "Preset",
+    "PressureDam",
     "Rotor",
     "Start",
     "Sweep",

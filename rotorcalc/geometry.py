@@ -3,12 +3,27 @@
 A kind of bearing is a `Geometry`: a frozen record of the bore's shape apart from diameter, length
 and clearance. Its word, `kind`, is used in files and links. `models` names the film models that
 apply to it; the first is the default.
+
+Angles count from X, along the load, in the sense of rotation. The radial clearance C of a bearing
+is the machined one of a pad in every kind: the radius of its curvature less the journal's.
 """
 
+import math
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Annotated, ClassVar
 
-from rotorcalc.records import Kind
+from scipy.constants import degree
+
+from rotorcalc.records import Bound, Choice, Kind
+
+_TURN = 2.0 * math.pi
+_BOTH, _FINITE = ("finite", "short"), ("finite",)
+# Angles, shares of a length, and numbers of pads, grooves or recesses.
+_Angle = Annotated[float, Bound("rad", above=0.0, below=_TURN)]
+_Preload = Annotated[float, Bound("-", at_least=0.0, below=1.0)]
+_Share = Annotated[float, Bound("-", above=0.0, below=1.0)]
+_Number = Annotated[float, Bound("-", at_least=2.0, below=13.0, whole=True)]
+_Load = Annotated[str, Choice(("on pad", "between pads"))]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -17,10 +32,245 @@ class Geometry(Kind):
 
     models: ClassVar[tuple[str, ...]] = ()
 
+    @property
+    def assembled_share(self) -> float:
+        """Clearance left on the lines of the pads' closest approach, over C: 1 − preload."""
+        return 1.0 - float(getattr(self, "preload", 0.0))
+
+    def implied(self, name: str, clearance: float) -> float:  # noqa: ARG002 - of some kinds' fields
+        """Return the value that a field has when it is None, at a radial clearance C [m]."""
+        raise ValueError(f"{name}: has no value of its own where it is None")
+
 
 @dataclass(frozen=True, kw_only=True)
 class Plain(Geometry):
     """A circular bore of 360° without a groove."""
 
     kind: ClassVar[str] = "plain"
-    models: ClassVar[tuple[str, ...]] = ("short",)
+    models: ClassVar[tuple[str, ...]] = ("short", "finite")
+
+
+@dataclass(frozen=True, kw_only=True)
+class PartialArc(Geometry):
+    """A single circular pad on the loaded side; the rest of the bore is relieved.
+
+    Parameters
+    ----------
+    arc : float
+        Angle of the pad [rad].
+    centre : float
+        Angle of its middle from the load line [rad].
+    """
+
+    kind: ClassVar[str] = "partial-arc"
+    models: ClassVar[tuple[str, ...]] = _BOTH
+
+    arc: _Angle = 150 * degree
+    centre: Annotated[float, Bound("rad", at_least=-math.pi, below=_TURN)] = 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class AxialGrooves(Geometry):
+    """A circular bore with axial grooves, which supply it at ambient pressure.
+
+    Parameters
+    ----------
+    number : float
+        Number of grooves, evenly spaced; a whole number.
+    width : float
+        Angle of each [rad].
+    first : float or None
+        Angle of the middle of the first groove from the load line [rad]; None for π/number, which
+        puts the grooves evenly beside the load line.
+    """
+
+    kind: ClassVar[str] = "axial-grooves"
+    models: ClassVar[tuple[str, ...]] = _BOTH
+
+    number: Annotated[float, Bound("-", at_least=1.0, below=13.0, whole=True)] = 2.0
+    width: _Angle = 20 * degree
+    first: Annotated[float | None, Bound("rad", at_least=-_TURN, below=_TURN)] = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _fits(self.number, "grooves", "width", self.width)
+
+    def implied(self, name: str, clearance: float) -> float:
+        """Return where the first groove stands when it is not given."""
+        return math.pi / self.number if name == "first" else super().implied(name, clearance)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Elliptical(Geometry):
+    """Two pads whose centres of curvature are moved together along the load line.
+
+    Parameters
+    ----------
+    preload : float
+        Distance of each centre beyond the bore's, in C [-].
+    groove_width : float
+        Angle of the grooves between the pads, at ±90° [rad].
+    """
+
+    kind: ClassVar[str] = "elliptical"
+    models: ClassVar[tuple[str, ...]] = _BOTH
+
+    preload: _Preload = 0.5
+    groove_width: Annotated[float, Bound("rad", at_least=0.0, below=math.pi)] = 20 * degree
+
+
+@dataclass(frozen=True, kw_only=True)
+class OffsetHalves(Geometry):
+    """Two half bores moved sideways, each convergent over its whole length.
+
+    Parameters
+    ----------
+    offset : float
+        Distance of each half's centre from the bore's, in C [-]: the loaded half's against Y.
+    groove_width : float
+        Angle of the grooves between the halves, at ±90° [rad].
+    """
+
+    kind: ClassVar[str] = "offset-halves"
+    models: ClassVar[tuple[str, ...]] = _BOTH
+
+    offset: _Preload = 0.5
+    groove_width: Annotated[float, Bound("rad", at_least=0.0, below=math.pi)] = 20 * degree
+
+
+@dataclass(frozen=True, kw_only=True)
+class Lobes(Geometry):
+    """Equal pads whose centres of curvature are each moved towards their pad.
+
+    Parameters
+    ----------
+    number : float
+        Number of pads, evenly spaced; a whole number.
+    arc : float
+        Angle of each [rad].
+    preload : float
+        Distance of each centre beyond the bore's, in C [-].
+    offset : float
+        Where on its arc a pad comes closest to a centred journal, from its leading edge: 0.5 in its
+        middle, 1 at its trailing edge [-].
+    load : "on pad" or "between pads"
+        Where the load line meets the bore.
+    """
+
+    kind: ClassVar[str] = "lobes"
+    models: ClassVar[tuple[str, ...]] = _BOTH
+
+    number: _Number = 3.0
+    arc: _Angle = 100 * degree
+    preload: _Preload = 0.5
+    offset: Annotated[float, Bound("-", at_least=0.0, below=1.0 + 1e-12)] = 0.5
+    load: _Load = "on pad"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _fits(self.number, "pads", "arc", self.arc)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PressureDam(Geometry):
+    """Two pads with axial grooves, and a pocket in the unloaded pad that ends in a step.
+
+    Parameters
+    ----------
+    pocket_arc : float
+        Angle of the pocket, from the unloaded pad's leading edge to the step [rad].
+    depth : float or None
+        Depth of the pocket below the pad [m]; None for 2 C.
+    axial_ratio : float
+        Length of the pocket over that of the bearing, L_d/L [-].
+    groove_width : float
+        Angle of the grooves between the pads, at ±90° [rad].
+    preload : float
+        As of an elliptical bore [-].
+    track_ratio : float
+        Width of a circumferential relief track in the loaded pad over the bearing's length,
+        L_t/L [-]; 0 for none.
+    """
+
+    kind: ClassVar[str] = "pressure-dam"
+    models: ClassVar[tuple[str, ...]] = _FINITE
+    usual_depth: ClassVar[float] = 2.0  # in C
+
+    pocket_arc: _Angle = 130 * degree
+    depth: Annotated[float | None, Bound("m", above=0.0)] = None
+    axial_ratio: _Share = 0.75
+    groove_width: Annotated[float, Bound("rad", at_least=0.0, below=math.pi)] = 20 * degree
+    preload: _Preload = 0.0
+    track_ratio: Annotated[float, Bound("-", at_least=0.0, below=1.0)] = 0.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _within_pad(self.pocket_arc, math.pi - self.groove_width)
+
+    def implied(self, name: str, clearance: float) -> float:
+        """Return the depth of a pocket that is not given [m]."""
+        if name == "depth":
+            return self.usual_depth * clearance
+        return super().implied(name, clearance)
+
+
+@dataclass(frozen=True, kw_only=True)
+class MultiDam(Geometry):
+    """Equal circular pads, each with a pocket that ends in a step.
+
+    Parameters
+    ----------
+    number : float
+        Number of pads, evenly spaced; a whole number.
+    arc : float
+        Angle of each [rad].
+    pocket_arc : float
+        Angle of each pocket, from its pad's leading edge to the step [rad].
+    depth : float or None
+        Depth of the pockets below the pads [m]; None for 1.5 C.
+    axial_ratio : float
+        Length of a pocket over that of the bearing, L_d/L [-].
+    load : "on pad" or "between pads"
+        Where the load line meets the bore.
+    """
+
+    kind: ClassVar[str] = "multi-dam"
+    models: ClassVar[tuple[str, ...]] = _FINITE
+    usual_depth: ClassVar[float] = 1.5  # in C
+
+    number: _Number = 4.0
+    arc: _Angle = 75 * degree
+    pocket_arc: _Angle = 55 * degree
+    depth: Annotated[float | None, Bound("m", above=0.0)] = None
+    axial_ratio: _Share = 0.7
+    load: _Load = "between pads"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _fits(self.number, "pads", "arc", self.arc)
+        _within_pad(self.pocket_arc, self.arc)
+
+    def implied(self, name: str, clearance: float) -> float:
+        """Return the depth of a pocket that is not given [m]."""
+        if name == "depth":
+            return self.usual_depth * clearance
+        return super().implied(name, clearance)
+
+
+def _fits(number: float, parts: str, name: str, angle: float) -> None:
+    """Raise ValueError where pads overlap, or grooves leave no pad."""
+    most = _TURN / number
+    # Pads may meet in an edge, which is then a groove without width.
+    if angle > most * (1.0 + 1e-12) or (parts == "grooves" and math.isclose(angle, most)):
+        raise ValueError(
+            f"{name} = {angle:.6g} rad ({math.degrees(angle):.4g}°): for {number:g} {parts} it "
+            f"must be less than {most:.6g} rad ({math.degrees(most):.4g}°)"
+        )
+
+
+def _within_pad(pocket: float, arc: float) -> None:
+    if not pocket < arc:
+        raise ValueError(
+            f"pocket_arc = {pocket:.6g} rad ({math.degrees(pocket):.4g}°): must be less than the "
+            f"pad's arc, {arc:.6g} rad ({math.degrees(arc):.4g}°)"
+        )

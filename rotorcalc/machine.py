@@ -109,8 +109,8 @@ class JournalBearing(Record):
     geometry : Geometry
         The shape of the bore; by default a full circle.
     film : str or None
-        The film model of this bearing: "short" is the short bearing in closed form.
-        None for the geometry's default.
+        The film model of this bearing: "short" is the short bearing in closed form, "finite"
+        solves Reynolds' equation for this length. None for the geometry's default.
 
     Raises
     ------
@@ -148,6 +148,11 @@ class JournalBearing(Record):
     def radius(self) -> float:
         """Journal radius, R = D/2 [m]."""
         return self.diameter / 2
+
+    @property
+    def assembled_clearance(self) -> float:
+        """Radial clearance of the assembled bearing, C(1 − preload) [m]."""
+        return self.radial_clearance * self.geometry.assembled_share
 
     @property
     def model(self) -> str:

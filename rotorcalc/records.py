@@ -31,6 +31,8 @@ class Bound:
     above: float = -math.inf
     at_least: float = -math.inf
     infinite: bool = False
+    below: float = math.inf
+    whole: bool = False
 
     def check(self, name: str, value: object) -> float:
         """Return `value` as a float, or raise ValueError naming field, value and bound."""
@@ -56,7 +58,9 @@ class Bound:
             return "positive" if self.above == 0 else f"greater than {self.above:g} {self.unit}"
         if number < self.at_least:
             return f"at least {self.at_least:g} {self.unit}"
-        return ""
+        if number >= self.below and not self.infinite:
+            return f"less than {self.below:g} {self.unit}"
+        return "a whole number" if self.whole and number != round(number) else ""
 
 
 @dataclass(frozen=True)

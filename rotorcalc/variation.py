@@ -30,7 +30,8 @@ def value_of(machine: Machine, field: str) -> float:
     Returns
     -------
     float
-        Its value in SI; for a load that follows the rotor's weight, half that weight.
+        Its value in SI; for one that follows from others, as a load from the rotor's weight, what
+        follows.
 
     Raises
     ------
@@ -40,7 +41,11 @@ def value_of(machine: Machine, field: str) -> float:
     path = address(machine, field)
     if path == ("load",):
         return machine.static_load
-    return float(functools.reduce(getattr, path, cast("Any", machine)))
+    value = functools.reduce(getattr, path, cast("Any", machine))
+    if value is None:
+        bearing = machine.bearing
+        return bearing.geometry.implied(path[-1], bearing.radial_clearance)
+    return float(value)
 
 
 @checked

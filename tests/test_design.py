@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
-from rotorcalc import PRESETS, Machine, analyse, design, onset_speed, variation
+from rotorcalc import PRESETS, Machine, PressureDam, analyse, design, onset_speed, variation
 from rotorcalc.machine import JournalBearing, Oil, Rotor
 from rotorcalc.onset import closed_form
 from rotorcalc.onset.many import onset_speeds
@@ -267,6 +267,18 @@ def test_inputs_move_by_a_tenth_and_temperature_by_degrees() -> None:
     assert values["bearing.radial_clearance"] == pytest.approx((54e-6, 66e-6))
     assert values["load"] == pytest.approx((0.9 * SHEET.static_load, 1.1 * SHEET.static_load))
     assert values["temperature"] == (55.0, 65.0)
+
+
+def test_a_value_that_follows_from_others_is_varied_from_what_follows() -> None:
+    dam = replace(PRESETS["sheet-1e8"].machine, bearing=BEARINGS["pressure dam"])
+    depth = 2.0 * dam.bearing.radial_clearance
+    assert variation.value_of(dam, "depth") == depth
+    (step,) = design.sensitivities(dam, inputs=["depth"]).inputs
+    assert (step.low, step.high) == pytest.approx((0.9 * depth, 1.1 * depth))
+    deeper = replace(dam, bearing=replace(dam.bearing, geometry=PressureDam(depth=1.1 * depth)))
+    assert step.onset_high == pytest.approx(onset_speed(deeper).speed, rel=1e-9)
+    grooves = replace(dam, bearing=BEARINGS["axial grooves"])
+    assert variation.value_of(grooves, "first") == math.pi / 2
 
 
 def test_an_infinite_input_is_left_out() -> None:

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from scipy.constants import g
 
 from rotorcalc import JournalBearing, Machine, Oil, Rotor
-from rotorcalc.geometry import Plain
+from rotorcalc.geometry import MultiDam, Plain
 from rotorcalc.records import Bound, Record, from_tree, to_tree
 from tests.machines import EPS, SHEET, with_rotor
 
@@ -428,8 +428,8 @@ def test_a_geometry_is_named_by_its_kind():
 
 
 def test_a_film_model_that_the_geometry_lacks_is_named():
-    with pytest.raises(ValueError, match="film = 'finite': a bearing of kind 'plain' has"):
-        replace(SHEET.bearing, film="finite")
+    with pytest.raises(ValueError, match="film = 'short': a bearing of kind 'multi-dam' has"):
+        replace(SHEET.bearing, geometry=MultiDam(), film="short")
 
 
 def document(**changes):

@@ -13,6 +13,8 @@ from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
 from rotorcalc.films import short
 from rotorcalc.films.dynamics import FilmDynamics, reduced
+from rotorcalc.films.finite import FiniteFilm
+from rotorcalc.films.lobes import LobesFilm
 from rotorcalc.films.model import Film, FilmMotion, InnerMotion
 from rotorcalc.films.short import ShortFilm
 from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
@@ -38,7 +40,22 @@ __all__ = [
 ]
 
 # Keys: the kind of a bearing's geometry and the name of its film model.
-MODELS: dict[tuple[str, str], Callable[[JournalBearing], Film]] = {("plain", "short"): ShortFilm}
+MODELS: dict[tuple[str, str], Callable[[JournalBearing], Film]] = {
+    ("plain", "short"): ShortFilm,
+    ("plain", "finite"): FiniteFilm,
+    ("partial-arc", "finite"): FiniteFilm,
+    ("axial-grooves", "finite"): FiniteFilm,
+    ("elliptical", "finite"): FiniteFilm,
+    ("offset-halves", "finite"): FiniteFilm,
+    ("lobes", "finite"): FiniteFilm,
+    ("pressure-dam", "finite"): FiniteFilm,
+    ("multi-dam", "finite"): FiniteFilm,
+    ("partial-arc", "short"): LobesFilm,
+    ("axial-grooves", "short"): LobesFilm,
+    ("elliptical", "short"): LobesFilm,
+    ("offset-halves", "short"): LobesFilm,
+    ("lobes", "short"): LobesFilm,
+}
 
 
 @checked

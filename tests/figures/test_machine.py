@@ -64,7 +64,9 @@ def test_from_journal_to_wall_the_drawn_gap_is_the_films(name):
     gap = (1.0 - radius) / farthest if name != "sprung" else (1.0 - radius) / np.sqrt(2.0)
     for place in ([0.0, 0.0], [0.5, 0.1], [-0.3, 0.6], [0.4, -0.4]):
         nearest = np.hypot(*(ends - gap * np.array(place)).T).min() - radius
-        assert nearest == pytest.approx(gap * film_of(bore.bearing).gap(place), abs=2e-3 * gap)
+        # Between two points of the outline a corner of the bore is cut off.
+        cut = 6e-3 if name.endswith("offset halves") else 2e-3
+        assert nearest == pytest.approx(gap * film_of(bore.bearing).gap(place), abs=cut * gap)
 
 
 def test_the_pressure_carries_the_load():

@@ -22,7 +22,16 @@ from rotorcalc.films.short import radial_damping, radial_stiffness, static_force
 from rotorcalc.films.short.film import ShortFilm
 from rotorcalc.films.state import OperatingPoints
 from rotorcalc.frames import rotate, vector
-from rotorcalc.geometry import Geometry
+from rotorcalc.geometry import (
+    AxialGrooves,
+    Elliptical,
+    Geometry,
+    Lobes,
+    MultiDam,
+    OffsetHalves,
+    PartialArc,
+    PressureDam,
+)
 from rotorcalc.machine import JournalBearing
 from rotorcalc.records import Bound
 
@@ -411,8 +420,25 @@ BEARINGS = {
     "ringed, heavy": replace(_PLAIN, geometry=Ringed(ring_mass=1.5)),
 }
 
+# Every fixed bore on the film of finite length.
+FINITE = {
+    "finite": replace(_PLAIN, film="finite"),
+    "partial arc": replace(_PLAIN, geometry=PartialArc()),
+    "axial grooves": replace(_PLAIN, geometry=AxialGrooves()),
+    "elliptical": replace(_PLAIN, geometry=Elliptical()),
+    "offset halves": replace(_PLAIN, geometry=OffsetHalves()),
+    "lobes": replace(_PLAIN, geometry=Lobes()),
+    "pressure dam": replace(_PLAIN, geometry=PressureDam()),
+    "multi dam": replace(_PLAIN, geometry=MultiDam()),
+}
+# Bores of pads on the short film in closed form.
+SHORT_PADS = {
+    f"short {name}": replace(FINITE[name], film="short")
+    for name in ("partial arc", "axial grooves", "elliptical", "offset halves", "lobes")
+}
 # Those whose film has a force on a journal in any motion.
-MOVING = [name for name in BEARINGS if name != "lossy"]
+MOVING = [name for name in BEARINGS | SHORT_PADS if name != "lossy"]
+BEARINGS |= FINITE | SHORT_PADS
 
 
 def points(bearing, sigma, *, viscosity=0.0127, speed=600.0):

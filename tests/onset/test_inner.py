@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from rotorcalc import analyse, modes, onset_speed
-from rotorcalc.coefficients import dynamics
+from rotorcalc import analyse, modes, onset_speed, whirl_onset
+from rotorcalc.coefficients import dynamics, modified_sommerfeld
+from rotorcalc.films import film_coefficients
 from rotorcalc.onset.judge import is_unstable, unstable_ranges
 from rotorcalc.onset.many import onset_speeds
-from tests.films.models import BEARINGS, MOVING
+from rotorcalc.onset.search import search_range
+from tests.films.models import BEARINGS, FINITE, MOVING, SHORT_PADS
 from tests.machines import ROTORS, SHEET
 
 WHIRLING = [name for name in MOVING if name != "sprung"]
@@ -24,29 +26,28 @@ def machine_of(bearing, rotor, load=None):
 def pencil(machine, speed, *, flexible=True):
     """Return the finite eigenvalues of M q̈ + C q̇ + K q = 0, as a pencil of first order.
 
-    A rigid shaft is Lagrange's multiplier; a mass of zero is left in, and gives infinite ones.
+    On a rigid shaft the disk moves with the journal; a mass of zero is left in, and gives infinite
+    ones.
     """
     film, rotor = dynamics(machine, speed), machine.rotor
-    n = film.stiffness.shape[-1] + 2
-    K, C = np.zeros((n, n)), np.zeros((n, n))
-    K[2:, 2:], C[2:, 2:] = film.stiffness, film.damping
-    C[:2, :2] += rotor.disk_damping * np.eye(2)
     rigid = rotor.is_rigid or not flexible
-    M = np.diag([rotor.disk_mass] * 2 + [rotor.journal_mass] * 2 + list(film.inertia))
-    tie = np.zeros((2, n))
-    tie[:, :2], tie[:, 2:4] = np.eye(2), -np.eye(2)
+    first = 0 if rigid else 2  # where the film's coordinates begin
+    n = film.stiffness.shape[-1] + first
+    K, C = np.zeros((n, n)), np.zeros((n, n))
+    K[first:, first:], C[first:, first:] = film.stiffness, film.damping
+    C[:2, :2] += rotor.disk_damping * np.eye(2)
+    masses = [rotor.half_mass] * 2 if rigid else [rotor.disk_mass] * 2 + [rotor.journal_mass] * 2
+    M = np.diag([*masses, *film.inertia])
     if not rigid:
+        tie = np.hstack([np.eye(2), -np.eye(2), np.zeros((2, n - 4))])
         K += rotor.shaft_stiffness * tie.T @ tie
-    m = 2 if rigid else 0
-    A, B = np.zeros((2 * n + m, 2 * n + m)), np.zeros((2 * n + m, 2 * n + m))
-    A[:n, n : 2 * n], B[:n, :n] = np.eye(n), np.eye(n)
-    A[n : 2 * n, :n], A[n : 2 * n, n : 2 * n], B[n : 2 * n, n : 2 * n] = -K, -C, M
-    if rigid:
-        scale = np.abs(K).max()
-        A[n : 2 * n, 2 * n :] = scale * tie.T
-        A[2 * n :, :n] = scale * tie
+    # Of λ/Ω and over the stiffness: of numbers of eleven decades rounding leaves five digits.
+    unit = np.abs(K).max()
+    A, B = np.zeros((2 * n, 2 * n)), np.zeros((2 * n, 2 * n))
+    A[:n, n:], B[:n, :n] = np.eye(n), np.eye(n)
+    A[n:, :n], A[n:, n:], B[n:, n:] = -K / unit, -C * speed / unit, M * speed**2 / unit
     values = scipy.linalg.eigvals(A, B)
-    return values[np.isfinite(values) & (np.abs(values) < 1e7 * speed)]
+    return speed * values[np.isfinite(values) & (np.abs(values) < 1e7)]
 
 
 @pytest.mark.parametrize("rotor", ROTORS)
@@ -136,3 +137,14 @@ def test_an_onset_by_eigenvalues_says_how_far_it_was_searched(name):
     onset = onset_speed(machine_of(name, "massless journals"))
     assert math.isfinite(onset.searched_to) == (onset.method == "eigenvalues")
     assert onset.searched_to > onset.speed or math.isinf(onset.speed)
+
+
+@pytest.mark.parametrize("name", [*FINITE, *SHORT_PADS])
+def test_the_search_begins_where_the_film_first_feeds_a_whirl(name):
+    """At the heaviest loads of a table floats decide nothing, and nothing is to be decided."""
+    machine = machine_of(name, "massless journals")
+    lowest = search_range(machine)[0] * modified_sommerfeld(machine, 1.0)
+    heavier_to_lighter = whirl_onset(*film_coefficients(machine.bearing, [lowest, 1.2 * lowest]))
+    stiff, fed = heavier_to_lighter.whirl_ratio
+    assert stiff == 0.0 < fed
+    assert onset_speed(machine).method == "polynomial"

@@ -1,0 +1,11 @@
+"""Bearings of finite length and any fixed bore: Reynolds' equation, solved numerically.
+
+Model: laminar, isoviscous, incompressible oil; aligned, rigid surfaces; ambient pressure at both
+ends, in the grooves and in the broken film, which begins and ends where pressure and its slope
+vanish (Swift and Stieber). A bore's film depends on σ alone: it is tabulated over the load once for
+each geometry and L/D, and every result is read from the table.
+"""
+
+from rotorcalc.films.finite.film import FiniteFilm
+
+__all__ = ["FiniteFilm"]

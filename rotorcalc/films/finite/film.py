@@ -1,0 +1,182 @@
+"""The film of a fixed bore of finite length as a film model (interface in `films.model`)."""
+
+from collections.abc import Hashable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rotorcalc.arrays import Array, BoolArray
+from rotorcalc.films.dynamics import NO_INERTIA, FilmDynamics
+from rotorcalc.films.finite.pressure import Pressures
+from rotorcalc.films.finite.table import FilmTable, table
+from rotorcalc.films.model import FilmMotion, Limit, Source
+from rotorcalc.films.pads import gap, outline, pads_of, walls_of
+from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
+from rotorcalc.machine import JournalBearing
+
+_SOLVED = "Reynolds' equation over the pads"
+_NEWTON = "the film's force against the load, by Newton's method"
+_LINEAR = "Reynolds' equation linearised, p = 0 at the film's unperturbed fronts"
+_SOURCES: dict[str, Source] = {
+    "film": Source(
+        f"{_SOLVED}, broken at ambient pressure with p = ∂p/∂n = 0 (Swift, Stieber)",
+        r"\frac{\partial}{\partial\beta}\left(h^3\frac{\partial p}{\partial\beta}\right)"
+        r"+\left(\frac DL\right)^2\frac{\partial}{\partial\zeta}"
+        r"\left(h^3\frac{\partial p}{\partial\zeta}\right)"
+        r"=6\frac{\partial h}{\partial\beta},\quad p\ge0",
+    ),
+    "eccentricity": Source(_NEWTON, r"F_X(x,y)=-F_o,\quad F_Y(x,y)=0"),
+    "attitude": Source(_NEWTON, r"\tan\varphi=\frac yx"),
+    "thickness": Source(
+        "the pads' arcs of circles",
+        r"\frac hC=1+a_x\cos\beta+a_y\sin\beta-x\cos\beta-y\sin\beta",
+    ),
+    "pressure": Source(_SOLVED, remark="ambient at the pads' edges and both ends"),
+    "force": Source(_SOLVED),
+    "drag": Source(
+        "shear over the pads alone, not in grooves",
+        r"T=\frac{\mu\Omega R^3L}{C}\sum\int\left(\frac1h+\frac h2\,"
+        r"\frac{\partial\bar p}{\partial\beta}\right)d\beta",
+    ),
+    "flow": Source(
+        "the axial flow at both ends",
+        r"Q=\frac{\Omega RLC}{12}\left(\frac DL\right)^2\sum\int"
+        r"-h^3\left.\frac{\partial p}{\partial\zeta}\right|_{\zeta=1}d\beta",
+    ),
+    "stiffness": Source(_LINEAR),
+    "damping": Source(_LINEAR),
+    "k": Source(_LINEAR),
+    "c": Source(_LINEAR),
+    "XY": Source(_LINEAR),
+    "rt": Source(_LINEAR),
+}
+
+
+@dataclass(frozen=True)
+class FiniteFilm:
+    """The film of one bearing of finite length, from the table of its bore.
+
+    Attributes
+    ----------
+    bearing : JournalBearing
+        The bearing; its bore and L/D enter, and of a dam depth over clearance.
+    """
+
+    bearing: JournalBearing
+
+    inner: int = field(default=0, init=False)
+    frequency_dependent: bool = field(default=False, init=False)
+    can_whirl: bool = field(default=True, init=False)
+
+    @cached_property
+    def _table(self) -> FilmTable:
+        return table(pads_of(self.bearing), (self.bearing.diameter / self.bearing.length) ** 2)
+
+    @property
+    def curve(self) -> Hashable:
+        """The bore's pads and L/D."""
+        return "finite", pads_of(self.bearing), self.bearing.diameter / self.bearing.length
+
+    @property
+    def sommerfeld_range(self) -> tuple[float, float]:
+        """σ of the table's heaviest load, and of its lightest, which hardly moves the journal."""
+        return self._table.least_sommerfeld, self._table.lightest_sommerfeld
+
+    @property
+    def sources(self) -> Mapping[str, Source]:
+        """What was solved."""
+        return _SOURCES
+
+    @property
+    def limits(self) -> tuple[Limit, ...]:
+        """Depth of a pocket: the film in it is taken as laminar and without inertia."""
+        depth = max(pad.depth for pad in pads_of(self.bearing))
+        if depth == 0.0:
+            return ()
+        return (
+            Limit(
+                "Depth of the pocket over clearance, d/C", depth, 5.0, 10.0,
+                "in a deep pocket the flow is turbulent and its inertia counts",
+            ),
+        )  # fmt: skip
+
+    def state(self, points: OperatingPoints) -> FilmState:
+        """Return the film in static equilibrium.
+
+        Raises
+        ------
+        ValueError
+            Where the load is heavier than the table's heaviest.
+        """
+        found = self._table
+        row = found.row(points.sommerfeld)
+        K, C = found.coefficients(points.sommerfeld)
+        return FilmState(
+            sommerfeld=points.sommerfeld,
+            position=row.position,
+            attitude_angle=found.direction(row.position),
+            minimum_thickness=gap(found.mesh.pads, row.position),
+            stiffness=K,
+            damping=C,
+            side_flow=row.side_flow,
+            drag=row.drag,
+            peak_pressure=row.peak_pressure,
+            peak_angle=row.peak_angle,
+        )
+
+    def dynamics(self, points: OperatingPoints) -> FilmDynamics:
+        """Return stiffness and damping only."""
+        K, C = self._table.coefficients(points.sommerfeld)
+        return FilmDynamics(stiffness=K, damping=C, inertia=NO_INERTIA)
+
+    def field(self, points: OperatingPoints, *, angle: ArrayLike, zeta: ArrayLike) -> FilmField:
+        """Return thickness and pressure in static equilibrium; NaN where there is no pad.
+
+        Raises
+        ------
+        ValueError
+            Where ζ lies outside the bearing.
+        """
+        sigma, angle, zeta = np.broadcast_arrays(points.sommerfeld, angle, zeta)
+        if not np.all(np.abs(zeta) <= 0.5):
+            raise ValueError("zeta = z/L: must lie within the bearing, -0.5 to 0.5")
+        shape = sigma.shape
+        thickness, pressure = np.full(shape, np.nan), np.zeros(shape)
+        cavitated: BoolArray = np.zeros(shape, dtype=bool)
+        for each in np.unique(sigma):
+            here = sigma == each
+            solved = self._pressures(float(each))
+            thickness[here], pressure[here], cavitated[here] = solved.at(angle[here], zeta[here])
+        return FilmField(
+            angle=angle, zeta=zeta, thickness=thickness, pressure=pressure, cavitated=cavitated
+        )
+
+    def _pressures(self, sigma: float) -> Pressures:
+        """Return the pressures on the mesh at one operating point."""
+        found = self._table
+        position = found.row(np.array(sigma)).position
+        nearest = np.abs(np.log(found.load * 4.0 * min(sigma, 1e300))).argmin()
+        return Pressures.at_position(found.mesh, position, found.wet[nearest])
+
+    def added_mass(self, points: OperatingPoints) -> Array:  # noqa: ARG002 - the seam's
+        """Refuse: the added mass of a finite film is not computed."""
+        raise ValueError(
+            "film = 'finite': its added mass is not computed; that of the short bearing is"
+        )
+
+    def motion(self) -> FilmMotion:
+        """Refuse: the force on a journal in any motion is not computed."""
+        raise ValueError(
+            "film = 'finite': nonlinear motion is not computed on a film of finite length; "
+            "take film = 'short' where the bore has it"
+        )
+
+    def gap(self, position: ArrayLike) -> Array:
+        """Return the smallest distance from the journal to the bore."""
+        return gap(walls_of(self.bearing), position)
+
+    def outline(self, angle: ArrayLike) -> Array:
+        """Return where the journal's centre touches the bore."""
+        return outline(walls_of(self.bearing), angle)

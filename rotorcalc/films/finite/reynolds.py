@@ -1,0 +1,494 @@
+"""Reynolds' equation over the pads of a fixed bore, for many journal positions at once.
+
+In units of pressure μΩ(R/C)², force μΩR³L/C², lengths across the film C, time 1/Ω, ζ = 2z/L:
+
+    ∂_β(h³ p_β) + (D/L)² ∂_ζ(h³ p_ζ) = 6 h_β + 12 h_τ
+
+with p = 0 at the edges of the pads and at both ends, and p ≥ 0 with complementarity (Swift and
+Stieber): where the film breaks and where it forms again both p and its slope are zero.
+
+Around the bearing finite volumes, whose flux between two nodes is exact for a long bearing,
+q = (6 I₂ − Δp)/I₃ with I_k = ∫h⁻ᵏ dβ; along it Gauss-Lobatto polynomials (`axial`). The matrix of
+all pads at all positions is one banded symmetric positive definite one, solved by one call of
+LAPACK. Pressures that must not be negative are an active set, corrected until nothing changes.
+"""
+
+import functools
+import math
+from dataclasses import dataclass
+from typing import Any, cast
+
+import numpy as np
+from scipy.linalg import lapack
+
+from rotorcalc.arrays import Array, BoolArray, IntArray
+from rotorcalc.films.finite.axial import Axial, axial
+from rotorcalc.films.pads import Pad
+
+_TURN = 2.0 * math.pi
+# Share of the journal's eccentricity by which the mesh is refined at the thinnest film.
+_GRADING, _STEEPEST = 0.7, 0.9
+# Diagonal of a node without film, many orders above any other.
+_SUPPORT = 1e30
+
+
+@dataclass(frozen=True, eq=False)
+class Mesh:
+    """The pads of a bore, meshed: N pads, `links` cells around each, m pressures along it.
+
+    Attributes
+    ----------
+    pads : tuple of Pad, N
+        The pads.
+    slenderness : float
+        (D/L)² [-].
+    links : int
+        Number of cells around each pad; their inner nodes are the unknowns.
+    bases : tuple of Axial, N
+        The axial basis of each pad.
+    """
+
+    pads: tuple[Pad, ...]
+    slenderness: float
+    links: int
+    bases: tuple[Axial, ...]
+
+    @functools.cached_property
+    def weights(self) -> Array:
+        """Axial weights, (N, zones, 1, m)."""
+        return np.array([basis.weights for basis in self.bases])[:, :, None, :]
+
+    @functools.cached_property
+    def axial(self) -> Array:
+        """(D/L)² times the axial stiffness, (N, zones, m, m)."""
+        return self.slenderness * np.array([basis.stiffness for basis in self.bases])
+
+    @functools.cached_property
+    def outflow(self) -> Array:
+        """Axial slopes at the ends, (N, zones, 1, m)."""
+        return np.array([basis.outflow for basis in self.bases])[:, :, None, :]
+
+    @functools.cached_property
+    def a(self) -> Array:
+        """Centres of curvature, (N, 2)."""
+        return np.array([(pad.a_x, pad.a_y) for pad in self.pads])
+
+    @functools.cached_property
+    def arcs(self) -> tuple[Array, Array]:
+        """Middles and half arcs, (N,)."""
+        return (
+            np.array([0.5 * (pad.start + pad.end) for pad in self.pads]),
+            np.array([0.5 * pad.arc for pad in self.pads]),
+        )
+
+    @functools.cached_property
+    def pockets(self) -> tuple[Array, Array, Array] | None:
+        """Cells in each pad's pocket, (N,); its step, (N,); its depth by zone and cell."""
+        if all(pad.depth == 0.0 for pad in self.pads):
+            return None
+        cells = np.array([
+            round(self.links * (pad.step - pad.start) / pad.arc) if pad.depth > 0.0 else 0
+            for pad in self.pads
+        ])  # fmt: skip
+        has = np.array([pad.depth > 0.0 for pad in self.pads])
+        cells = np.where(has, np.clip(cells, 2, self.links - 2), 0)
+        depth = np.zeros((len(self.pads), 2, self.links))
+        for i, pad in enumerate(self.pads):
+            depth[i, 0, : cells[i]] = pad.depth
+        return cells, np.array([pad.step for pad in self.pads]), depth
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Unknown pressures of one position: pads, nodes around, nodes along."""
+        return len(self.pads), self.links - 1, self.weights.shape[-1]
+
+
+@functools.lru_cache(maxsize=128)
+def mesh(pads: tuple[Pad, ...], slenderness: float, links: int, degrees: int) -> Mesh:
+    """Return the mesh of a bore's pads.
+
+    Parameters
+    ----------
+    pads : tuple of Pad
+        The pads.
+    slenderness : float
+        (D/L)² [-].
+    links : int
+        Number of cells around each pad.
+    degrees : int
+        Number of pressures along half the bearing.
+
+    Returns
+    -------
+    Mesh
+        The mesh.
+    """
+    zones = 2 if any(pad.depth > 0.0 for pad in pads) else 1
+    return Mesh(pads, slenderness, links, tuple(axial(pad, degrees, zones) for pad in pads))
+
+
+@dataclass(frozen=True, eq=False)
+class Films:
+    """The films at P positions of the journal, and the operator of Reynolds' equation over them.
+
+    Arrays have the leading shape (P, N): positions, pads.
+
+    Attributes
+    ----------
+    mesh : Mesh
+        The pads.
+    relative : array, (P, N, 2)
+        The journal's centre from each pad's centre of curvature, in C.
+    beta : array, (P, N, links + 1)
+        Angles of the nodes and edges [rad].
+    cos, sin : array, (P, N, links + 1)
+        Of these.
+    h_left, h_middle, h_right : array, (P, N, zones, links)
+        Film at the ends and in the middle of each cell, in C.
+    I2, I3 : array, (P, N, zones, links)
+        Integrals of h⁻² and h⁻³ over each cell.
+    """
+
+    mesh: Mesh
+    relative: Array
+    beta: Array
+    cos: Array
+    sin: Array
+    h_left: Array
+    h_middle: Array
+    h_right: Array
+    I2: Array
+    I3: Array
+
+    @functools.cached_property
+    def width(self) -> Array:
+        """Width of each cell [rad]."""
+        return np.diff(self.beta)
+
+    @functools.cached_property
+    def means(self) -> tuple[Array, Array]:
+        """Means of cos β and sin β over each cell."""
+        return np.diff(self.sin) / self.width, -np.diff(self.cos) / self.width
+
+    @functools.cached_property
+    def middles(self) -> tuple[Array, Array]:
+        """Cos β and sin β in the middle of each cell."""
+        half = np.cos(0.5 * self.width)
+        return (0.5 * (self.cos[..., 1:] + self.cos[..., :-1]) / half,
+                0.5 * (self.sin[..., 1:] + self.sin[..., :-1]) / half)  # fmt: skip
+
+    @functools.cached_property
+    def conductance(self) -> Array:
+        """Σ w/I₃ over the zones, (P, N, links, m)."""
+        return self._by_zone(1.0 / self.I3)
+
+    @functools.cached_property
+    def entrained(self) -> Array:
+        """Flux without pressure, Σ w 6I₂/I₃, (P, N, links, m)."""
+        return self._by_zone(6.0 * self.I2 / self.I3)
+
+    @functools.cached_property
+    def cubes(self) -> Array:
+        """∫h³ over the volume of each node, by the film at the node, (P, N, zones, nodes)."""
+        width = self.width[:, :, None, :]
+        left, right = width * self.h_right**3, width * self.h_left**3
+        return 0.5 * (left[..., :-1] + right[..., 1:])
+
+    @functools.cached_property
+    def slopes(self) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+        """The derivatives of I₂ and I₃ by x and y, 2∫h⁻³n and 3∫h⁻⁴n."""
+        sixth = (self.width / 6.0)[:, :, None, :]
+        u, v, w = 1.0 / self.h_left, 1.0 / self.h_middle, 1.0 / self.h_right
+        u3, v3, w3 = u * u * u, v * v * v, w * w * w
+        second: list[Array] = []
+        third: list[Array] = []
+        for node, middle in zip((self.cos, self.sin), self.middles, strict=True):
+            left = node[:, :, None, :-1] * u3
+            centre = 4.0 * middle[:, :, None, :] * v3
+            right = node[:, :, None, 1:] * w3
+            second.append(2.0 * sixth * (left + centre + right))
+            third.append(3.0 * sixth * (left * u + centre * v + right * w))
+        return (second[0], second[1]), (third[0], third[1])
+
+    def _by_zone(self, values: Array) -> Array:
+        weights = self.mesh.weights
+        total = values[:, :, 0, :, None] * weights[:, 0]
+        for z in range(1, weights.shape[1]):
+            total += values[:, :, z, :, None] * weights[:, z]
+        return total
+
+    def axial_flow(self, p: Array) -> Array:
+        """Return the axial term Σ ∫h³ A p of pressures (P, N, nodes, m)."""
+        A = self.mesh.axial
+        total = self.cubes[:, :, 0, :, None] * (p @ A[:, 0])
+        for z in range(1, A.shape[1]):
+            total += self.cubes[:, :, z, :, None] * (p @ A[:, z])
+        return total
+
+
+def films(mesh: Mesh, position: Array) -> Films:
+    """Return the films at positions of the journal, on a mesh refined at the thinnest.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        The pads.
+    position : array, (P, 2)
+        The journal's centre, in C.
+
+    Returns
+    -------
+    Films
+        The films.
+    """
+    beta = _nodes(mesh, position)
+    cos, sin = np.cos(beta), np.sin(beta)
+    relative = position[:, None, :] - mesh.a
+    e_x, e_y = relative[..., 0, None], relative[..., 1, None]
+    node = (1.0 - e_x * cos - e_y * sin)[:, :, None, :]
+    width = np.diff(beta)
+    # cos of the middle from those of the ends: (cos a + cos b)/2 = cos((a+b)/2) cos((b−a)/2).
+    half = np.cos(0.5 * width)
+    middle = (1.0 - 0.5 * (2.0 - (node[:, :, 0, 1:] + node[:, :, 0, :-1])) / half)[:, :, None, :]
+    left, right = node[..., :-1], node[..., 1:]
+    if mesh.pockets is not None:
+        depth = mesh.pockets[2]
+        left, middle, right = left + depth, middle + depth, right + depth
+    sixth = (width / 6.0)[:, :, None, :]
+    u, v, w = 1.0 / left, 1.0 / middle, 1.0 / right
+    u2, v2, w2 = u * u, v * v, w * w
+    I2 = sixth * (u2 + 4.0 * v2 + w2)
+    I3 = sixth * (u2 * u + 4.0 * v2 * v + w2 * w)
+    return Films(mesh, relative, beta, cos, sin, left, middle, right, I2, I3)
+
+
+def _nodes(mesh: Mesh, position: Array) -> Array:
+    """Return the nodes' angles, (P, N, links + 1): even in Sommerfeld's angle ψ."""
+    q = position[:, None, :] - mesh.a
+    e = np.minimum(_GRADING * np.hypot(q[..., 0], q[..., 1]), _STEEPEST)
+    b = (e / (1.0 + np.sqrt(1.0 - e * e)))[..., None]
+    gamma = np.arctan2(q[..., 1], q[..., 0])
+    middle, half = mesh.arcs
+    start = np.mod(middle - gamma + math.pi, _TURN) - math.pi - half
+    # ψ of θ from the thinnest film: tan(ψ/2) = √((1+e)/(1−e)) tan(θ/2).
+    edges = start[..., None] + np.stack([np.zeros_like(half), 2.0 * half], axis=-1)
+    psi = edges + 2.0 * np.arctan2(b * np.sin(edges), 1.0 - b * np.cos(edges))
+    share = np.linspace(0.0, 1.0, mesh.links + 1)
+    along = psi[..., :1] + (psi[..., 1:] - psi[..., :1]) * share
+    if mesh.pockets is not None:
+        along = _with_steps(mesh, along, psi, start, b)
+    theta = along - 2.0 * np.arctan2(b * np.sin(along), 1.0 + b * np.cos(along))
+    return theta + gamma[..., None] + (middle - half - gamma - start)[..., None]
+
+
+def _with_steps(mesh: Mesh, along: Array, psi: Array, start: Array, b: Array) -> Array:
+    """Return ψ of the nodes with one on the step of each pocket."""
+    cells, step, _ = cast("tuple[Array, Array, Array]", mesh.pockets)
+    for i, pad in enumerate(mesh.pads):
+        if pad.depth > 0.0:
+            theta = start[:, i] + (step[i] - pad.start)
+            b_i = b[:, i, 0]
+            at = theta + 2.0 * np.arctan2(b_i * np.sin(theta), 1.0 - b_i * np.cos(theta))
+            before = np.linspace(0.0, 1.0, int(cells[i]) + 1)
+            after = np.linspace(0.0, 1.0, mesh.links - int(cells[i]) + 1)[1:]
+            first, last = psi[:, i, :1], psi[:, i, 1:]
+            along[:, i] = np.concatenate(
+                [
+                    first + (at[:, None] - first) * before,
+                    at[:, None] + (last - at[:, None]) * after,
+                ],
+                axis=-1,
+            )
+    return along
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """Pressures at P positions, the force, and what the sensitivities need.
+
+    Attributes
+    ----------
+    pressure : array, (P, N, nodes, m)
+        Pressure, zero in the broken film.
+    wet : boolean array, (P, N, nodes, m)
+        Where the film is full.
+    excess : array, (P, N, nodes, m)
+        Right side less the operator's left: positive at a dry node that must fill again.
+    adjoint : array, (2, P, N, nodes, m)
+        Pressures that the force's own weights would give.
+    force : array, (P, 2)
+        Force on the journal in X, Y.
+    """
+
+    pressure: Array
+    wet: BoolArray
+    excess: Array
+    adjoint: Array
+    force: Array
+
+    @property
+    def next_wet(self) -> BoolArray:
+        """The active set after one correction."""
+        return np.where(self.wet, self.pressure > 0.0, self.excess > 0.0)
+
+
+def solved(found: Films, wet: BoolArray, squeeze: Array | None = None) -> Solution:
+    """Return the pressures of an active set, and the adjoint ones.
+
+    Parameters
+    ----------
+    found : Films
+        The films.
+    wet : boolean array, (P, N, nodes, m)
+        Where pressure is unknown; it is zero elsewhere.
+    squeeze : array, (P, 2), optional
+        The journal's velocity in X, Y, in CΩ.
+
+    Returns
+    -------
+    Solution
+        Pressures of either sign.
+    """
+    G, Q = found.conductance, found.entrained
+    right = Q[:, :, :-1] - Q[:, :, 1:]
+    loads = force_weights(found)
+    if squeeze is not None:
+        # −12 ∫ h_τ with h_τ = −(x', y')·n; the weights of the force are −½ ∫ n.
+        right = right - 24.0 * (
+            squeeze[:, 0, None, None, None] * loads[0] + squeeze[:, 1, None, None, None] * loads[1]
+        )
+    values = np.stack([right, *loads])
+    p, *adjoint = banded(found, G, wet, values)
+    excess = right - _flow_out(found, G, p)
+    force = np.stack([(p * load).sum(axis=(1, 2, 3)) for load in loads], axis=-1)
+    return Solution(p, wet, excess, np.stack(adjoint), force)
+
+
+def force_weights(found: Films) -> tuple[Array, Array]:
+    """Return the weights of the pressures in the force in X and Y, −½∫ hat·(cos, sin)."""
+    cos, sin = found.means
+    w = -0.5 * found.mesh.weights.sum(axis=1)
+    # ∫ hat·cos = mean sin after the node less before it: exact for pressures linear in between.
+    return np.diff(sin)[..., None] * w, -np.diff(cos)[..., None] * w
+
+
+def _flow_out(found: Films, G: Array, p: Array) -> Array:
+    """Return the operator on pressures: what flows out of the volume of each node."""
+    flux = np.empty_like(G)
+    flux[:, :, 1:-1] = p[:, :, :-1] - p[:, :, 1:]
+    flux[:, :, 0], flux[:, :, -1] = -p[:, :, 0], p[:, :, -1]
+    flux *= G
+    return np.diff(flux, axis=2) + found.axial_flow(p)
+
+
+def banded(found: Films, G: Array, wet: BoolArray, values: Array) -> Array:
+    """Return solutions of the operator on the wet nodes for right sides (k, P, N, nodes, m).
+
+    The right sides are overwritten.
+    """
+    m = G.shape[-1]
+    lower = np.zeros((*wet.shape, m + 1))
+    lower[..., 0] = G[:, :, :-1] + G[:, :, 1:]
+    A, cubes = found.mesh.axial, found.cubes
+    for z in range(A.shape[1]):
+        for d in range(m):
+            diagonal = np.diagonal(A[:, z], d, -2, -1)[:, None, :]
+            lower[..., : m - d, d] += cubes[:, :, z, :, None] * diagonal
+    lower[:, :, :-1, :, m] = -G[:, :, 1:-1]
+    # A dry node is held at zero by a support so stiff that its neighbours do not matter.
+    lower[..., 0] = np.where(wet, lower[..., 0], _SUPPORT)
+    count = wet.size
+    solve = cast("Any", lapack.dpbsv)
+    _, x, info = solve(
+        lower.reshape(count, m + 1).T,
+        values.reshape(len(values), count).T,
+        lower=1,
+        overwrite_ab=1,
+        overwrite_b=1,
+    )
+    if info != 0:
+        raise ArithmeticError("the film's equations are singular")
+    return np.asarray(x).T.reshape(values.shape) * wet
+
+
+def stiffness(found: Films, at: Solution) -> Array:
+    """Return −∂F_i/∂x_j of a solution with its active set, (P, 2, 2).
+
+    Parameters
+    ----------
+    found : Films
+        The films.
+    at : Solution
+        Pressures and adjoint pressures on them.
+
+    Returns
+    -------
+    array, (P, 2, 2)
+        In μΩR³L/C³.
+    """
+    weights = found.mesh.weights
+    flux = _cell_flux(found, at.pressure)
+    across = np.stack([differences(adjoint) for adjoint in at.adjoint])
+    K = np.empty((at.force.shape[0], 2, 2))
+    dI2, dI3 = found.slopes
+    for i in (0, 1):
+        through = at.adjoint[i]
+        for j in (0, 1):
+            K[:, i, j] = _thinner(found, at.pressure, through, j)
+        for z in range(weights.shape[1]):
+            w = weights[:, z] * across[i]
+            a = w.sum(axis=-1) / found.I3[:, :, z]
+            b = (w * flux[z]).sum(axis=-1) / found.I3[:, :, z]
+            for j in (0, 1):
+                K[:, i, j] -= (6.0 * dI2[j][:, :, z] * a - dI3[j][:, :, z] * b).sum(axis=(1, 2))
+    return K
+
+
+def _thinner(found: Films, p: Array, adjoint: Array, j: int) -> Array:
+    """Return the part of stiffness from the axial flow: λᵀA p times the derivative of ∫h³."""
+    n = (found.cos, found.sin)[j][:, :, 1:-1]
+    width = found.width[:, :, None, :]
+    # ∂h = −n: ∂∫h³ = −3 n h² over the node's volume.
+    left, right = width * found.h_right**2, width * found.h_left**2
+    change = -1.5 * n[:, :, None, :] * (left[..., :-1] + right[..., 1:])
+    A = found.mesh.axial
+    total = np.zeros(p.shape[0])
+    for z in range(A.shape[1]):
+        total += (change[:, :, z] * (adjoint * (p @ A[:, z])).sum(axis=-1)).sum(axis=(1, 2))
+    return total
+
+
+def _cell_flux(found: Films, p: Array) -> Array:
+    """Return q = (6I₂ − Δp)/I₃ of each cell by zone, (zones, P, N, links, m)."""
+    dp = differences(p)
+    zones = found.I3.shape[2]
+    return np.stack([
+        (6.0 * found.I2[:, :, z, :, None] - dp) / found.I3[:, :, z, :, None] for z in range(zones)
+    ])  # fmt: skip
+
+
+def differences(p: Array) -> Array:
+    """Return differences over the cells, with zero at the pads' edges."""
+    out = np.empty((*p.shape[:2], p.shape[2] + 1, p.shape[3]))
+    out[:, :, 1:-1] = np.diff(p, axis=2)
+    out[:, :, 0], out[:, :, -1] = p[:, :, 0], -p[:, :, -1]
+    return out
+
+
+def front_flux(
+    found: Films, p: Array, cells: tuple[IntArray, IntArray, IntArray, IntArray]
+) -> tuple[Array, Array]:
+    """Return the derivatives by x and y of the flux of some cells (P, N, links, m), Σ w q."""
+    P, N, cell, q = cells
+    weights = found.mesh.weights[N, :, 0, q]
+    inverse = 1.0 / found.I3[P, N, :, cell]
+    dp = differences(p)[P, N, cell, q]
+    flux = (6.0 * found.I2[P, N, :, cell] - dp[:, None]) * inverse
+    dI2, dI3 = found.slopes
+    x, y = (
+        (weights * (6.0 * dI2[j][P, N, :, cell] - flux * dI3[j][P, N, :, cell]) * inverse).sum(
+            axis=1
+        )
+        for j in (0, 1)
+    )
+    return x, y
