@@ -6,6 +6,7 @@ rotation. `analyse(machine, speed)` computes the whole chain; the modules hold i
 
 from rotorcalc import coefficients, films, frames, modes, oils, stability, unbalance_response
 from rotorcalc.analysis import FilmCurves, Sweep, analyse, film_curves
+from rotorcalc.comparison import BearingResult, compare_bearings
 from rotorcalc.design import onset_map, sensitivities, solve_onset
 from rotorcalc.geometry import (
     AxialGrooves,
@@ -41,6 +42,7 @@ __version__ = "0.2.0"
 __all__ = [
     "PRESETS",
     "AxialGrooves",
+    "BearingResult",
     "Bifurcation",
     "BifurcationError",
     "Elliptical",
@@ -69,6 +71,7 @@ __all__ = [
     "analyse",
     "bifurcation",
     "coefficients",
+    "compare_bearings",
     "energy_balance",
     "film_curves",
     "films",

@@ -1,0 +1,235 @@
+"""Bearings of several kinds side by side, on one machine: same journal, clearance, oil and load."""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rotorcalc import modes
+from rotorcalc.analysis import Sweep, analyse
+from rotorcalc.arguments import checked
+from rotorcalc.arrays import Array
+from rotorcalc.coefficients import checked_speed, modified_sommerfeld
+from rotorcalc.display import Result
+from rotorcalc.films import film_of
+from rotorcalc.geometry import (
+    AxialGrooves,
+    Elliptical,
+    Geometry,
+    Lobes,
+    MultiDam,
+    OffsetHalves,
+    PartialArc,
+    Plain,
+    PressureDam,
+)
+from rotorcalc.machine import JournalBearing, Machine
+from rotorcalc.onset import onset_speed
+from rotorcalc.unbalance_peaks import response_peaks
+
+# Every fixed kind at its defaults.
+KINDS: tuple[Geometry, ...] = (
+    Plain(),
+    PartialArc(),
+    AxialGrooves(),
+    Elliptical(),
+    OffsetHalves(),
+    Lobes(),
+    PressureDam(),
+    MultiDam(),
+)
+# Speeds up to this share of the running speed, and as many, are searched for peaks.
+_TOP, _SPEEDS = 1.5, 240
+
+
+@dataclass(frozen=True)
+class BearingResult(Result):
+    """What one bearing does on a machine at its running speed.
+
+    Attributes
+    ----------
+    bearing : JournalBearing
+        The bearing.
+    refusal : str
+        Why its film has no answer at this speed and load; empty where it has one. Then numbers
+        are NaN.
+    onset : float
+        Onset speed of the machine, Ω_s [rad/s]; infinite where there is none.
+    margin : float
+        Onset speed over running speed, less 1 [-].
+    whirl_ratio : float
+        Whirl ratio of the film at the running speed [-]; 0 where it cannot whirl.
+    log_decrement : float
+        Smallest logarithmic decrement of an oscillating mode at the running speed [-]; negative
+        where one grows, infinite where none oscillates.
+    minimum_film_thickness : float
+        [m].
+    eccentricity_ratio : float
+        ε [-].
+    power_loss : float
+        Of one bearing [W].
+    side_flow : float
+        Of one bearing, both ends [m³/s].
+    temperature : float
+        Temperature of the film [°C].
+    peak_response : float
+        Largest peak of the disk's orbit, its semi-major axis, at speeds up to 1.5 times the running
+        speed [m]; NaN where there is no peak.
+    peak_speed : float
+        Speed of that peak [rad/s].
+    """
+
+    bearing: JournalBearing
+    refusal: str
+    onset: float
+    margin: float
+    whirl_ratio: float
+    log_decrement: float
+    minimum_film_thickness: float
+    eccentricity_ratio: float
+    power_loss: float
+    side_flow: float
+    temperature: float
+    peak_response: float
+    peak_speed: float
+
+
+@checked
+def compare_bearings(
+    machine: Machine,
+    geometries: Sequence[Geometry] | None = None,
+    *,
+    speed: float,
+    executor: Executor | None = None,
+    progress: Callable[[float], object] | None = None,
+) -> tuple[BearingResult, ...]:
+    """Return what bearings of several kinds do on one machine.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; the bearings have its journal, length, clearance and oil.
+    geometries : sequence of Geometry, optional
+        The bores; by default every fixed kind at its defaults.
+    speed : float
+        Running speed, Ω [rad/s], positive.
+    executor : concurrent.futures.Executor, optional
+        Computes the bearings at the same time; by default one after the other.
+    progress : callable, optional
+        Called with the share that is done, from above 0 to 1.
+
+    Returns
+    -------
+    tuple of BearingResult
+        In the order of the geometries, all on the film of finite length where the kind has it.
+
+    Raises
+    ------
+    ValueError
+        Where the speed is not positive and finite, or a geometry does not fit the bearing.
+    """
+    checked_speed(speed)
+    machines = [_with(machine, one) for one in (KINDS if geometries is None else geometries)]
+    speeds = [speed] * len(machines)
+    # Each is independent of the others, so any executor gives the same answer.
+    each: Iterator[BearingResult] = (executor.map if executor else map)(
+        bearing_result, machines, speeds
+    )
+    found: list[BearingResult] = []
+    for one in each:
+        found.append(one)
+        if progress is not None:
+            progress(len(found) / len(machines))
+    return tuple(found)
+
+
+def _with(machine: Machine, geometry: Geometry) -> Machine:
+    film = "finite" if "finite" in geometry.models else None
+    return replace(machine, bearing=replace(machine.bearing, geometry=geometry, film=film))
+
+
+@checked
+def bearing_result(machine: Machine, speed: float) -> BearingResult:
+    """Return what a machine's bearing does at its running speed.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : float
+        Running speed, Ω [rad/s], positive.
+
+    Returns
+    -------
+    BearingResult
+        With the reason where the film has no answer there.
+    """
+    checked_speed(speed)
+    try:
+        sweep = analyse(machine, speed)
+    except ValueError as error:
+        return _refused(machine, str(error))
+    onset = onset_speed(machine)
+    peak, at = _largest_peak(machine, speed)
+    return BearingResult(
+        bearing=machine.bearing,
+        refusal="",
+        onset=onset.speed,
+        margin=onset.speed / speed - 1.0,
+        whirl_ratio=float(sweep.whirl_ratio),
+        log_decrement=_log_decrement(sweep),
+        minimum_film_thickness=float(sweep.minimum_film_thickness),
+        eccentricity_ratio=float(sweep.eccentricity_ratio),
+        power_loss=float(sweep.power_loss),
+        side_flow=float(sweep.side_flow),
+        temperature=machine.temperature,
+        peak_response=peak,
+        peak_speed=at,
+    )
+
+
+def _refused(machine: Machine, refusal: str) -> BearingResult:
+    return BearingResult(
+        bearing=machine.bearing,
+        refusal=refusal,
+        onset=math.nan,
+        margin=math.nan,
+        whirl_ratio=math.nan,
+        log_decrement=math.nan,
+        minimum_film_thickness=math.nan,
+        eccentricity_ratio=math.nan,
+        power_loss=math.nan,
+        side_flow=math.nan,
+        temperature=machine.temperature,
+        peak_response=math.nan,
+        peak_speed=math.nan,
+    )
+
+
+def _log_decrement(sweep: Sweep) -> float:
+    """Return the smallest decrement of an oscillating mode, infinite where there is none."""
+    values = sweep.flexible_eigenvalues
+    swings = values[values.imag > 0.0]
+    return float(modes.logarithmic_decrement(swings).min()) if swings.size else math.inf
+
+
+def _largest_peak(machine: Machine, speed: float) -> tuple[float, float]:
+    """Return size and speed of the largest peak of the disk's orbit, NaN where there is none."""
+    top = _TOP * speed
+    speeds = np.linspace(top / _SPEEDS, top, _SPEEDS)
+    carried = speeds[speeds >= _slowest(machine)]
+    found = response_peaks(machine, carried) if len(carried) > 2 else None
+    if found is None or not found.amplitude.size:
+        return math.nan, math.nan
+    largest = int(np.argmax(found.amplitude))
+    return float(found.amplitude[largest]), float(found.speed[largest])
+
+
+def _slowest(machine: Machine) -> float:
+    """Return the lowest speed at which the film carries the load [rad/s]."""
+    unit: Array = modified_sommerfeld(machine, 1.0)
+    if film_of(machine.bearing).curve == "short":  # the short plain film carries any load
+        return 0.0
+    return float(film_of(machine.bearing).sommerfeld_range[0] / unit)
