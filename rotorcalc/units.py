@@ -27,11 +27,15 @@ class Unit:
         How many of this unit make one SI unit.
     offset : float
         Reading of this unit at the SI quantity's zero.
+    in_si : float or None
+        One of this unit in SI, where its readings are multiplied by that: 150 * degree is a float
+        that 150 / (1 / degree) can miss by its last bit. None to divide by `per_si`.
     """
 
     name: str
     per_si: float = 1.0
     offset: float = 0.0
+    in_si: float | None = None
 
     def of(self, value: ArrayLike) -> Array:
         """Return an SI value in this unit, shape (...)."""
@@ -39,7 +43,8 @@ class Unit:
 
     def to_si(self, reading: float) -> float:
         """Return the SI value of a reading in this unit."""
-        return (reading - self.offset) / self.per_si
+        above = reading - self.offset
+        return above / self.per_si if self.in_si is None else above * self.in_si
 
 
 @dataclass(frozen=True)
@@ -66,7 +71,7 @@ class Units:
     torque: Unit
     speed: Unit = Unit("rpm", 1 / rpm)
     frequency: Unit = Unit("Hz", 1 / (2 * constants.pi))
-    angle: Unit = Unit("°", 1 / constants.degree)
+    angle: Unit = Unit("°", 1 / constants.degree, in_si=constants.degree)
     growth: Unit = Unit("1/s")
     percent: Unit = Unit("%", 100.0)
     number: Unit = Unit("-")

@@ -56,11 +56,14 @@ class Field:
         return self.label + ("" if unit == "-" else f" [{unit}]")
 
     def kept(self, value: object) -> Value:
-        """Return a record's value as it is kept."""
-        if value is None or isinstance(value, str):
-            return value
-        # Without the rounding that the change of unit adds in the last two digits.
-        return float(f"{float(self.unit(SI).of(value)):.14g}")  # type: ignore[arg-type]
+        """Return a record's value as it is kept: the shortest that gives it back."""
+        if not isinstance(value, float | int):
+            return value  # type: ignore[return-value]
+        unit = self.unit(SI)
+        reading = float(unit.of(value))
+        # The change of unit rounds in the last two digits.
+        shorter = (float(f"{reading:.{digits}g}") for digits in (14, 15, 16))
+        return next((short for short in shorter if unit.to_si(short) == value), reading)
 
     def taken(self, word: object) -> Value:
         """Return the kept value of a link's or a file's text, or raise ValueError."""

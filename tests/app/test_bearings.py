@@ -8,10 +8,12 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
+from scipy.constants import degree
 
-from rotorcalc import Machine
+from rotorcalc import Machine, PartialArc
 from rotorcalc.figures.cases import COLOURS
 from rotorcalc.films import film_of
+from rotorcalc.geometry import Geometry
 from rotorcalc.units import SI, US
 from tests.app.session import (
     HOME,
@@ -25,7 +27,7 @@ from tests.app.session import (
     tours,
     visit,
 )
-from tests.films.models import BEARINGS, MOVING, Ringed
+from tests.films.models import BEARINGS, FINITE, MOVING, SHORT_PADS, Ringed
 from tests.machines import SHEET
 from ui.bearing import _TAKEN, bearing_values, fields_of, shape_of
 from ui.cases import Case, Shown
@@ -35,6 +37,7 @@ from ui.sharing import address, export, popover, report
 from ui.sharing.labels import Labels
 
 RPM = math.pi / 30
+FIXED = [*FINITE, *SHORT_PADS]
 OTHERS = [name for name in BEARINGS if name != "short"]
 # Bearings that differ in kind visit every page, the others home and one page more, in turn.
 _EVERYWHERE = ("sprung", "lossy", "ringed", "pressure dam", "short lobes")
@@ -52,6 +55,10 @@ SHEETS = Shown(Case("Sheet", values_of(SHEET, SPEED, TOP), COLOURS[0]), Computed
 
 def machine(name: str) -> Machine:
     return replace(SHEET, bearing=BEARINGS[name])
+
+
+def on(geometry: Geometry) -> Machine:
+    return replace(SHEET, bearing=replace(SHEET.bearing, geometry=geometry))
 
 
 def query(name: str) -> dict[str, str]:
@@ -90,6 +97,27 @@ def test_a_link_writes_a_bore_in_the_units_of_engineers() -> None:
     link = address.read(written)
     assert link.problems == []
     assert machine_of(link.values) == whole
+
+
+def test_a_link_gives_back_an_angle_to_the_last_bit() -> None:
+    for degrees in (0.1, 13.0, 33.3, 52.0, 68.0, 127.0, 145.0, 150.0, 154.0):
+        arc = PartialArc(arc=degrees * degree, centre=-degrees / 2 * degree)
+        link = address.read({"bearing": "partial-arc", "arc": f"{degrees:g}"})
+        assert machine_of(link.values).bearing.geometry == PartialArc(arc=degrees * degree)
+        written = address.write("sheet-1e8", values_of(on(arc), SPEED, TOP), "SI")
+        assert written.get("arc", "150") == f"{degrees:g}"
+        assert machine_of(address.read(written).values).bearing.geometry == arc
+    # One that is no round number of degrees keeps its digits.
+    odd = PartialArc(arc=1.2345678901234567)
+    written = address.write("sheet-1e8", values_of(on(odd), SPEED, TOP), "SI")
+    assert machine_of(address.read(written).values).bearing.geometry == odd
+
+
+@pytest.mark.parametrize("name", FIXED)
+def test_a_link_leaves_out_what_is_at_its_default(name: str) -> None:
+    written = address.write("sheet-1e8", values_of(machine(name), SPEED, TOP), "SI")
+    usual = address.write("sheet-1e8", values_of(SHEET, SPEED, TOP), "SI")
+    assert set(written) - set(usual) <= {"bearing", "film"}
 
 
 def test_no_field_of_a_bore_takes_the_key_of_an_input() -> None:
