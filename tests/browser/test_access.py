@@ -2,6 +2,7 @@
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import expect
 
 from tests.browser.app_page import PATHS, AppPage
 
@@ -28,7 +29,10 @@ def test_tabs_have_no_serious_fault_and_fit_a_phone(app: AppPage, name: str) -> 
     assert others
     for label in others:
         app.open_tab(label)
-        assert _violations(app) == [], label
+        assert app.page.get_by_role("tabpanel").filter(visible=True).inner_text().strip(), label
+        expect(app.page.get_by_test_id("stException")).to_have_count(0)
+        # The page around the open tab has a test of its own.
+        assert _violations(app, "[role=tabpanel]") == [], label
         assert app.overflow() <= 0, label
 
 
@@ -51,9 +55,9 @@ def test_popover_has_no_serious_fault(app: AppPage, button: str) -> None:
     assert _violations(app) == []
 
 
-def _violations(app: AppPage) -> list[str]:
-    """Return what axe finds serious or critical."""
-    found = AXE.run(app.page, options={"resultTypes": ["violations"]}).response["violations"]
+def _violations(app: AppPage, part: str = "html") -> list[str]:
+    """Return what axe finds serious or critical in a part of the page."""
+    found = AXE.run(app.page, part, {"resultTypes": ["violations"]}).response["violations"]
     return [
         f"{one['id']}: {one['help']}: {[node['html'][:200] for node in one['nodes'][:3]]}"
         for one in found

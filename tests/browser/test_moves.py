@@ -16,14 +16,15 @@ FOCUS = """() => {
 LIVE = [name for name in PATHS if name != "Notes"]
 
 
-@pytest.mark.parametrize(
-    ("server", "name"),
-    # Streamlit's own charts and sliders too: on all pages in tests/app, without a browser.
-    [*(("drag", name) for name in LIVE), ("off", "Machine")],
-    indirect=["server"],
-)
-def test_slider_moves_a_number_a_chart_and_the_address_bar(app: AppPage, name: str) -> None:
-    app.open(name)
+# Streamlit's own charts and sliders: on all other pages in tests/app, without a browser.
+@pytest.mark.parametrize("server", ["off"], indirect=True)
+def test_streamlits_own_slider_moves_a_number_a_chart_and_the_address_bar(app: AppPage) -> None:
+    app.open("Machine")
+    _move(app)
+
+
+def _move(app: AppPage) -> None:
+    """Move a slider, and see that everything follows."""
     numbers, drawn = app.metrics(), app.drawn()
     app.press("Radial clearance", "PageUp")
     assert app.query().keys() == {"C"}
@@ -33,11 +34,13 @@ def test_slider_moves_a_number_a_chart_and_the_address_bar(app: AppPage, name: s
 
 
 @pytest.mark.parametrize("name", LIVE)
-def test_a_kept_case_is_drawn_and_compared(app: AppPage, name: str) -> None:
+def test_slider_moves_all_of_a_page_and_a_kept_case_is_drawn_and_compared(
+    app: AppPage, name: str
+) -> None:
     app.open(name)
     with app.run():
         app.page.get_by_role("button", name="Keep as A").click()
-    app.press("Radial clearance", "PageUp")
+    _move(app)
     assert app.changes(lambda: _ghosts(app), [])
     expect(app.page.get_by_text("vs A").first).to_be_visible()
     expect(app.page.locator("table.cases")).to_contain_text("Radial clearance")
