@@ -45,7 +45,7 @@ _REDRAWN = """(charts) => new Promise(resolve => {
 })"""
 
 # Drags a live slider up and down by itself for some milliseconds, a step a frame, and lets go.
-_DRAG = """([label, duration]) => new Promise(resolve => {
+DRAG = """([label, duration]) => new Promise(resolve => {
   const range = document.querySelector(`input[type=range][aria-label^="${label}"]`);
   const charts = [...document.querySelectorAll('.live-chart')];
   const before = charts.map(chart => Number(chart.dataset.drawn));
@@ -105,7 +105,7 @@ def main() -> None:
     minutes = parser.parse_args().minutes
     with (
         tempfile.TemporaryDirectory() as folder,
-        served(_beside_static(folder)) as (bare, _),
+        served(beside_static(folder)) as (bare, _),
         served(ROOT / "app.py") as (app, server),
         served(ROOT / "app.py", live="off") as (plain, _),
         sync_playwright() as playwright,
@@ -124,7 +124,7 @@ def releases(browser: Browser, bare: str) -> None:
     """Release of a slider until every chart is redrawn, on a bare page."""
     for charts, goal in ((1, 0.8), (4, 0.5)):
         pages = {
-            way: _opened(browser, f"{bare}/?charts={charts}&chart={way}", charts)
+            way: opened(browser, f"{bare}/?charts={charts}&chart={way}", charts)
             for way in ("streamlit", "live")
         }
         taken: dict[str, list[float]] = {way: [] for way in pages}
@@ -134,7 +134,7 @@ def releases(browser: Browser, bare: str) -> None:
                 if i >= 3:
                     taken[way].append(took)
         theirs, ours = (statistics.median(taken[way]) for way in ("streamlit", "live"))
-        _say(
+        say(
             f"release, {charts} chart(s): st.plotly_chart {theirs:.0f} ms, live {ours:.0f} ms, "
             f"ratio {ours / theirs:.2f} (goal {goal})"
         )
@@ -154,12 +154,12 @@ def drags(browser: Browser, bare: str, app: str) -> None:
         ("the app's root locus, clearance", f"{app}/Root_locus", 1, "Radial clearance"),
     ]
     for name, url, charts, label in cases:
-        page = _opened(browser, url, charts)
+        page = opened(browser, url, charts)
         zoomed = _zoomed(page)
-        found = page.evaluate(_DRAG, [label, 6000])
+        found = page.evaluate(DRAG, [label, 6000])
         kept = page.evaluate(_RANGE) == zoomed
         rate = min(found["updates"]) / found["seconds"]
-        _say(
+        say(
             f"drag, {name}, {charts} chart(s): {rate:.1f} updates/s of every chart, "
             f"zoom kept: {kept}, same node: {found['same']}, "
             f"blank frames: {found['blanks']}, last value drawn after {found['settled']:.0f} ms"
@@ -173,7 +173,7 @@ def sizes(browser: Browser, plain: str, app: str) -> None:
         path = PATHS[name]
         before, after = (_size(browser, f"{address}/{path}") for address in (plain, app))
         dragged = _size_of_preview(browser, f"{app}/{path}")
-        _say(
+        say(
             f"bytes an update, {name}: {before / 1e3:.0f} kB before, {after / 1e3:.0f} kB live, "
             f"{dragged / 1e3:.0f} kB while dragging"
         )
@@ -202,23 +202,23 @@ def _size_of_preview(browser: Browser, url: str) -> float:
         ),
     )
     _open(page, url, 1)
-    page.evaluate(_DRAG, ["Radial clearance", 1500])
+    page.evaluate(DRAG, ["Radial clearance", 1500])
     page.context.close()
     return statistics.median(sizes)
 
 
 def endurance(browser: Browser, app: str, server: int, minutes: float) -> None:
     """Memory of browser and server over a long drag."""
-    page = _opened(browser, f"{app}/Equilibrium", 2)
-    page.evaluate(_DRAG, ["Radial clearance", 15000])  # caches fill
+    page = opened(browser, f"{app}/Equilibrium", 2)
+    page.evaluate(DRAG, ["Radial clearance", 15000])  # caches fill
     for when in ("before", "after"):
         page.evaluate("() => gc()")
         heap = page.evaluate("() => performance.memory.usedJSHeapSize") / 1e6
         pages = Path(f"/proc/{server}/statm").read_text().split()[1]
         held = int(pages) * 4096 / 1e6
-        _say(f"{when} {minutes:g} minutes: browser {heap:.0f} MB, server {held:.0f} MB")
+        say(f"{when} {minutes:g} minutes: browser {heap:.0f} MB, server {held:.0f} MB")
         if when == "before":
-            page.evaluate(_DRAG, ["Radial clearance", minutes * 60e3])
+            page.evaluate(DRAG, ["Radial clearance", minutes * 60e3])
     page.context.close()
 
 
@@ -252,7 +252,7 @@ def _release(page: Page, charts: int, share: float) -> float:
     return took
 
 
-def _opened(browser: Browser, url: str, charts: int) -> Page:
+def opened(browser: Browser, url: str, charts: int) -> Page:
     page = browser.new_page(viewport={"width": 1440, "height": 900})
     _open(page, url, charts)
     return page
@@ -284,7 +284,7 @@ def served(script: Path, live: str = "drag") -> Iterator[tuple[str, int]]:
         server.wait()
 
 
-def _beside_static(folder: str) -> Path:
+def beside_static(folder: str) -> Path:
     """Put the bare page where Streamlit finds the app's static files beside it."""
     (Path(folder) / "static").symlink_to(ROOT / "static")
     return Path(shutil.copy(ROOT / "tests/benchmarks/bare.py", folder))
@@ -300,7 +300,7 @@ def _wait(ready: Callable[[], bool]) -> None:
     raise TimeoutError("the server did not start")
 
 
-def _say(line: str) -> None:
+def say(line: str) -> None:
     print(line, flush=True)  # noqa: T201 - what this script is for
 
 
