@@ -53,6 +53,8 @@ class Preview:
     charts: dict[str, Draw] = field(default_factory=dict)
     rows: dict[str, list[Cells]] = field(default_factory=dict)
     texts: dict[str, Words] = field(default_factory=dict)
+    # Texts that depend on the inputs alone.
+    of_inputs: dict[str, Callable[[Values], Text]] = field(default_factory=dict)
 
     def say(self, key: str, words: Words, *, while_dragging: Words | None = None) -> None:
         """Show a text that depends on the machine; nothing where it has no words for it.
@@ -82,7 +84,8 @@ class Preview:
         such input, or the value makes no machine.
         """
         # The other inputs are those of the page as last drawn, which its charts show beside it.
-        computed = computed_from(self.values | {name: input_named(name).taken(value, self.units)})
+        values = self.values | {name: input_named(name).taken(value, self.units)}
+        computed = computed_from(values)
         _ = computed.point  # a film may have no answer at the running speed
         return {
             "charts": {
@@ -92,7 +95,8 @@ class Preview:
             "texts": {
                 key: _given(lambda words=words: vars(words(computed) or Text("")))
                 for key, words in self.texts.items()
-            },
+            }
+            | {key: vars(words(values)) for key, words in self.of_inputs.items()},
             "rows": {
                 key: [_given(lambda cell=cell: cell(computed)) for cell in row]
                 for key, row in self.rows.items()

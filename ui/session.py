@@ -103,9 +103,7 @@ class Session:
 
     def changed(self) -> list[str]:
         """Return the keys of the values that differ from the preset's."""
-        usual = PRESET_VALUES[self.preset]
-        keys = [*self.values, *(usual.keys() - self.values.keys())]
-        return [key for key in keys if self.values.get(key) != usual.get(key)]
+        return changed(self.preset, self.values)
 
     def record(self) -> None:
         """Keep the machine for undo; while a slider is dragged, only where it is released."""
@@ -203,6 +201,13 @@ class Session:
         self.asked = _words(given.get("asked"), str)
         self.begun = set(self.asked)
         choices().recall(given.get("chosen"))
+
+
+def changed(preset: str, values: Values) -> list[str]:
+    """Return the keys of the values that differ from a preset's."""
+    usual = PRESET_VALUES[preset]
+    keys = [*values, *(usual.keys() - values.keys())]
+    return [key for key in keys if values.get(key) != usual.get(key)]
 
 
 def _words(given: object, kind: type | tuple[type, ...]) -> dict[str, Any]:

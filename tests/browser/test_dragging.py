@@ -9,25 +9,13 @@ from playwright.sync_api import Locator, expect
 import rotorcalc as rc
 from rotorcalc.units import SI
 from tests.browser.app_page import PATHS, AppPage
-from tests.browser.test_live import _drag
+from tests.browser.test_live import SAID, _drag
 from ui.computed import computed_from
 from ui.inputs import PRESET_VALUES
 from ui.words.verdict import verdict
 
 RPM = math.pi / 30
 VALUES = PRESET_VALUES["sheet-1e8"]
-# Every text that depends on the machine, as it is read: of an equation its TeX.
-_SAID = """() => Object.fromEntries([...document.querySelectorAll('[class*="st-key-said_"]')]
-  .filter(place => place.checkVisibility())
-  .map(place => {
-    const read = place.cloneNode(true);
-    if (read.querySelector('.live-said'))
-      [...read.children].forEach(one => one.classList.contains('live-said') || one.remove());
-    read.querySelectorAll('.katex').forEach(
-      one => one.replaceWith(one.querySelector('annotation').textContent));
-    return [place.className.match(/st-key-said_\\S+/)[0],
-            read.textContent.replaceAll(/\\s+/g, ' ').trim()];
-  }).filter(([, words]) => words))"""
 _MARKED = """key => window.rotorcalcCharts.get(key).element.data
   .filter(trace => trace.name === 'running speed').map(trace => trace.x.at(-1))"""
 
@@ -76,9 +64,9 @@ def test_a_thumb_held_beyond_the_onset_is_answered_by_the_whole_page(app: AppPag
     for chart in ("chart_home_threshold", "chart_home_response"):
         assert set(app.page.evaluate(_MARKED, chart)) == {rpm}
 
-    held = app.page.evaluate(_SAID)
+    held = app.page.evaluate(SAID)
     _release(app)
-    assert app.page.evaluate(_SAID) == held
+    assert app.page.evaluate(SAID) == held
     assert app.metrics() == numbers
     assert _changes(app) == changes
     assert verdict(computed_from(VALUES | {"rpm": rpm}), SI).sentence in held["st-key-said_verdict"]
@@ -105,12 +93,12 @@ def test_what_is_shown_while_held_is_what_a_run_shows(app: AppPage, page: str) -
     for tab in app.tabs() or [""]:
         if tab:
             app.open_tab(tab)
-        before = app.page.evaluate(_SAID)
+        before = app.page.evaluate(SAID)
         _hold(app, "Film temperature", 0.1)
-        held, numbers = app.page.evaluate(_SAID), app.metrics()
+        held, numbers = app.page.evaluate(SAID), app.metrics()
         assert held["st-key-said_verdict"] != before["st-key-said_verdict"]
         _release(app)
-        assert app.page.evaluate(_SAID) == held, tab
+        assert app.page.evaluate(SAID) == held, tab
         assert app.metrics() == numbers, tab
 
 

@@ -2,14 +2,16 @@
 
 import streamlit as st
 
-from ui.bearing import FILM, KIND, fields_of
+from ui.bearing import FILM, KIND, Values, fields_of
 from ui.inputs import INPUTS
-from ui.session import Session
+from ui.session import Session, changed
+
+# Key of the place of the inputs changed.
+CHANGES = "said_changes"
 
 
 def draw(visitor: Session) -> None:
     """Draw the buttons, and name the inputs that differ from the preset's."""
-    changed = visitor.changed()
     with st.container(horizontal=True, gap="small", key="history"):
         st.button(
             "Undo", key="undo", on_click=visitor.undo, disabled=not visitor.history.can_undo,
@@ -21,16 +23,22 @@ def draw(visitor: Session) -> None:
         )  # fmt: skip
         st.button(
             "Reset", key="reset", on_click=visitor.set_preset, args=(visitor.preset,),
-            disabled=not changed, help="Back to the preset's machine and speeds.",
+            disabled=not visitor.changed(), help="Back to the preset's machine and speeds.",
         )  # fmt: skip
-    names = ", ".join(_symbol(key, visitor) for key in changed)
-    st.caption(f"Changed from the preset: {names}." if names else "Unchanged from the preset.")
+    with st.container(key=CHANGES):
+        st.caption(changes(visitor.preset, visitor.values))
 
 
-def _symbol(key: str, visitor: Session) -> str:
+def changes(preset: str, values: Values) -> str:
+    """Return which inputs differ from the preset's, in words."""
+    names = ", ".join(_symbol(key, values) for key in changed(preset, values))
+    return f"Changed from the preset: {names}." if names else "Unchanged from the preset."
+
+
+def _symbol(key: str, values: Values) -> str:
     if key in INPUTS:
         return INPUTS[key].symbol
     if key in (KIND, FILM):
         return key
-    fields = fields_of(visitor.values[KIND])
+    fields = fields_of(values[KIND])
     return fields[key].label.lower() if key in fields else key.replace("_", " ")

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from datetime import timedelta
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -12,6 +12,7 @@ from streamlit.delta_generator import DeltaGenerator
 
 from rotorcalc.units import Units
 from ui import choices
+from ui.bearing import Values
 from ui.cases import Draw, Shown, compared
 from ui.cases import computed as computed_cases
 from ui.choices import choice
@@ -264,7 +265,10 @@ def _page(places: Places, views: presentation.Views) -> Page:
     for problem in problems:
         st.warning(problem)
     first, units = (beside[0] if beside else None), visitor.units
-    visitor.preview = Preview(dict(visitor.values), computed, first, units, dark=is_dark())
+    visitor.preview = Preview(
+        dict(visitor.values), computed, first, units, dark=is_dark(),
+        of_inputs={history.CHANGES: partial(_changes, visitor.preset)},
+    )  # fmt: skip
     visitor.preview.say("verdict", lambda c: verdict.text(c, units))
     with places.foot:
         validity.draw(visitor.preview)
@@ -272,6 +276,10 @@ def _page(places: Places, views: presentation.Views) -> Page:
     return Page(
         computed=computed, cases=beside, units=visitor.units, preview=visitor.preview, views=views
     )
+
+
+def _changes(preset: str, values: Values) -> Text:
+    return Text(history.changes(preset, values), "caption")
 
 
 def _offer_the_rest(visitor: Session) -> None:

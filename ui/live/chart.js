@@ -222,8 +222,13 @@ async function redraw(chart, wanted) {
     await redrawn(Plotly, chart, wanted);
   } else {
     chart.element.dataset.moved = "";
-    chart.due = setTimeout(() => draw(chart, chart.shown), WHILE);
+    finish(chart);
   }
+}
+
+// Draws a moved chart after a pause: while a slider waits for its answer, Plotly would delay that.
+function finish(chart) {
+  chart.due = setTimeout(() => (document.querySelector(".live-slider[data-busy]") ? finish(chart) : draw(chart, chart.shown)), WHILE);
 }
 
 // Draws the latest figure. Of those that arrive meanwhile only the last is drawn: a slow browser skips figures

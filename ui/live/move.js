@@ -113,10 +113,13 @@ function moveTrace(gd, trace, i, changed) {
   }
 }
 
-// A note is drawn at its first position and translated from there.
-function moveNote(gd, note, i, changed) {
+// A note is drawn at its first position and translated from there. One whose text has changed is to be placed.
+function moveNote(gd, note, i, changed, placed) {
   const group = gd.querySelector(`.annotation[data-index="${i}"]`);
-  if (changed.includes("text")) say(group.querySelector(".annotation-text"), note.text);
+  if (changed.includes("text")) {
+    say(group.querySelector(".annotation-text"), note.text);
+    placed.push([group, gd._fullLayout.annotations[i]]);
+  }
   const shift = ["x", "y"].map((letter) => {
     const reference = note[`${letter}ref`];
     const way = (end, axis) => at(gd, letter, axis, note[end]) - at(gd, letter, axis, gd.layout.annotations[i][end]);
@@ -126,6 +129,17 @@ function moveNote(gd, note, i, changed) {
   });
   need(shift.every(Number.isFinite));
   group.setAttribute("transform", `translate(${shift})`);
+}
+
+// Texts stand about their middle, as Plotly draws them. Where that is not their anchor, a text of another width is moved.
+function placeNotes(notes) {
+  const widths = notes.map(([group]) => group.querySelector(".annotation-text").getBBox().width);
+  notes.forEach(([group, { xanchor, xref, x, showarrow, borderpad, borderwidth }], k) => {
+    const auto = showarrow || xref !== "paper" ? 0 : x < 1 / 3 ? 1 : x > 2 / 3 ? -1 : 0;
+    const side = { left: 1, center: 0, right: -1, auto }[xanchor];
+    const drawn = group.querySelector(".bg").width.baseVal.value - borderwidth - 2 * borderpad;
+    group.querySelector(".annotation-text").setAttribute("transform", `translate(${(side * (widths[k] - drawn)) / 2})`);
+  });
 }
 
 function moveShape(gd, shape, i) {
@@ -156,12 +170,14 @@ function moveSlider(gd, { active, steps, currentvalue }, i) {
 
 // Updates a chart from the figure that it shows to another; returns false where only Plotly can.
 export function move(gd, before, { data, layout }) {
+  const notes = [];
   try {
     changes(before.layout, layout, LAYOUT);
     each(before.data, data, TRACE, (...item) => moveTrace(gd, ...item));
-    each(before.layout.annotations, layout.annotations, NOTE, (...item) => moveNote(gd, ...item));
+    each(before.layout.annotations, layout.annotations, NOTE, (...item) => moveNote(gd, ...item, notes));
     each(before.layout.sliders, layout.sliders, SLIDER, (...item) => moveSlider(gd, ...item));
     each(before.layout.shapes, layout.shapes, SHAPE, (...item) => moveShape(gd, ...item));
+    placeNotes(notes);
   } catch (error) {
     if (error instanceof Fixed) return false;
     throw error;

@@ -1,10 +1,9 @@
-// The preview: what a page shows, at the value to which a slider is being dragged.
+// The preview: what a page shows, at the value to which a slider is being moved, by the thumb or by a key.
 //
-// While a slider is dragged, charts, numbers and texts are requested from the server without a run of the page by
+// While a slider is moved, charts, numbers and texts are requested from the server without a run of the page by
 // Streamlit. Charts are redrawn, numbers overwritten in place, and a text is shown in a copy of its element, which
-// React does not know and so does not touch. What the machine does not give is dimmed, as is the list of inputs
-// changed from the preset. After release, when the page has run, its own content applies again. A value that makes no
-// machine is reported in the verdict's place.
+// React does not know and so does not touch. What the machine does not give is dimmed. When the page has run, on
+// release, its own content applies again. A value that makes no machine is reported in the verdict's place.
 //
 // A released slider sends its value through this component, because Streamlit then runs only the fragment that
 // contains the component, and not the sidebar; the answer has the value of every slider.
@@ -12,7 +11,6 @@
 const STYLE = `
 .live-unknown {opacity: 0.35;}
 .live-unknown .live-unknown {opacity: 1;}
-.rotorcalc-dragging .st-key-past [data-testid=stCaptionContainer] {opacity: 0.35;}
 .live-overwritten > :not(.live-said) {display: none;}
 .live-refused :is(.live-chart, .stMetric, [class*="st-key-said_"]:not(.st-key-said_verdict)) {opacity: 0.35;}
 .live-alert {padding: 1rem; border-radius: 0.5rem;}

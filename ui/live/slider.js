@@ -5,8 +5,8 @@
 // past the end and held there, it moves its window on. So a pixel changes a value by half of one per cent at most, over
 // any range. A track of an input that may be zero begins with a stop at zero; one with a word for infinity ends with it.
 //
-// While a slider is dragged its values go to the page's preview, if there is one. Otherwise, and on release, the
-// slider sends {name, value, dragging, number}, and the server returns `number` as `echo`. It sends through the
+// A slider's values go to the page's preview first, if there is one. While it is dragged that is all; on release and
+// by key, the slider then sends {name, value, dragging, number}, and the server returns `number` as `echo`. It sends through the
 // preview's component; where there is none yet, or the page is running, it sends itself, which ends that run and
 // starts one of the whole page. What is typed goes as text: the server reads it.
 //
@@ -286,7 +286,7 @@ class Slider {
   }
 
   typed() {
-    this.want({ value: this.field.value.trim(), dragging: false });
+    this.want({ value: this.field.value.trim(), typed: true, dragging: false });
     this.field.blur();
   }
 
@@ -303,7 +303,7 @@ class Slider {
       this.waiting = null;
       this.out = true;
       const previewed = await this.preview(message);
-      if (!previewed || !message.dragging) await this.ask(message);
+      if (!previewed || (!message.dragging && this.waiting === null)) await this.ask(message);
       this.out = false;
       if (!message.dragging && this.waiting === null) window.rotorcalcPreview?.settle();
     }
@@ -311,10 +311,11 @@ class Slider {
     this.rest();
   }
 
-  // While dragging, and on release if the value differs from the last one previewed.
-  async preview({ value, dragging }) {
+  // While dragging, and on release or by key if the value differs from the last one previewed. What is typed the
+  // server may not understand.
+  async preview({ value, typed, dragging }) {
     const preview = window.rotorcalcPreview;
-    const due = dragging || (this.previewed !== null && this.previewed !== value);
+    const due = dragging || (!typed && this.previewed !== value);
     const previewed = due && preview !== undefined && (await preview.show(this.data.name, value));
     this.previewed = dragging && previewed ? value : null;
     return previewed;
