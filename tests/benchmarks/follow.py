@@ -31,7 +31,10 @@ _ANSWERED = """() => new Promise(resolve => {
   const within = (one, low, high) => Math.min(Math.max(one, low), high);
   const seen = () => {
     const places = [...document.querySelectorAll('.js-plotly-plot')].flatMap(chart => {
-      const { left, top, right, bottom } = chart.getBoundingClientRect();
+      const plots = [...chart.querySelectorAll('.nsewdrag')];
+      // A line may go on beyond its plot, unseen.
+      const { left, top, right, bottom } =
+        (plots.length === 1 ? plots[0] : chart).getBoundingClientRect();
       const parts = [...chart.querySelectorAll(PARTS)].map(part => part.getBoundingClientRect());
       // The bare page's sines keep their boxes: of each its first point.
       const begins = chart.matches('.live-chart') ? [] : [...chart.querySelectorAll('.js-line')]

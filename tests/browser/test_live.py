@@ -246,6 +246,17 @@ def test_a_dragged_slider_moves_charts_in_place(app: AppPage, page: str) -> None
         assert [chart for chart, in_place in moved.items() if not in_place] == []
 
 
+def test_an_equation_is_as_high_in_a_preview_as_on_the_page(app: AppPage) -> None:
+    """Else everything below it jumps when the page has run."""
+    app.open("Stability", tab="Figures of the notes")
+    caption = app.page.locator(".st-key-said_under_threshold_speed")
+    height = caption.evaluate("one => one.getBoundingClientRect().height")
+    app.page.evaluate("() => window.rotorcalcPreview.show('C', '60.5')")
+    expect(caption.locator(".live-said")).to_be_visible()
+    held = caption.evaluate("one => one.getBoundingClientRect().height")
+    assert held == pytest.approx(height, abs=0.1)
+
+
 # Whether each chart shown can be moved in place to what the preview has at an input's value.
 _MOVED = """async ([name, value]) => {
   const { address, token } = window.rotorcalcPreview;

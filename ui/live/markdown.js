@@ -8,9 +8,15 @@ const INLINE = [
   [/:small\[(.+)\]/g, '<span style="font-size: 0.875rem">$1</span>'],
 ];
 
+// The page's style is for an older KaTeX than its script, whose parts' classes have no prefix.
+function equation(tex, katex, displayMode = false) {
+  const html = katex.renderToString(tex, { displayMode, throwOnError: false });
+  return html.replace(/\bkatex-(?!html|mathml|display|error)/g, "");
+}
+
 function inline(text, katex) {
   return text.split(/(\$[^$]+\$)/).map((part) => {
-    if (part.startsWith("$") && part.length > 1) return katex.renderToString(part.slice(1, -1), { throwOnError: false });
+    if (part.startsWith("$") && part.length > 1) return equation(part.slice(1, -1), katex);
     const safe = part.replace(/[&<>"]/g, (sign) => TAGS[sign]);
     return INLINE.reduce((words, [pattern, html]) => words.replace(pattern, html), safe);
   }).join("");
@@ -28,7 +34,7 @@ function table(lines, katex) {
 function block(text, katex) {
   const lines = text.split("\n");
   if (text.startsWith("$$"))
-    return `<p>${katex.renderToString(text.replaceAll("$$", ""), { displayMode: true, throwOnError: false })}</p>`;
+    return `<p>${equation(text.replaceAll("$$", ""), katex, true)}</p>`;
   if (text.startsWith("|")) return table(lines, katex);
   if (lines.every((line) => /^(- |  )/.test(line)))
     return `<ul>${text.split(/^- /m).slice(1).map((item) => `<li>${inline(item, katex)}</li>`).join("")}</ul>`;
