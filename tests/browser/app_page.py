@@ -54,6 +54,9 @@ _METRICS = """() => Object.fromEntries(
       part => metric.querySelector(`[data-testid="${part}"]`).innerText
         .replaceAll('\u200b', '').trim())))"""
 
+_INPUTS = """() => [...document.querySelectorAll('[role=slider], input[type=text]')].map(
+  input => input.value ?? input.ariaValueNow)"""
+
 _TRACES = """() => [...document.querySelectorAll('.js-plotly-plot')].map(
   chart => chart.data.map(trace => trace.name || ''))"""
 
@@ -165,6 +168,17 @@ class AppPage:
     def metrics(self) -> dict[str, str]:
         """Return the results shown."""
         return self.page.evaluate(_METRICS)
+
+    def shown(self) -> dict[str, object]:
+        """Return the page's address and inputs, its results, its open tab, and the cases."""
+        return {
+            "address": self.page.url,
+            "inputs": self.page.evaluate(_INPUTS),
+            "results": self.metrics(),
+            "tab": self.page.locator("[role=tab][aria-selected=true]").all_inner_texts(),
+            "cases": self.page.locator("table.cases").all_inner_texts(),
+            "changes": self.page.get_by_test_id("stMetricDelta").all_inner_texts(),
+        }
 
     def drawn(self) -> list[str]:
         """Return what the charts draw, as paths."""

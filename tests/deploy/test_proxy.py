@@ -6,19 +6,20 @@ import json
 import re
 import subprocess
 import sys
+from collections.abc import Iterator
 from contextlib import AsyncExitStack, closing
 from http.client import HTTPConnection
 from urllib.request import urlopen
 
 import pytest
-from playwright.sync_api import Browser
+from playwright.sync_api import BrowserContext, BrowserType
 from starlette.requests import Request
 from streamlit.web.server.starlette.starlette_routes import create_host_config_routes
 from websockets.asyncio.client import connect
 from websockets.exceptions import InvalidStatus
 
 from tests.browser.app_page import AppPage
-from tests.browser.conftest import CHROMIUM_ARGS, browser_type_launch_args, chromium
+from tests.browser.conftest import CHROMIUM_ARGS, DESK, chromium
 from tests.deploy.conftest import HOST, OUTER, Site
 from tests.deploy.test_replicas import awaited
 from tests.load.client import Visitor
@@ -27,7 +28,7 @@ from tests.waiting import finished
 from ui.serving import own_origin
 from ui.serving.guard import browsers
 
-__all__ = ["browser_type_launch_args", "chromium"]
+__all__ = ["chromium"]
 
 PAGES = ["/rotorcalc/", "/rotorcalc/Stability", "/rotorcalc/nothing-here", "/nothing-here"]
 HEADERS = {
@@ -229,12 +230,24 @@ def test_the_log_knows_every_page(site: Site) -> None:
     assert all(f'"path":"/rotorcalc/{name}"' in log for name in names)
 
 
-@pytest.fixture
-def tab(browser: Browser, chromium: str, site: Site) -> AppPage:
+@pytest.fixture(scope="module")
+def visiting(
+    browser_type: BrowserType, chromium: str, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[BrowserContext]:
+    """A browser for which the site's name is this machine's."""
     mapped = f"--host-resolver-rules=MAP {HOST} 127.0.0.1"
-    real = browser.browser_type.launch(executable_path=chromium, args=[*CHROMIUM_ARGS, mapped])
-    yield AppPage(real.new_page(), site.address)
-    real.close()
+    with browser_type.launch_persistent_context(
+        tmp_path_factory.mktemp("browser"), viewport=DESK, executable_path=chromium,
+        args=[*CHROMIUM_ARGS, mapped],
+    ) as context:  # fmt: skip
+        yield context
+
+
+@pytest.fixture
+def tab(visiting: BrowserContext, site: Site) -> Iterator[AppPage]:
+    tab = AppPage(visiting.new_page(), site.address)
+    yield tab
+    tab.page.close()
 
 
 def test_a_browser_finds_nothing_missing_under_the_policy(tab: AppPage) -> None:
@@ -247,23 +260,36 @@ def test_a_browser_finds_nothing_missing_under_the_policy(tab: AppPage) -> None:
     assert [fault for fault in tab.faults if not fault.startswith(ours)] == []
 
 
-def test_a_browser_whose_replica_stops_continues_on_the_other(tab: AppPage, site: Site) -> None:
-    """Nothing was touched before, so Streamlit's script by itself would ask for no run."""
+def _replica(tab: AppPage) -> str:
+    cookies = {cookie["name"]: cookie["value"] for cookie in tab.page.context.cookies()}
+    return cookies["rotorcalc_replica"]
 
-    def replica() -> str:
-        cookies = {cookie["name"]: cookie["value"] for cookie in tab.page.context.cookies()}
-        return cookies["rotorcalc_replica"]
 
+def _keep_a_case(tab: AppPage) -> None:
+    tab.open_tab("Forces")
+    with tab.run():
+        tab.page.get_by_role("button", name="Keep as A").click()
+
+
+@pytest.mark.parametrize("goes", ["stop", "kill"])
+def test_a_browser_whose_replica_goes_continues_on_the_other(
+    goes: str, tab: AppPage, site: Site
+) -> None:
+    """Machine, page, tab and cases are there; of a visitor who has touched nothing too."""
     tab.open("Equilibrium", C="80")
-    theirs = replica()
-    site.replicas[theirs].stop()
+    if goes == "kill":
+        _keep_a_case(tab)
+    before, theirs = tab.shown(), _replica(tab)
+    {"stop": site.replicas[theirs].stop, "kill": site.replicas[theirs].kill}[goes]()
     try:
-        assert tab.changes(replica, theirs)
+        assert tab.changes(lambda: _replica(tab), theirs)
         tab.rest()
+        assert tab.shown() == before
         tab.press("Radial clearance", "ArrowRight")
-        assert tab.query() == {"C": "80.5"}
+        assert tab.query()["C"] == "80.5"
         tab.go("Response")
-        assert tab.query() == {"C": "80.5"}
+        assert tab.query()["C"] == "80.5"
+        assert tab.shown()["cases"] or goes == "stop"
     finally:
         site.start(theirs)
 

@@ -77,25 +77,6 @@ def kick(tab: AppPage) -> None:
     tab.press("Initial displacement", "ArrowRight")
 
 
-# --- What must still be there -----------------------------------------------------------------
-
-
-_INPUTS = """() => [...document.querySelectorAll('[role=slider], input[type=text]')].map(
-  input => input.value ?? input.ariaValueNow)"""
-
-
-def shown(tab: AppPage) -> dict[str, object]:
-    """Return a page's address and inputs, its results, its open tab, and the cases."""
-    return {
-        "address": tab.page.url,
-        "inputs": tab.page.evaluate(_INPUTS),
-        "results": tab.metrics(),
-        "tab": tab.page.locator("[role=tab][aria-selected=true]").all_inner_texts(),
-        "cases": tab.page.locator("table.cases").all_inner_texts(),
-        "changes": tab.page.get_by_test_id("stMetricDelta").all_inner_texts(),
-    }
-
-
 # --- Where it happens -------------------------------------------------------------------------
 
 
@@ -240,7 +221,7 @@ def test_two_seconds_after_a_break_all_is_there_and_the_next_action_works(
     """A crash, a restart, a network that fails or falls silent, and a session long forgotten."""
     (tab,) = tabs(BREAKS[how].who)
     BREAKS[how].last(tab)
-    before, session = shown(tab), tab.session
+    before, session = tab.shown(), tab.session
     with stopped_clock(tab):
         place.lose(how)
         assert pass_time(tab, 12, until=f"{_STATE} !== 'CONNECTED'")
@@ -253,7 +234,7 @@ def test_two_seconds_after_a_break_all_is_there_and_the_next_action_works(
         # Two seconds of the browser's clock, however long a busy machine takes over them.
         assert pass_time(tab, 2, pause=1000, until=f"{_STATE} === 'CONNECTED'")
     back(tab)
-    assert shown(tab) == before
+    assert tab.shown() == before
     assert how in ("cut", "silent") or tab.session != session
     BREAKS[how].then(tab)
 
