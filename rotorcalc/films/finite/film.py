@@ -16,12 +16,13 @@ from rotorcalc.films.pads import gap, outline, pads_of, walls_of
 from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
 from rotorcalc.machine import JournalBearing
 
-_SOLVED = "Reynolds' equation over the pads"
-_NEWTON = "the film's force against the load, by Newton's method"
-_LINEAR = "Reynolds' equation linearised, p = 0 at the film's unperturbed fronts"
+# As short as a number of an equation: they label the buttons that explain a result.
+_SOLVED = "Reynolds' equation"
+_NEWTON = "force balance"
+_LINEAR = "linearised Reynolds' equation"
 _SOURCES: dict[str, Source] = {
     "film": Source(
-        f"{_SOLVED}, broken at ambient pressure with p = ∂p/∂n = 0 (Swift, Stieber)",
+        f"{_SOLVED} with Swift and Stieber's p = ∂p/∂n = 0 where the film breaks and forms",
         r"\frac{\partial}{\partial\beta}\left(h^3\frac{\partial p}{\partial\beta}\right)"
         r"+\left(\frac DL\right)^2\frac{\partial}{\partial\zeta}"
         r"\left(h^3\frac{\partial p}{\partial\zeta}\right)"
@@ -30,18 +31,18 @@ _SOURCES: dict[str, Source] = {
     "eccentricity": Source(_NEWTON, r"F_X(x,y)=-F_o,\quad F_Y(x,y)=0"),
     "attitude": Source(_NEWTON, r"\tan\varphi=\frac yx"),
     "thickness": Source(
-        "the pads' arcs of circles",
+        "arcs of the pads",
         r"\frac hC=1+a_x\cos\beta+a_y\sin\beta-x\cos\beta-y\sin\beta",
     ),
     "pressure": Source(_SOLVED, remark="ambient at the pads' edges and both ends"),
     "force": Source(_SOLVED),
     "drag": Source(
-        "shear over the pads alone, not in grooves",
+        "shear of the pads",
         r"T=\frac{\mu\Omega R^3L}{C}\sum\int\left(\frac1h+\frac h2\,"
         r"\frac{\partial\bar p}{\partial\beta}\right)d\beta",
     ),
     "flow": Source(
-        "the axial flow at both ends",
+        "axial flow",
         r"Q=\frac{\Omega RLC}{12}\left(\frac DL\right)^2\sum\int"
         r"-h^3\left.\frac{\partial p}{\partial\zeta}\right|_{\zeta=1}d\beta",
     ),

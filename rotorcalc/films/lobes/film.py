@@ -27,13 +27,13 @@ from rotorcalc.films.pads import Pad, gap, outline, pads_of, walls_of
 from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
 from rotorcalc.machine import JournalBearing
 
-_CLOSED = "closed form over the pads of the short bearing"
+_CLOSED = "closed form of short pads"
 _SOURCES: dict[str, Source] = {
-    "film": Source("short pads, no pressure flow around the journal, cavitated at ambient"),
-    "eccentricity": Source("the film's force against the load, by Newton's method"),
-    "attitude": Source("the same equilibrium", r"\tan\varphi=\frac yx"),
+    "film": Source("short pads cavitated at ambient pressure"),
+    "eccentricity": Source("force balance", r"F_X(x,y)=-F_o,\quad F_Y(x,y)=0"),
+    "attitude": Source("force balance", r"\tan\varphi=\frac yx"),
     "thickness": Source(
-        "the pads' arcs of circles",
+        "arcs of the pads",
         r"\frac hC=1+a_x\cos\beta+a_y\sin\beta-x\cos\beta-y\sin\beta",
     ),
     "pressure": Source(
@@ -44,11 +44,11 @@ _SOURCES: dict[str, Source] = {
     ),
     "force": Source(_CLOSED),
     "drag": Source(
-        "shear over the pads alone and the loss of the axial flow",
+        "shear of the pads",
         r"T=\frac{\mu\Omega R^3L}{C}\sum\left[\int\frac{d\beta}h"
         r"+\left(\frac LD\right)^2\int\frac{(\partial_\beta h)^2}{h^3}d\beta\right]",
     ),
-    "flow": Source("what the converging film leaves to the sides",
+    "flow": Source("axial flow",
                    r"Q=\tfrac12\Omega RLC\sum(h_{start}-h_{end})"),
     "stiffness": Source(_CLOSED),
     "damping": Source(_CLOSED),
