@@ -8,9 +8,10 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from rotorcalc import PRESETS
+from rotorcalc.records import Bound, Choice
 from rotorcalc.units import SYSTEMS, US
 from tests.films.models import BEARINGS
-from ui.bearing import KIND, Values, bearing_values, fields_of
+from ui.bearing import KIND, Field, Value, Values, bearing_values, fields_of
 from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, Input, machine_of, tidy
 from ui.sharing import address
 
@@ -36,9 +37,23 @@ def drawn_values(draw: st.DrawFn, preset: str) -> Values:
     # µm: less than a tenth of the radius
     values["C"] = min(values["C"], tidy(49.0 * values["D"]))
     bearing = bearing_values(BEARINGS[draw(st.sampled_from(sorted(BEARINGS)))])
-    for key in fields_of(bearing[KIND]):
-        bearing[key] = draw(st.floats(1e-3, 1e3) | st.just(bearing[key]))
+    share = draw(st.floats(0.3, 1.0))
+    for key, field in fields_of(bearing[KIND]).items():
+        bearing[key] = draw(_of_bore(field, bearing[key], share))
     return values | bearing
+
+
+def _of_bore(field: Field, usual: Value, share: float) -> st.SearchStrategy[Value]:
+    """Draw a value of a bore's field; bounded ones shrink together, so that its parts fit."""
+    check = field.rule.check
+    if isinstance(check, Choice):
+        return st.sampled_from(check.words)
+    assert isinstance(check, Bound)
+    if check.whole:
+        return st.sampled_from([float(usual), float(usual) - 1.0])
+    if math.isinf(check.below):
+        return st.floats(1e-3, 1e3) | st.just(usual)
+    return st.just(share * float(usual)) if usual else st.just(usual) | st.floats(1e-3, 0.9)
 
 
 @pytest.mark.parametrize("preset", PRESETS)
