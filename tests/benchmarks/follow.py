@@ -36,10 +36,11 @@ _ANSWERED = """() => new Promise(resolve => {
       const { left, top, right, bottom } =
         (plots.length === 1 ? plots[0] : chart).getBoundingClientRect();
       const parts = [...chart.querySelectorAll(PARTS)].map(part => part.getBoundingClientRect());
-      // The bare page's sines keep their boxes: of each its first point.
-      const begins = chart.matches('.live-chart') ? [] : [...chart.querySelectorAll('.js-line')]
-        .flatMap(line => line.getAttribute('d').slice(1).split('L')[0].split(',').map(Number));
-      return [...begins, ...parts.filter(box => box.width || box.height).flatMap(box =>
+      // The bare page's sines keep their boxes: of each its ends, to a fifth of a pixel.
+      const ends = chart.matches('.live-chart') ? [] : [...chart.querySelectorAll('.js-line')]
+        .flatMap(line => [/[\\d.]+,([\\d.]+)/, /[\\d.]+,([\\d.]+)$/].map(
+          end => 10 * line.getAttribute('d').match(end)[1]));
+      return [...ends, ...parts.filter(box => box.width || box.height).flatMap(box =>
         [within(box.left, left, right), within(box.top, top, bottom),
          within(box.right, left, right), within(box.bottom, top, bottom)])];
     });
