@@ -117,10 +117,8 @@ function moveTrace(gd, trace, i, changed) {
 function moveNote(gd, note, i, changed, placed) {
   const group = gd.querySelector(`.annotation[data-index="${i}"]`);
   if (changed.includes("text")) {
-    const text = group.querySelector(".annotation-text");
-    text.dataset.drawn ??= text.getBBox().width; // until Plotly draws it anew
-    say(text, note.text);
-    placed.push([text, gd._fullLayout.annotations[i]]);
+    say(group.querySelector(".annotation-text"), note.text);
+    placed.push([group, gd._fullLayout.annotations[i], note.text]);
   }
   const shift = ["x", "y"].map((letter) => {
     const reference = note[`${letter}ref`];
@@ -135,11 +133,12 @@ function moveNote(gd, note, i, changed, placed) {
 
 // Texts stand about their middle, as Plotly draws them. Where that is not their anchor, a text of another width is moved.
 function placeNotes(notes) {
-  const widths = notes.map(([text]) => text.getBBox().width);
-  notes.forEach(([text, { xanchor, xref, x, showarrow }], k) => {
+  const widths = notes.map(([group]) => group.querySelector(".annotation-text").getBBox().width);
+  notes.forEach(([group, { text, xanchor, xref, x, showarrow, borderpad, borderwidth }, now], k) => {
     const auto = showarrow || xref !== "paper" ? 0 : x < 1 / 3 ? 1 : x > 2 / 3 ? -1 : 0;
-    const side = { left: 1, center: 0, right: -1, auto }[xanchor];
-    text.setAttribute("transform", `translate(${(side * (widths[k] - text.dataset.drawn)) / 2})`);
+    const side = now === text ? 0 : { left: 1, center: 0, right: -1, auto }[xanchor]; // 0: as Plotly drew it
+    const drawn = group.querySelector(".bg").width.baseVal.value - borderwidth - 2 * borderpad;
+    group.querySelector(".annotation-text").setAttribute("transform", `translate(${(side * (widths[k] - drawn)) / 2})`);
   });
 }
 
