@@ -200,6 +200,8 @@ def _in_many_digits(exact: ExactPolynomial, stable: float, unstable: float) -> t
     # More than one pair of roots may cross between the two.
     while exact.determinant(stable) <= 0.0 or exact.determinant(unstable) >= 0.0:
         middle = 0.5 * (stable + unstable)
+        if middle in (stable, unstable):  # a real root crosses: the journal is driven off
+            return middle, 0.0
         grows = exact.margins(np.array([middle]))[0] > 0.0
         stable, unstable = (stable, middle) if grows else (middle, unstable)
     root = float(brentq(exact.determinant, stable, unstable, xtol=1e-300, rtol=1e-14))

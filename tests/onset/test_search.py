@@ -14,6 +14,7 @@ from rotorcalc import (
     Machine,
     Oil,
     Onset,
+    PartialArc,
     Rotor,
     analyse,
     modes,
@@ -609,3 +610,16 @@ def test_an_onset_where_a_second_pair_of_roots_follows_the_first_at_once():
     below, above = onset.speed * np.array([1 - 1e-5, 1 + 1e-5])
     assert np.max(analyse(machine, below).flexible_eigenvalues.real) < 0.0
     assert np.max(analyse(machine, above).flexible_eigenvalues.real) > 0.0
+
+
+def test_a_journal_that_is_driven_off_without_whirl_has_an_onset_of_frequency_zero():
+    # On a pad far behind the load a real root crosses: the determinant keeps its sign there.
+    bearing = replace(SHEET.bearing, geometry=PartialArc(centre=math.radians(-60.0)))
+    machine = replace(SHEET, bearing=bearing)
+    found = onset_speed(machine)
+    assert found.whirl_frequency == 0.0
+    below, above = (
+        analyse(machine, share * found.speed).flexible_eigenvalues for share in (0.999, 1.001)
+    )
+    assert below.real.max() < 0.0 < above.real.max()
+    assert above[np.argmax(above.real)].imag == 0.0
