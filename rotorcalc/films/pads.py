@@ -30,6 +30,11 @@ _TURN = 2.0 * math.pi
 # Where a full circle is cut open: in the broken film at any load, behind the thinnest film (0 to
 # 90°) and before the thickest (180 to 270°).
 _CUT = math.radians(135.0)
+# Why a film of pads may have no answer at any load.
+NO_POSITION = (
+    "bearing: no position of the journal was found at which its film carries a load along X; move "
+    "or widen its pads, or lower its preload"
+)
 
 
 @dataclass(frozen=True)

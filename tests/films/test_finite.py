@@ -489,6 +489,22 @@ def test_bores_that_cannot_be_are_refused_in_words(made, words):
         made()
 
 
+@pytest.mark.parametrize(
+    "bearing",
+    [
+        on(PartialArc(centre=math.radians(60.0)), 1 / 3),
+        on(OffsetHalves(offset=0.95), 1 / 3),
+        on(Lobes(offset=0.0), 1 / 3),
+        on(PressureDam(preload=0.95), 1 / 3),
+        replace(on(Lobes(offset=0.0), 1 / 3), film="short"),
+        replace(on(PartialArc(arc=math.radians(10.0)), 1 / 3), film="short"),
+    ],
+)
+def test_a_bore_that_carries_no_load_is_refused_in_words(bearing):
+    with pytest.raises(ValueError, match="no position of the journal was found at which its film"):
+        film_state(bearing, 4.0)
+
+
 def test_every_kind_is_in_a_file_and_back():
     from tests.machines import SHEET
 

@@ -149,9 +149,11 @@ def _newton(mesh: Mesh, found: Films, at: Solution, load: Array) -> tuple[Array,
     determinant = K[:, 0, 0] * K[:, 1, 1] - K[:, 0, 1] * K[:, 1, 0]
     x = K[:, 1, 1] * rest[:, 0] - K[:, 0, 1] * rest[:, 1]
     y = K[:, 0, 0] * rest[:, 1] - K[:, 1, 0] * rest[:, 0]
-    step = np.stack([x, y], axis=-1) / determinant[:, None]
+    with np.errstate(divide="ignore", invalid="ignore"):  # it never settles, which is noticed
+        step = np.stack([x, y], axis=-1) / determinant[:, None]
     position = found.relative[:, 0] + mesh.a[0]
     room = _LONGEST * gap(mesh.pads, position)
     size = np.hypot(step[:, 0], step[:, 1])
-    error = np.minimum(np.hypot(rest[:, 0], rest[:, 1]) / scale, size)
+    with np.errstate(invalid="ignore"):
+        error = np.minimum(np.hypot(rest[:, 0], rest[:, 1]) / scale, size)
     return step * np.minimum(1.0, room / np.maximum(size, 1e-300))[:, None], error

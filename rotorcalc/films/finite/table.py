@@ -18,7 +18,7 @@ from rotorcalc.films.finite.fronts import coefficients
 from rotorcalc.films.finite.results import drag, peak, side_flow
 from rotorcalc.films.finite.reynolds import Films, Mesh, Solution, films, mesh, solved
 from rotorcalc.films.load_splines import CoefficientSplines, LoadSplines, half_whirl
-from rotorcalc.films.pads import Pad, gap
+from rotorcalc.films.pads import NO_POSITION, Pad, gap
 
 # The thinnest film that the table reaches, in C.
 THINNEST = 0.03
@@ -159,7 +159,7 @@ def table(pads: tuple[Pad, ...], slenderness: float) -> FilmTable:
 
     Raises
     ------
-    ArithmeticError
+    ValueError
         Where no equilibria are found.
     """
     dams = sum(pad.depth > 0.0 for pad in pads)
@@ -187,13 +187,15 @@ def _loads(coarse: Mesh, count: int, *, lightest: float) -> tuple[Array, Array, 
     """
     load, position, wet = scan(coarse)
     if len(load) < 3:
-        raise ArithmeticError("no equilibrium of the journal was found in this bore")
+        raise ValueError(NO_POSITION)
     film = gap(coarse.pads, position)
     heavy = np.log(load[1:])
     # The film thins as the load rises, by its logarithm; preloaded bores start from a thin one.
     thinning = np.minimum.accumulate(np.log(film[1:]))
     heaviest = math.exp(float(np.interp(-math.log(THINNEST), -thinning, heavy)))
     light = np.linspace(math.log(_LIGHTEST), 0.0, _LIGHT_LOADS, endpoint=False)
+    if heaviest <= load[1]:  # a journal that even a light load presses close to a pad
+        raise ValueError(NO_POSITION)
     heavier = np.linspace(0.0, math.log(heaviest / load[1]), count - _LIGHT_LOADS)
     loads: Array = load[1] * np.exp(np.concatenate([light, heavier]))
     loads = np.append(lightest * loads[0], loads)
@@ -221,7 +223,7 @@ def _followed(grid: Mesh, load: Array, start: Array, wet: BoolArray) -> Equilibr
         found.good[bad] = again.good
     last = int(np.argmin(found.good)) if not found.good.all() else len(load)
     if last < 8:
-        raise ArithmeticError("no equilibrium of the journal was found in this bore")
+        raise ValueError(NO_POSITION)
     return Equilibria(load[:last], found.position[:last], found.wet[:last], found.good[:last])
 
 

@@ -14,7 +14,7 @@ from scipy.interpolate import CubicSpline
 from rotorcalc.arrays import Array
 from rotorcalc.films.load_splines import CoefficientSplines, half_whirl
 from rotorcalc.films.lobes.integrals import moments
-from rotorcalc.films.pads import Pad, gap, outline
+from rotorcalc.films.pads import NO_POSITION, Pad, gap, outline
 
 _TURN = 2.0 * np.pi
 # Shares of the way to the wall and directions of the first search, and the number of loads.
@@ -231,6 +231,8 @@ def _start(pads: tuple[Pad, ...]) -> tuple[Array, Array, CubicSpline]:
                 places.append(at[i] + t * (at[i + 1] - at[i]))
     if not unloaded(pads):
         places[0] = _newton(pads, np.zeros(1), np.zeros((1, 2)))[0]
+    if len(loads) < 3:
+        raise ValueError(NO_POSITION)
     found = np.array(places)
     found[1:] = _newton(pads, np.array(loads[1:]), found[1:])
     # Dense enough that a single step of Newton's method remains.
@@ -246,7 +248,10 @@ def _newton(pads: tuple[Pad, ...], load: Array, start: Array) -> Array:
     for _ in range(_MOST_STEPS):
         at = answer(pads, position[active])
         rest = at.force + np.stack([load[active], np.zeros(active.size)], axis=-1)
-        step = np.linalg.solve(at.stiffness, rest[..., None])[..., 0]
+        try:
+            step = np.linalg.solve(at.stiffness, rest[..., None])[..., 0]
+        except np.linalg.LinAlgError as error:  # a film that resists no motion
+            raise ValueError(NO_POSITION) from error
         size = np.hypot(step[:, 0], step[:, 1])
         room = _LONGEST * gap(pads, position[active])
         position[active] += step * np.minimum(1.0, room / np.maximum(size, 1e-300))[:, None]
@@ -255,4 +260,4 @@ def _newton(pads: tuple[Pad, ...], load: Array, start: Array) -> Array:
         active = active[size > _TOLERANCE * room]
         if not active.size:
             return position
-    raise ArithmeticError(f"no equilibrium of the journal found at the load {load[active][0]:.3g}")
+    raise ValueError(NO_POSITION)
