@@ -172,7 +172,20 @@ class Lobes(Geometry):
 
 
 @dataclass(frozen=True, kw_only=True)
-class PressureDam(Geometry):
+class _Pocketed(Geometry):
+    """A bore with pockets, whose depth follows from the clearance where it is None."""
+
+    usual_depth: ClassVar[float]  # in C
+
+    def implied(self, name: str, clearance: float) -> float:
+        """Return the depth of a pocket that is not given [m]."""
+        if name == "depth":
+            return self.usual_depth * clearance
+        return super().implied(name, clearance)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PressureDam(_Pocketed):
     """Two pads with axial grooves, and a pocket in the unloaded pad that ends in a step.
 
     Parameters
@@ -207,15 +220,9 @@ class PressureDam(Geometry):
         super().__post_init__()
         _within_pad(self.pocket_arc, math.pi - self.groove_width)
 
-    def implied(self, name: str, clearance: float) -> float:
-        """Return the depth of a pocket that is not given [m]."""
-        if name == "depth":
-            return self.usual_depth * clearance
-        return super().implied(name, clearance)
-
 
 @dataclass(frozen=True, kw_only=True)
-class MultiDam(Geometry):
+class MultiDam(_Pocketed):
     """Equal circular pads, each with a pocket that ends in a step.
 
     Parameters
@@ -249,12 +256,6 @@ class MultiDam(Geometry):
         super().__post_init__()
         _fits(self.number, "pads", "arc", self.arc)
         _within_pad(self.pocket_arc, self.arc)
-
-    def implied(self, name: str, clearance: float) -> float:
-        """Return the depth of a pocket that is not given [m]."""
-        if name == "depth":
-            return self.usual_depth * clearance
-        return super().implied(name, clearance)
 
 
 def _fits(number: float, parts: str, name: str, angle: float) -> None:

@@ -199,6 +199,11 @@ def walls_of(bearing: JournalBearing) -> tuple[Pad, ...]:
     return (Pad(0.0, _TURN),) if isinstance(bearing.geometry, PartialArc) else pads
 
 
+def are_concentric(pads: tuple[Pad, ...]) -> bool:
+    """Return whether pads are parts of one circle: without pockets or load they have no film."""
+    return all(pad.a_x == pad.a_y == 0.0 for pad in pads)
+
+
 def gap(pads: tuple[Pad, ...], position: ArrayLike) -> Array:
     """Return the smallest film thickness over pads, outside their pockets.
 

@@ -11,14 +11,13 @@ import numpy as np
 
 from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.films.finite.reynolds import Films, Mesh, Solution, films, solved, stiffness
-from rotorcalc.films.pads import gap, outline
+from rotorcalc.films.pads import gap
+from rotorcalc.films.rough_positions import crossings, net
 
 # Shares of the way to the wall, and directions [rad], of the scan.
 _SHARES = np.array([0.25, 0.5, 0.7, 0.84, 0.93, 0.965, 0.98])
 _DIRECTIONS = np.radians(np.arange(-60.0, 151.0, 15.0))
 _SCAN_SWEEPS = 3
-# Radius, in C, up to which a journal is looked for where no pad is in its way.
-_FARTHEST = 1.2
 # A step is at most this share of the film left, so that it never crosses the wall.
 _LONGEST = 0.6
 _MOST_STEPS = 30
@@ -66,39 +65,15 @@ def scan(mesh: Mesh) -> tuple[Array, Array, BoolArray]:
     wet : boolean array, (k, N, nodes, m)
         Where the film is full near there.
     """
-    wall = _within_reach(outline(mesh.pads, _DIRECTIONS))
-    position = (_SHARES[:, None, None] * wall).reshape(-1, 2)
+    places = net(mesh.pads, _SHARES, _DIRECTIONS)
+    position = places.reshape(-1, 2)
     found = films(mesh, position)
     wet = np.ones((len(position), *mesh.shape), dtype=bool)
     at = solved(found, wet)
     for _ in range(_SCAN_SWEEPS):
         at = solved(found, at.next_wet)
-    force = at.force.reshape(len(_SHARES), -1, 2)
-    load, place, near = _crossings(force, position.reshape(force.shape))
+    load, place, near = crossings(at.force.reshape(places.shape), places)
     return load, place, at.next_wet[near]
-
-
-def _within_reach(wall: Array) -> Array:
-    """Return places on the wall, or on a circle about the bore where it is open beside a pad."""
-    angle = _DIRECTIONS
-    reach = np.minimum(np.hypot(wall[:, 0], wall[:, 1]), _FARTHEST)
-    return np.stack([reach * np.cos(angle), reach * np.sin(angle)], axis=-1)
-
-
-def _crossings(force: Array, position: Array) -> tuple[Array, Array, list[int]]:
-    """Return where F_y turns from pushing on to pushing back, on each share's row."""
-    loads, places, near = [0.0], [np.zeros(2)], [0]
-    for row, (F, at) in enumerate(zip(force, position, strict=True)):
-        stable = (F[:-1, 1] > 0.0) & (F[1:, 1] <= 0.0) & (F[:-1, 0] < 0.0)
-        for i in np.flatnonzero(stable)[:1]:
-            t = F[i, 1] / (F[i, 1] - F[i + 1, 1])
-            load = -(F[i, 0] + t * (F[i + 1, 0] - F[i, 0]))
-            if load > loads[-1]:
-                loads.append(float(load))
-                places.append(at[i] + t * (at[i + 1] - at[i]))
-                near.append(row * len(F) + int(i) + int(t > 0.5))
-    near[0] = near[min(1, len(near) - 1)]
-    return np.array(loads), np.array(places), near
 
 
 def settled(

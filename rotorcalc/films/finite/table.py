@@ -18,7 +18,7 @@ from rotorcalc.films.finite.fronts import coefficients
 from rotorcalc.films.finite.results import drag, peak, side_flow
 from rotorcalc.films.finite.reynolds import Films, Mesh, Solution, films, mesh, solved
 from rotorcalc.films.load_splines import CoefficientSplines, LoadSplines, half_whirl
-from rotorcalc.films.pads import NO_POSITION, Pad, gap
+from rotorcalc.films.pads import NO_POSITION, Pad, are_concentric, gap
 
 # The thinnest film that the table reaches, in C.
 THINNEST = 0.03
@@ -172,7 +172,7 @@ def _tabulated(pads: tuple[Pad, ...], slenderness: float, fine: tuple[int, int, 
     zones = _ZONES_OF_DAMS if any(pad.depth > 0.0 for pad in pads) else 1
     *last, count = fine
     grids = [mesh(pads, slenderness, n, zones * m) for n, m in (_SCAN, _COARSE, last)]
-    concentric = zones == 1 and all(pad.a_x == pad.a_y == 0.0 for pad in pads)
+    concentric = zones == 1 and are_concentric(pads)
     load, start, wet = _loads(grids[0], count, lightest=_NEXT_TO_NONE if concentric else 0.0)
     # Rough positions are good enough to go on from.
     rough = settled(grids[1], load, start, _carried(wet, grids[1]), steps=_ROUGH)

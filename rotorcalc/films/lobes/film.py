@@ -20,10 +20,9 @@ from rotorcalc.films.lobes.static import (
     range_of,
     refuse_heavy,
     shear,
-    unloaded,
 )
 from rotorcalc.films.model import FilmMotion, Limit, Source
-from rotorcalc.films.pads import Pad, gap, outline, pads_of, walls_of
+from rotorcalc.films.pads import Pad, are_concentric, gap, outline, pads_of, walls_of
 from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
 from rotorcalc.machine import JournalBearing
 
@@ -116,7 +115,7 @@ class LobesFilm:
     def _positions(self, sommerfeld: Array) -> tuple[Array, Answer]:
         """Return positions (n, 2) at σ (n,), and what the pads do there."""
         load = 0.25 / sommerfeld
-        if not unloaded(self._pads):
+        if not are_concentric(self._pads):
             position = equilibrium(self._pads, load)
             return position, answer(self._pads, position)
         # Without load there is no film: the limit is that of a very light one.
@@ -157,7 +156,9 @@ class LobesFilm:
     def _limit(self) -> Array:
         """The direction in which a light load moves the journal from the centre."""
         load = np.array([NEXT_TO_NONE * range_of(self._pads)[0]])
-        centre = np.zeros(2) if unloaded(self._pads) else equilibrium(self._pads, 0.0 * load)[0]
+        centre = (
+            np.zeros(2) if are_concentric(self._pads) else equilibrium(self._pads, 0.0 * load)[0]
+        )
         return 1e9 * (equilibrium(self._pads, 1e3 * load)[0] - centre)
 
     def dynamics(self, points: OperatingPoints) -> FilmDynamics:

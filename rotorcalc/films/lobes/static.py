@@ -14,13 +14,14 @@ from scipy.interpolate import CubicSpline
 from rotorcalc.arrays import Array
 from rotorcalc.films.load_splines import CoefficientSplines, half_whirl
 from rotorcalc.films.lobes.integrals import moments
-from rotorcalc.films.pads import NO_POSITION, Pad, gap, outline
+from rotorcalc.films.pads import NO_POSITION, Pad, are_concentric, gap
+from rotorcalc.films.rough_positions import crossings, net
 
 _TURN = 2.0 * np.pi
 # Shares of the way to the wall and directions of the first search, and the number of loads.
 _SHARES = np.concatenate([np.linspace(0.05, 0.9, 18), 1.0 - np.geomspace(0.08, 1e-3, 18)])
 _DIRECTIONS = np.radians(np.arange(-70.0, 171.0, 10.0))
-_FARTHEST, _KNOTS = 1.2, 400
+_KNOTS = 400
 # Newton's error is squared by each step: after one of 1e-8 of the film the next is rounding.
 _MOST_STEPS, _TOLERANCE, _LONGEST = 60, 1e-8, 0.5
 # A load so light that its journal lies where an unloaded one would, over the film's stiffness.
@@ -189,11 +190,6 @@ def range_of(pads: tuple[Pad, ...]) -> tuple[float, float]:
     return float(loads[1]), float(loads[-1])
 
 
-def unloaded(pads: tuple[Pad, ...]) -> bool:
-    """Return whether without load there is no film: the pads are parts of one circle."""
-    return all(pad.a_x == pad.a_y == 0.0 for pad in pads)
-
-
 @functools.lru_cache(maxsize=256)
 def coefficients(pads: tuple[Pad, ...]) -> CoefficientSplines:
     """Return stiffness and damping of pads over the load, from four hundred exact equilibria."""
@@ -201,7 +197,7 @@ def coefficients(pads: tuple[Pad, ...]) -> CoefficientSplines:
     # From loads so light that what is not linear in them is below the splines' own error.
     load = np.exp(np.linspace(math.log(1e-3 * loads[1]), math.log(loads[-1]), _KNOTS))
     exact = answer(pads, equilibrium(pads, load))
-    if unloaded(pads):
+    if are_concentric(pads):
         least = NEXT_TO_NONE * loads[1:2]
         none = answer(pads, _newton(pads, least, NEXT_TO_NONE * places[1:2]))
         none = replace(none, stiffness=half_whirl(none.damping))
@@ -215,36 +211,24 @@ def coefficients(pads: tuple[Pad, ...]) -> CoefficientSplines:
 @functools.lru_cache(maxsize=256)
 def _start(pads: tuple[Pad, ...]) -> tuple[Array, Array, CubicSpline]:
     """Return loads, none first, their positions, and positions over the logarithm of the load."""
-    wall = outline(pads, _DIRECTIONS)
-    reach = np.minimum(np.hypot(wall[:, 0], wall[:, 1]), _FARTHEST)
-    ray = np.stack([np.cos(_DIRECTIONS), np.sin(_DIRECTIONS)], axis=-1) * reach[:, None]
-    position = _SHARES[:, None, None] * ray
+    position = net(pads, _SHARES, _DIRECTIONS)
     force = answer(pads, position.reshape(-1, 2)).force.reshape(position.shape)
-    loads, places = [0.0], [np.zeros(2)]
-    for F, at in zip(force, position, strict=True):
-        stable = np.flatnonzero((F[:-1, 1] > 0.0) & (F[1:, 1] <= 0.0) & (F[:-1, 0] < 0.0))
-        for i in stable[:1]:
-            t = F[i, 1] / (F[i, 1] - F[i + 1, 1])
-            load = -(F[i, 0] + t * (F[i + 1, 0] - F[i, 0]))
-            if load > 1.02 * loads[-1]:
-                loads.append(float(load))
-                places.append(at[i] + t * (at[i + 1] - at[i]))
-    if not unloaded(pads):
+    loads, places, _ = crossings(force, position, apart=1.02)
+    if not are_concentric(pads):
         places[0] = _newton(pads, np.zeros(1), np.zeros((1, 2)))[0]
     if len(loads) < 3:
         raise ValueError(NO_POSITION)
-    found = np.array(places)
-    found[1:] = _newton(pads, np.array(loads[1:]), found[1:])
+    places[1:] = _newton(pads, loads[1:], places[1:])
     # Dense enough that a single step of Newton's method remains.
-    rough = CubicSpline(np.log(loads[1:]), found[1:])
+    rough = CubicSpline(np.log(loads[1:]), places[1:])
     ln = np.linspace(math.log(loads[1]), math.log(loads[-1]), _KNOTS)
     spline = CubicSpline(ln, _newton(pads, np.exp(ln), np.asarray(rough(ln))))
-    return np.array(loads), found, spline
+    return loads, places, spline
 
 
 def _newton(pads: tuple[Pad, ...], load: Array, start: Array) -> Array:
     """Return equilibria at loads, from positions near them; no step crosses half of the film."""
-    position, active, concentric = start.copy(), np.arange(len(load)), unloaded(pads)
+    position, active, concentric = start.copy(), np.arange(len(load)), are_concentric(pads)
     for _ in range(_MOST_STEPS):
         at = answer(pads, position[active])
         rest = at.force + np.stack([load[active], np.zeros(active.size)], axis=-1)
