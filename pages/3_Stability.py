@@ -1,6 +1,5 @@
 import streamlit as st
 
-from rotorcalc import thresholds
 from rotorcalc.figures import cursor
 from rotorcalc.figures import design as what_if
 from rotorcalc.figures import stability as figures
@@ -26,9 +25,7 @@ def content(page: Page) -> None:
 
 
 def over_speed(draw, units):
-    return lambda c: draw(
-        thresholds.at_each_speed(c.sweep), thresholds.at_each_speed(c.point), ask.crossing(c), units
-    )
+    return lambda c: ask.over_speed(draw, c, units)
 
 
 def threshold(page: Page) -> None:

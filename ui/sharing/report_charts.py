@@ -6,7 +6,6 @@ from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from rotorcalc import thresholds
 from rotorcalc.figures import (
     Chart,
     coefficients,
@@ -80,9 +79,7 @@ def _of_modes(draw: Callable[[modes.OverSpeed], Chart]) -> Callable[[Computed, U
 
 
 def _of_thresholds(draw: Callable[..., Chart]) -> Callable[[Computed, Units], Chart]:
-    return lambda c, u: draw(
-        thresholds.at_each_speed(c.sweep), thresholds.at_each_speed(c.point), ask.crossing(c), u
-    )
+    return lambda c, u: ask.over_speed(draw, c, u)
 
 
 def _of_coefficients(draw: Callable[..., Chart]) -> Callable[[Computed, Units], Chart]:

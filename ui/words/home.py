@@ -2,14 +2,13 @@
 
 import streamlit as st
 
-from rotorcalc import thresholds
 from rotorcalc.figures import equilibrium, machine, response, stability, style
 from ui.choices import choose
 from ui.computed import Computed
 from ui.frame.page import Page, show
 from ui.preview import Text
 from ui.words.citation import cited
-from ui.words.stability import can_whirl, crossing
+from ui.words.stability import can_whirl, over_speed
 
 
 def content(page: Page) -> None:
@@ -72,14 +71,7 @@ def _heading(computed: Computed) -> Text:
 def _threshold(page: Page) -> None:
     units = page.units
     page.chart(
-        lambda c: style.small(
-            stability.threshold(
-                thresholds.at_each_speed(c.sweep),
-                thresholds.at_each_speed(c.point),
-                crossing(c),
-                units,
-            )
-        ),
+        lambda c: style.small(over_speed(stability.threshold, c, units)),
         "home_threshold",
         alt="Threshold speed over running speed, and the line that it crosses at the onset",
         caption="Onset of whirl: the threshold meets the line Ω. Eqs. 5.45, 5.46, 5.50.",

@@ -1,6 +1,7 @@
 """Texts of the stability page on threshold, film and whirl orbit."""
 
 import math
+from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
@@ -9,6 +10,7 @@ import streamlit as st
 from rotorcalc import JournalBearing, thresholds, whirl_energy
 from rotorcalc.analysis import FilmCurves
 from rotorcalc.arrays import Array
+from rotorcalc.figures import Chart
 from rotorcalc.figures.stability import Crossing, Energies, FilmFigure
 from rotorcalc.films import film_of
 from rotorcalc.units import Units
@@ -43,6 +45,12 @@ _SAGS = (0.0, 0.3, 1.0, 3.0, 10.0)
 def crossing(computed: Computed) -> Crossing:
     """Return the onset and whether the closed forms give it."""
     return Crossing(onset=computed.onset, closed_form=not _neglected(computed))
+
+
+def over_speed(draw: Callable[..., Chart], computed: Computed, units: Units) -> Chart:
+    """Return a chart of thresholds over speed."""
+    over, here = (thresholds.at_each_speed(one) for one in (computed.sweep, computed.point))
+    return draw(over, here, crossing(computed), units)
 
 
 def _neglected(computed: Computed) -> list[str]:
