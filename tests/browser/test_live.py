@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from playwright.sync_api import Locator, expect
+from playwright.sync_api import Locator, Route, expect
 
 from tests.browser.app_page import AppPage
 
@@ -219,6 +219,19 @@ def test_a_key_is_answered_before_the_page_runs_and_the_run_changes_nothing(
         assert previewed == pytest.approx(final, abs=1.5)  # Plotly puts words on whole pixels
     assert app.metrics() == seen
     assert app.page.evaluate(SAID) == said
+
+
+def test_texts_stand_alike_however_late_their_fonts_come(app: AppPage, stranger: AppPage) -> None:
+    """A chart's first text in italics is the first need of its font."""
+
+    def late(route: Route) -> None:
+        stranger.page.wait_for_timeout(2000)
+        route.continue_()
+
+    stranger.page.route("**/*Italic*.woff2", late)
+    app.open("Machine")
+    stranger.open("Machine")
+    assert _picture(stranger) == _picture(app)
 
 
 # What a slider sends through Streamlit waits until it is let through.

@@ -52,6 +52,12 @@ function plotly(address) {
   return loading;
 }
 
+// Plotly measures texts as it draws them: in another font than they end in, they stand beside their place.
+function fonts(view) {
+  const family = getComputedStyle(view).fontFamily;
+  return Promise.allSettled(["", "italic "].map((style) => document.fonts.load(`${style}1em ${family}`)));
+}
+
 async function tools(scripts) {
   const [{ move, numbers }, cursor, drawing] = await Promise.all(
     ["move", "cursor", "drawing"].map((name) => import(location.origin + scripts[name])));
@@ -213,7 +219,7 @@ function fitted(view, { layout: { height } }, presenting) {
 async function redraw(chart, wanted) {
   const { shown } = chart;
   clearTimeout(chart.due);
-  const Plotly = await plotly(wanted.plotly);
+  const [Plotly] = await Promise.all([plotly(wanted.plotly), fonts(chart.view)]);
   chart.tools ??= await tools(wanted.scripts);
   const { cursor, move } = chart.tools;
   cursor.rested(chart);
