@@ -22,7 +22,9 @@ NAMES = frozenset((
     "speeds", "balance", "pace", "picture",
 ))  # fmt: skip
 _KEY = "rotorcalc_choices"
-_OF_A_RELEASE = ("orbits_kick", "orbits_revolutions")
+# The choices of a release, which undo brings back: least and largest value of each.
+KICKS, TURNS = (0.0, 1.2), (20, 600)
+_RELEASE = {"orbits_kick": KICKS, "orbits_revolutions": TURNS}
 
 
 @dataclass
@@ -55,7 +57,7 @@ class Choices:
     def release(self) -> dict[str, Value]:
         """Return the choices of a release, which undo brings back with its machine."""
         kept = self.kept()
-        return {key: kept[key] for key in _OF_A_RELEASE if key in kept}
+        return {key: kept[key] for key in _RELEASE if key in kept}
 
     def restore(self, release: Mapping[str, Value]) -> None:
         """Bring back choices; before the widgets of a run are drawn."""
@@ -108,6 +110,21 @@ def choose(
         label_visibility="collapsed" if hidden else "visible", **extra,
     )  # fmt: skip
     return chosen or options[0]
+
+
+def words_of(release: Mapping[str, Value]) -> dict[str, str]:
+    """Return the choices of a release as a link has them."""
+    return {_name(key): _written(value) for key, value in release.items()}
+
+
+def release_of(words: Mapping[str, str]) -> dict[str, Value]:
+    """Return the choices of a release in a link's words, as far as they can be used."""
+    found: dict[str, Value] = {}
+    for key, (low, high) in _RELEASE.items():
+        value = _taken(words.get(_name(key)), low, lambda _: True)
+        if value is not None and low <= value <= high:
+            found[key] = value
+    return found
 
 
 def _taken(given: object, default: T, allowed: Callable[[T], bool]) -> T | None:

@@ -1,11 +1,16 @@
 """The states of a session's work in order: what undo goes back to, and redo forward to."""
 
+from collections.abc import Sequence
 from typing import Generic, TypeVar
 
 State = TypeVar("State")
 
 # A held key makes ten states a second; each is a dictionary of some twenty numbers.
 _MOST = 200
+# So many states before and after the present one, and that one: the browser keeps these, and gets
+# them with each run.
+_NEAR = 50
+MOST_NEAR = 2 * _NEAR + 1
 
 
 class History(Generic[State]):
@@ -14,9 +19,10 @@ class History(Generic[State]):
     A state is recorded where it differs from the present one, and ends what could be redone.
     """
 
-    def __init__(self, first: State) -> None:
-        self._states = [first]
-        self._at = 0
+    def __init__(self, *states: State, at: int = 0) -> None:
+        """Begin with some states, one at least, of which one is the present."""
+        self._states = list(states)
+        self._at = at
 
     @property
     def can_undo(self) -> bool:
@@ -27,6 +33,11 @@ class History(Generic[State]):
     def can_redo(self) -> bool:
         """Whether a state was undone, and none recorded since."""
         return self._at + 1 < len(self._states)
+
+    def near(self) -> tuple[Sequence[State], int]:
+        """Return the states nearest to the present one, and its place among them."""
+        first = max(self._at - _NEAR, 0)
+        return self._states[first : self._at + _NEAR + 1], self._at - first
 
     def record(self, state: State) -> None:
         """Take a state for the present; where it differs, as one more."""

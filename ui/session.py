@@ -8,7 +8,9 @@ import secrets
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
+from urllib.parse import parse_qsl, urlencode
 
 import streamlit as st
 
@@ -17,11 +19,11 @@ from ui import cases
 from ui.bearing import KIND, Value, Values
 from ui.cases import Case
 from ui.choices import Value as Choice
-from ui.choices import choices
-from ui.history import History
+from ui.choices import choices, release_of, words_of
+from ui.history import MOST_NEAR, History
 from ui.inputs import PRESET_VALUES
 from ui.preview import Preview
-from ui.sharing import address
+from ui.sharing import address, labels
 
 _KEY = "rotorcalc"
 
@@ -35,6 +37,18 @@ class Work:
     cases: tuple[Case, ...]
     # Those of a page's choices that belong to a state, but make none by themselves.
     release: Mapping[str, Choice] = field(default_factory=dict, compare=False)
+
+    @cached_property
+    def link(self) -> str:
+        """The state as a link has it, for the browser to keep."""
+        params = address.write(self.preset, self.values, "SI", self.cases)
+        return urlencode(params | words_of(self.release))
+
+    @classmethod
+    def of(cls, link: str) -> "Work":
+        """Return the state of a link, as far as it can be used."""
+        given = address.read(dict(parse_qsl(link)))
+        return cls(given.preset, given.values, given.cases, release_of(given.choices))
 
 
 @dataclass
@@ -75,6 +89,8 @@ class Session:
     # The page whose sidebar was drawn last, and whether the visitor has just come to another.
     page: str = ""
     arriving: bool = True
+    # Whether its state is that of a session before it, which the browser kept.
+    recalled: bool = False
     history: History[Work] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -184,23 +200,39 @@ class Session:
         self.begun.discard(work)
 
     def kept(self) -> dict[str, Any]:
-        """Return the state that the browser keeps for a server without this session.
+        """Return the state that the browser keeps for a session after this one.
 
         All of it is text and finite numbers, which JSON can hold.
         """
+        states, place = self.history.near()
         return {
             "typed": self.typed, "image_format": self.image_format,
-            "asked": self.asked, "chosen": choices().kept(),
+            "asked": self.asked, "chosen": choices().kept(), "labels": labels.kept(),
+            "states": [state.link for state in states], "place": place,
+            "recalled": self.recalled,
         }  # fmt: skip
 
     def recall(self, kept: object) -> None:
         """Restore the valid part of what a browser kept, which is untrusted."""
-        given: dict[str, Any] = kept if isinstance(kept, dict) else {}
+        if not isinstance(kept, dict):
+            return
+        given: dict[str, Any] = kept
+        self.recalled = True
         self.typed = given.get("typed") is True
         self.image_format = "svg" if given.get("image_format") == "svg" else "png"
         self.asked = _words(given.get("asked"), str)
         self.begun = set(self.asked)
         choices().recall(given.get("chosen"))
+        labels.recall(_words(given.get("labels"), str))
+        self._recall_history(given.get("states"), given.get("place"))
+
+    def _recall_history(self, links: object, place: object) -> None:
+        """Take over the states that a browser kept, and go on from them."""
+        given = links[:MOST_NEAR] if isinstance(links, list) else []
+        states = [Work.of(link) for link in given if isinstance(link, str)]
+        if states and isinstance(place, int) and 0 <= place < len(states):
+            self.history = History(*states, at=place)
+            self.history.record(self._work())
 
 
 def changed(preset: str, values: Values) -> list[str]:

@@ -68,9 +68,20 @@ def show_preview(preview: Preview | None) -> None:
     )  # fmt: skip
 
 
-def show_connection(kept: dict[str, Any] | None) -> object:
-    """Give the browser what to keep of the session; return what it kept for a server without it."""
-    return None if settings.live() == "off" else _live().show_connection(kept)
+def show_connection() -> None:
+    """Look after the connection, and take over what the browser kept of a session before."""
+    if settings.live() == "off":
+        return
+    visitor = session()
+    kept = _live().show_connection(lambda state: session().recall(state))
+    if not visitor.frame:
+        visitor.recall(kept)
+
+
+def keep() -> None:
+    """Give the browser what to keep of the session."""
+    if settings.live() != "off":
+        _live().keep(session().kept())
 
 
 def chart_key(key: str) -> str:

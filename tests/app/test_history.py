@@ -1,5 +1,6 @@
 """Undo and redo: of every kind of change of the machine, back and forth, exactly."""
 
+import json
 from collections.abc import Callable
 
 import pytest
@@ -9,6 +10,8 @@ from rotorcalc.figures.cases import COLOURS
 from tests.app.session import HOME, ORBITS, move, open_part, session_of, visit
 from ui.history import History
 from ui.inputs import PRESET_VALUES, machine_of
+from ui.session import Work
+from ui.sharing import labels
 
 
 def _choose_preset(at: AppTest) -> None:
@@ -136,3 +139,63 @@ def test_history_goes_no_further_than_its_ends_and_forgets_the_oldest() -> None:
     assert gone[-1] == gone[-2] > 0
     assert not history.can_undo
     assert history.redo() == gone[-1] + 1
+
+
+def test_undo_and_redo_are_restored_from_what_a_browser_kept() -> None:
+    at = visit(HOME, preset="sheet-1e7", k="inf")
+    states = [_work(at)]
+    for change in ("case kept", "slider", "reset"):
+        CHANGES[change](at)
+        states.append(_work(at))
+    at.button(key="undo").click().run()
+    kept = json.loads(json.dumps(session_of(at).kept(), allow_nan=False))
+    other = visit(HOME, **at.query_params)
+    session_of(other).recall(kept)
+    other.run()
+    for button, state in (("redo", 3), ("undo", 2), ("undo", 1), ("undo", 0)):
+        other.button(key=button).click().run()
+        assert _work(other) == states[state]
+    assert other.button(key="undo").disabled
+
+
+def test_undo_leads_from_the_machine_of_another_link_to_what_a_browser_kept() -> None:
+    at = visit(HOME)
+    move(at, "C", 85.0)
+    other = visit(HOME, C="90")
+    session_of(other).recall(session_of(at).kept())
+    for clearance in (85.0, 60.0):
+        other.run()
+        other.button(key="undo").click().run()
+        assert session_of(other).values["C"] == clearance
+
+
+def test_of_states_kept_by_a_browser_what_can_be_used_is_taken() -> None:
+    visitor = session_of(visit(HOME, C="72"))
+    links = ["C=85", "C=-5&T=70&what=3&cases=<b>&preset=no", *["C=90"] * 500]
+    visitor.recall({"states": links, "place": 1})
+    states, place = visitor.history.near()
+    assert (len(states), place) == (3, 2)
+    usual = PRESET_VALUES["sheet-1e8"]
+    assert [state.values for state in states] == [
+        usual | {"C": 85.0}, usual | {"T": 70.0}, usual | {"C": 72.0},
+    ]  # fmt: skip
+
+
+def test_a_browser_keeps_the_states_nearest_to_the_present() -> None:
+    history = History(*range(150), at=120)
+    assert history.near() == (list(range(70, 150)), 50)
+    assert History(1).near() == ([1], 0)
+
+
+@pytest.mark.parametrize("kick", ["-1", "2", "nan", "x", ""])
+def test_the_release_of_a_kept_state_is_checked(kick: str) -> None:
+    release = {"orbits_kick": 0.25, "orbits_revolutions": 400}
+    work = Work("sheet-1e7", dict(PRESET_VALUES["sheet-1e7"]), (), release)
+    assert Work.of(work.link) == work
+    assert Work.of(work.link).release == release
+    assert Work.of(f"kick={kick}&revolutions={kick}").release == {}
+
+
+def test_labels_that_a_browser_kept_are_taken_over_and_cut() -> None:
+    labels.recall({"title": "x" * 9999, "author": "A <b>", "no": "label"})
+    assert labels.kept() == {"name": "", "note": "", "title": "x" * 120, "author": "A <b>"}

@@ -337,13 +337,17 @@ def test_a_lost_session_is_restored_from_what_its_browser_kept() -> None:
     [
         None, 1, "kept", [], {}, {"typed": "yes", "image_format": [], "asked": 2},
         {"asked": {"a": 1}, "chosen": {"b": "c"}},
-        {"chosen": {"orbits_kick": 1e300}, "image_format": "exe"},
+        {"chosen": {"orbits_kick": 1e300}, "image_format": "exe", "labels": {"title": 3}},
+        {"states": "kept", "place": 0}, {"states": ["C=85"], "place": 1},
+        {"states": [1], "place": 0},
+        {"states": ["C=85"], "place": -1}, {"states": ["C=85"], "place": "0"}, {"labels": ["a"]},
     ],
 )  # fmt: skip
 def test_state_kept_by_a_browser_is_checked_like_any_input(kept: object) -> None:
     visitor = session_of(visit(HOME, C="72"))
     visitor.recall(kept)
     assert (visitor.typed, visitor.image_format, visitor.asked) == (False, "png", {})
+    assert not visitor.history.can_undo
 
 
 def test_the_reason_a_file_is_refused_stands_whole_and_without_markup() -> None:

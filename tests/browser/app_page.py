@@ -170,13 +170,14 @@ class AppPage:
         return self.page.evaluate(_METRICS)
 
     def shown(self) -> dict[str, object]:
-        """Return the page's address and inputs, its results, its open tab, and the cases."""
+        """Return the page's address and inputs, its results, its open tab, cases, and undo."""
         return {
             "address": self.page.url,
             "inputs": self.page.evaluate(_INPUTS),
             "results": self.metrics(),
             "tab": self.page.locator("[role=tab][aria-selected=true]").all_inner_texts(),
             "cases": self.page.locator("table.cases").all_inner_texts(),
+            "undo": self.page.get_by_role("button", name="Undo", exact=True).is_enabled(),
             "changes": self.page.get_by_test_id("stMetricDelta").all_inner_texts(),
         }
 

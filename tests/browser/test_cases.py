@@ -71,6 +71,13 @@ def test_each_kind_of_change_is_undone(app: AppPage) -> None:
     with app.run():
         app.page.keyboard.press("Control+Z")
     assert _of_machine(app) == machine[-2]
+    app.page.reload()
+    expect(app.page.get_by_role("button", name="Redo", exact=True)).to_be_enabled()
+    app.rest()
+    for button, wanted in (("Redo", -1), ("Undo", -2), ("Undo", -3), ("Undo", -4)):
+        _press(app, button)
+        assert _of_machine(app) == machine[wanted]
+    assert "kick" not in app.query()  # as before the demonstration
 
 
 def _of_machine(app: AppPage) -> dict[str, str]:

@@ -23,7 +23,7 @@ from ui.results.row import show_results
 from ui.serving import one_at_a_time, version
 from ui.session import Session, session, write_address_bar
 from ui.sharing import popover
-from ui.widgets import chart_key, is_dark, show_chart, show_connection, show_preview
+from ui.widgets import chart_key, is_dark, keep, show_chart, show_connection, show_preview
 from ui.words import validity, verdict
 
 _ICON = str(Path(__file__).with_name("icon.svg"))
@@ -172,9 +172,7 @@ def _frame(title: str, sentence: str) -> Places:
     )
     st.html(_STYLE)
     visitor = session()
-    kept = show_connection(visitor.kept() if visitor.frame else None)
-    if not visitor.frame:
-        visitor.recall(kept)
+    show_connection()
     _run_when_reconnected()
     visitor.frame += 1
     visitor.arriving = visitor.page != title
@@ -230,7 +228,9 @@ def _content(content: Callable[[Page], None], places: Places, *, whole: bool) ->
         content(page)
         page.views.draw()
         cases.draw_table(page.preview, page.cases)
-        write_address_bar()  # the widgets drawn now have taken their choices
+        # The widgets drawn now have taken their choices.
+        write_address_bar()
+        keep()
 
 
 def _page(places: Places, views: presentation.Views) -> Page:

@@ -6,9 +6,10 @@ ROTORCALC_LIVE=off nothing here is used, and pages have Streamlit's own charts a
 """
 
 from ui.live.chart import show as show_chart
+from ui.live.connection import keep
 from ui.live.connection import show as show_connection
 from ui.live.preview import show as show_preview
 from ui.live.slider import Slider
 from ui.live.slider import show as show_sliders
 
-__all__ = ["Slider", "show_chart", "show_connection", "show_preview", "show_sliders"]
+__all__ = ["Slider", "keep", "show_chart", "show_connection", "show_preview", "show_sliders"]

@@ -2,7 +2,8 @@
 //
 // A server that was restarted, or that replaces another, has no session of this page. The session's state beside the
 // address bar is kept here. When the connection is lost it becomes this component's state in Streamlit, which sends
-// it with the first run after reconnection.
+// it with the first run after reconnection. A page that is reloaded gets another session too: the tab's own storage
+// keeps the state meanwhile, and the new session is sent it once, where its address is the same.
 //
 // Streamlit tries a lost server every four seconds at most, waits fifteen for a silent one, and does not notice a
 // connection that was cut without a close. So this script asks too: if the server answers while Streamlit has no
@@ -16,6 +17,9 @@ const BEGIN = 3000;
 const PATIENCE = 4000;
 const BUSY = 15000;
 
+const STORE = "rotorcalc";
+const address = () => location.pathname + location.search;
+
 const app = () => document.querySelector('[data-testid="stApp"]');
 const state = () => app()?.dataset.testConnectionState;
 const running = () => app()?.dataset.testScriptState !== "notRunning";
@@ -24,8 +28,26 @@ function tell(type, more = {}) {
   window.postMessage({ stCommVersion: 1, type, ...more }, location.origin);
 }
 
+// The state that this tab kept of the page at this address; a browser may refuse its storage.
+function stored() {
+  try {
+    const page = JSON.parse(sessionStorage.getItem(STORE));
+    return page?.address === address() ? page.kept : undefined;
+  } catch {
+    return undefined;
+  }
+}
+
+function store(kept) {
+  try {
+    sessionStorage.setItem(STORE, JSON.stringify({ address: address(), kept }));
+  } catch { /* without it a reload begins anew */ }
+}
+
 class Connection {
   constructor() {
+    this.kept = this.stored = stored();
+    window.addEventListener("pagehide", () => this.kept && store(this.kept));
     this.wake = () => {};
     new MutationObserver(() => this.changed()).observe(app(), {
       attributes: true, attributeFilter: ["data-test-connection-state"],
@@ -34,10 +56,15 @@ class Connection {
     this.watch();
   }
 
-  update({ kept, health }, keep) {
-    this.kept = kept ?? this.kept; // a server without the session sends nothing
-    this.health = health;
-    this.keep = keep;
+  update(health, keep, send) {
+    Object.assign(this, { health, keep });
+    if (this.stored && !this.sent) send("reloaded", this.stored);
+    this.sent = true;
+  }
+
+  // What a session sends before it has taken over the last one's state is not to be kept.
+  take(kept) {
+    if (kept.recalled || !this.stored) this.kept = kept;
   }
 
   changed() {
@@ -83,9 +110,10 @@ class Connection {
   }
 }
 
-export default function ({ data, parentElement, setStateValue }) {
-  window.rotorcalcConnection ??= new Connection();
-  window.rotorcalcConnection.update(data, setStateValue);
+export default function ({ data: { health, kept }, parentElement, setStateValue, setTriggerValue }) {
+  const connection = (window.rotorcalcConnection ??= new Connection());
+  if (kept) connection.take(kept);
+  else connection.update(health, setStateValue, setTriggerValue);
   if (!parentElement.querySelector(".live-connection")) {
     parentElement.append(Object.assign(document.createElement("div"), { className: "live-connection", hidden: true }));
   }

@@ -1,6 +1,7 @@
 """What a visitor writes on a report and a file: title, author, name of the machine, note."""
 
-from dataclasses import dataclass, fields
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields
 
 import streamlit as st
 
@@ -10,6 +11,11 @@ _WORDS = {
     "author": "Author",
 }  # fmt: skip
 _LONGEST = {"note": 2000}
+
+
+def _longest(label: str) -> int:
+    """Return how many letters a label has at most."""
+    return _LONGEST.get(label, 120)
 
 
 @dataclass
@@ -31,7 +37,7 @@ def draw() -> Labels:
     """Show a field for each label; return them."""
     mine = labels()
     for field in fields(Labels):
-        key, most = f"label_{field.name}", _LONGEST.get(field.name, 120)
+        key, most = f"label_{field.name}", _longest(field.name)
         st.session_state.setdefault(key, getattr(mine, field.name))
         draw_one = st.text_area if field.name == "note" else st.text_input
         setattr(mine, field.name, draw_one(_WORDS[field.name], max_chars=most, key=key) or "")
@@ -40,7 +46,18 @@ def draw() -> Labels:
 
 def name(name: str, note: str) -> None:
     """Take over a file's name and remarks."""
+    recall({"name": name, "note": note})
+
+
+def kept() -> dict[str, str]:
+    """Return the labels, for the browser to keep."""
+    return asdict(labels())
+
+
+def recall(kept: Mapping[str, str]) -> None:
+    """Take over some labels; before their fields are drawn."""
     mine = labels()
-    mine.name, mine.note = name, note
-    for key in ("label_name", "label_note"):
-        st.session_state.pop(key, None)
+    for field in fields(Labels):
+        if field.name in kept:
+            setattr(mine, field.name, kept[field.name][: _longest(field.name)])
+            st.session_state.pop(f"label_{field.name}", None)

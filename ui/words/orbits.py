@@ -10,7 +10,7 @@ import streamlit as st
 from rotorcalc import Machine, TransientError
 from rotorcalc.figures import Units
 from rotorcalc.nonlinear.release import Release, affordable_revolutions
-from ui.choices import choice
+from ui.choices import KICKS, TURNS, choice
 from ui.computed import Computed, computed_from
 from ui.format import amount, digits
 from ui.frame.page import Page
@@ -92,14 +92,15 @@ def choose_release(computed: Computed) -> Ask:
     left, right = st.columns(2)
     with left:
         kick = st.slider(
-            "Initial displacement over clearance [-]", 0.0, 1.2,
-            choice(_KICK, 0.30, lambda kick: 0.0 <= kick <= 1.2), 0.01, key=_KICK,
+            "Initial displacement over clearance [-]", *KICKS,
+            choice(_KICK, 0.30, lambda kick: KICKS[0] <= kick <= KICKS[1]), 0.01, key=_KICK,
             help="From equilibrium, against the load; the journal is released at rest.",
         )  # fmt: skip
     with right:
         turns = st.slider(
-            "Revolutions [-]", 20, 600,
-            choice(_REVOLUTIONS, 40, lambda turns: 20 <= turns <= 600), 20, key=_REVOLUTIONS,
+            "Revolutions [-]", *TURNS,
+            choice(_REVOLUTIONS, 40, lambda turns: TURNS[0] <= turns <= TURNS[1]), 20,
+            key=_REVOLUTIONS,
         )  # fmt: skip
     return Ask(kick, turns)
 
