@@ -114,7 +114,7 @@ US = Units(
     # scipy's lbf and inch are in N and m: one N/m is inch/lbf of a lbf/in.
     shaft_stiffness=Unit("lbf/in", inch / lbf),
     shaft_damping=Unit("lbf·s/in", inch / lbf),
-    stiffness=Unit("10³ lbf/in", 1e-3 * inch / lbf),
+    stiffness=Unit("klbf/in", 1e-3 * inch / lbf),
     damping=Unit("lbf·s/in", inch / lbf),
     power=Unit("hp", 1 / hp),
     flow=Unit("gpm", minute / gallon),

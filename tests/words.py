@@ -32,7 +32,7 @@ STATES: dict[str, dict[str, str]] = {
     "large imbalance": {"u": "200"},
     "outside the model": {"L": "300", "C": "200", "rpm": "30000"},
     "small": {"mass": "0.1", "D": "7", "L": "3", "C": "15", "rpm": "100000", "mu": "5"},
-    "cases": {"cases": "Wide~1~C~95_Hot~2~T~90"},
+    "cases": {"cases": "Wide~1~C~95~~Hot~2~T~90"},
     "US units": {"units": "US"},
     "bad link": {"C": "-3", "mass": "1,334", "tab": "Nowhere", "what": "5"},
     "no machine": {"mj": "200"},

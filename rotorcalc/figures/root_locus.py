@@ -75,8 +75,8 @@ def beyond(locus: Locus, units: Units) -> str:
     words: list[str] = []
     for i, value in enumerate(locus.here.eigenvalues, start=1):
         frequency = float(whirl_frequency(value, units))
-        if -left <= value.real <= right and frequency <= top:
-            continue
+        if value.imag < 0.0 or (-left <= value.real <= right and frequency <= top):
+            continue  # the mirror image of another mode, or inside
         whirl = f"{frequency:.0f} {units.speed.name}" if value.imag > 0.0 else "does not oscillate"
         rate = number(value.real, 3)
         words.append(f"mode {i} ({whirl}, {rate} {units.growth.name})")

@@ -46,7 +46,7 @@ def hysteresis(run: RunUp, branch: Bifurcation | None, marks: Marks, units: Unit
             _upright(speed, name, colour, (x, y), units)
             for speed, name, colour in (
                 (marks.onset, "onset", style.UNSTABLE),
-                (marks.expected, "expected by the growth rate", LINEAR),
+                (marks.expected, "expected from the growth rate", LINEAR),
                 (marks.running_speed, "running speed", style.HERE),
             )
             if np.isfinite(speed)

@@ -93,7 +93,9 @@ class Branch:
     def _next(self, last: Cycle, cycle: Cycle, step: float) -> tuple[Cycle | None, float]:
         """Return the next cycle and the step after it; None, and the reason kept, at the end."""
         if self.balance.gap(cycle.path) < _NEAREST_WALL:
-            self.ended = f"came to within {_NEAREST_WALL:.0%} of the clearance to the wall"
+            self.ended = (
+                f"came to within {100.0 * _NEAREST_WALL:.0f} % of the clearance to the wall"
+            )
             return None, step
         last = last.resampled(len(cycle.path))
         # The secant through the last two cycles stands for the tangent.

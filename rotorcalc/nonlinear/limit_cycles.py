@@ -35,7 +35,7 @@ class Bifurcation(Result):
         The onset, where the cycles begin.
     ended : str
         Why the branch ended: "reached the highest speed asked for", or "lowest"; "came
-        to within 3% of the clearance to the wall"; "shrank to rest at another onset"; or why it
+        to within 3 % of the clearance to the wall"; "shrank to rest at another onset"; or why it
         could not be followed further.
     speed, whirl_frequency : array, (n,)
         Ω and ω [rad/s].

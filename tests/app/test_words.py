@@ -3,10 +3,16 @@
 import re
 from collections.abc import Iterator
 
+import numpy as np
 import pytest
 
+from rotorcalc.figures import root_locus
+from rotorcalc.units import SI
 from tests.app.session import NOTES, PAGES
 from tests.words import STATES, once, toured
+from ui.cases import computed
+from ui.computed import computed_from
+from ui.sharing import address
 
 # Mathematics, code, hover texts' fields and addresses are no words.
 _NO_WORDS = re.compile(r"\$\$.*?\$\$|\$[^$]*\$|`[^`]*`|%\{[^}]*\}|https?://\S*", re.DOTALL)
@@ -53,13 +59,29 @@ def _faults(where: str, text: str) -> Iterator[str]:
 
 @pytest.mark.parametrize(
     ("page", "state"),
-    # The notes are the same for every machine.
-    [(page, state) for page in PAGES for state in STATES_TESTED if page != NOTES or not state],
+    [
+        # The notes are the same for every machine.
+        *((page, state) for page in PAGES for state in STATES_TESTED if page != NOTES or not state),
+        ("pages/2_Coefficients.py", "outside the model"),
+    ],
 )
 def test_what_a_visitor_reads_keeps_to_the_rules(page: str, state: str) -> None:
     found = once(toured(page, STATES[state])).values()
     assert len(found) > 30
     assert [fault for where, text in found for fault in _faults(where, text)] == []
+
+
+def test_the_list_has_the_cases_of_its_link() -> None:
+    cases, problems = computed(address.read(STATES["cases"]).cases)
+    assert [shown.case.name for shown in cases] == ["Wide", "Hot"]
+    assert problems == []
+
+
+def test_a_mirror_image_of_a_mode_is_not_mentioned_outside_the_view() -> None:
+    values = address.read(STATES["small"]).values
+    shown = computed_from(values)
+    (mirrored,) = np.flatnonzero(shown.locus(True).here.eigenvalues.imag < 0.0)
+    assert f"mode {mirrored + 1} " not in root_locus.beyond(shown.locus(True), SI)
 
 
 @pytest.mark.parametrize(

@@ -147,7 +147,7 @@ def test_a_long_signal_is_an_envelope_and_a_zoom_shows_its_turns(app: AppPage) -
 def test_a_run_up_and_down_shows_the_hysteresis_before_the_limit_cycles(app: AppPage) -> None:
     app.open("Orbits", tab="Run-up", C="63")
     main = app.page.get_by_test_id("stMain")
-    expect(main.get_by_text("Here will stand the journal's amplitude")).to_be_visible()
+    expect(main.get_by_text("The charts will show the journal's amplitude")).to_be_visible()
     expect(main.get_by_text("Why whirl shows late")).to_be_visible()
     press(app, "Run up and down")
     expect(
@@ -155,7 +155,7 @@ def test_a_run_up_and_down_shows_the_hysteresis_before_the_limit_cycles(app: App
     ).to_be_visible()
     (names,) = app.traces()
     assert {"speed rising ▸", "speed falling ◂"} <= set(names)
-    expect(main.get_by_text("From the onset, whirl of one size")).to_be_visible()
+    expect(main.get_by_text("From the onset on, whirl of a constant size")).to_be_visible()
     press(app, "Follow the limit cycles")
     (names,) = app.traces()
     assert "limit cycle, unstable" in names
@@ -168,5 +168,5 @@ def test_a_run_up_and_down_shows_the_hysteresis_before_the_limit_cycles(app: App
 def test_every_tab_says_what_will_come(app: AppPage) -> None:
     app.open("Orbits", tab="Limit cycles")
     expect(
-        app.page.get_by_text(re.compile("Here will stand their size over speed.*15 s"))
+        app.page.get_by_text(re.compile("The chart will show the size of these cycles.*15 s"))
     ).to_be_visible()

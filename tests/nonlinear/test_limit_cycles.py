@@ -135,7 +135,7 @@ def test_floquet_agrees_with_the_turns_of_the_branch(subcritical, supercritical)
 REASONS = [
     "reached the highest speed asked for",
     "reached the lowest speed asked for",
-    "came to within 3% of the clearance to the wall",
+    "came to within 3 % of the clearance to the wall",
     "shrank to rest at another onset",
 ]
 LOST = "was lost: Newton's method finds no next cycle, however near"
@@ -221,7 +221,7 @@ def test_a_branch_reaches_the_bound_or_names_why_it_ended(machine):
     as_said = {
         "reached the highest speed asked for": ratio[-1] == pytest.approx(1.5),
         "reached the lowest speed asked for": ratio[-1] == pytest.approx(0.5),
-        "came to within 3% of the clearance to the wall": branch.eccentricity_ratio[-1] > 0.97,
+        "came to within 3 % of the clearance to the wall": branch.eccentricity_ratio[-1] > 0.97,
         "shrank to rest at another onset": branch.amplitude[-1] < 0.1 * branch.hopf.clearance,
     }
     assert list(as_said) == REASONS

@@ -93,6 +93,7 @@ EQUILIBRIUM: tuple[Result, ...] = (
         "Definition",
         r"\sigma = \frac{\mu\Omega L R}{4F_o}\left(\frac{L}{C}\right)^2", _sommerfeld,
         "The modified one. The classical Sommerfeld number is S = σ(D/L)²/π.", modelled=False,
+        boundless="infinite",
     ),
     Result(
         "eccentricity_ratio", "Eccentricity ratio ε", "number",

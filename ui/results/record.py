@@ -24,10 +24,10 @@ class Result:
     `equation` is LaTeX, `number` where it stands in the notes, `cites` that equation of the notes
     where `equation` follows from it, `filled` its right-hand side with
     this machine's SI values, `remark` what the equation does not say, `nought` words for zero,
-    `unknown` for no number. `modelled` is false of what follows from the inputs without the film's
-    model, `at_onset` true of what holds at the onset of whirl. `source` names the result among
-    those of the film, where another film has another equation; `solved` returns what was solved
-    where that depends on the machine.
+    `unknown` for no number, `boundless` for an infinite one. `modelled` is false of what follows
+    from the inputs without the film's model, `at_onset` true of what holds at the onset of whirl.
+    `source` names the result among those of the film, where another film has another equation;
+    `solved` returns what was solved where that depends on the machine.
     """
 
     key: str
@@ -40,6 +40,7 @@ class Result:
     remark: str = ""
     nought: Callable[[Computed], str] | None = None
     unknown: str = "none"
+    boundless: str = "no limit"
     modelled: bool = True
     cites: str = ""
     at_onset: bool = False
@@ -56,7 +57,7 @@ class Result:
         if math.isnan(value):
             return self.unknown
         if math.isinf(value):
-            return "no limit"
+            return self.boundless
         if value == 0.0 and self.nought:
             return self.nought(computed)
         unit = self.unit(units)

@@ -179,14 +179,12 @@ def _verdict(share: float) -> str:
 
 
 def _percent(share: float) -> str:
-    return f"{100.0 * share:.2g} %"
+    return f"{digits(float(f'{100.0 * share:.2g}'))} %"
 
 
 def _unit(unit: Unit) -> str:
-    """Return the LaTeX of a unit; KaTeX has no raised three of its own."""
-    if unit.name == "-":
-        return ""
-    return r"\ \text{" + unit.name.replace("³", "}^3\\text{") + "}"
+    """Return the LaTeX of a unit."""
+    return "" if unit.name == "-" else rf"\ \text{{{unit.name}}}"
 
 
 def _bracket(rows: list[list[str]]) -> str:

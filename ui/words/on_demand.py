@@ -35,9 +35,10 @@ from ui.words.citation import capital, without_load
 T = TypeVar("T")
 
 _CYCLES = (
-    "From the onset, whirl of one size can go on at each speed: a limit cycle. Here will stand "
-    "their size over speed, without imbalance: stable cycles, on which a machine stays, unstable "
-    "ones, beyond which a disturbance grows, and the fold where both end. About 15 s."
+    "From the onset on, whirl of a constant size is possible at each speed: a limit cycle. The "
+    "chart will show the size of these cycles over speed, without imbalance: stable cycles, on "
+    "which a machine stays, unstable ones, beyond which a disturbance grows, and the fold where "
+    "both end. It takes about 15 s."
 )
 _THREE = (
     "The onset comes three ways: by the notes' equations, by eigenvalues, and measured on the "
@@ -142,7 +143,7 @@ def say_cycles(branch: Bifurcation, units: Units) -> None:
             share = digits((1.0 - branch.folds.min() / found.speed) * 100.0)
             where = (
                 f" Above {fold}, {share} % below the onset, a large enough disturbance makes the "
-                "machine whirl permanently, and as the speed falls the whirl persists to there."
+                "machine whirl permanently; as the speed falls, the whirl persists down to there."
             )
         st.warning(f"Subcritical at {at}: {rate} ({error}).{where}")
     else:

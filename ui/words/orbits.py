@@ -239,6 +239,11 @@ def _trend(found: Release) -> float:
     return found.last_size / earlier if earlier > 0.0 else 1.0
 
 
+def _follows_the_imbalance(found: Release) -> bool:
+    at_rest = found.last_size < _AT_REST * found.clearance
+    return not at_rest and found.spectrum.synchronous > 0.5 * found.last_size
+
+
 def _outcome(found: Release, units: Units) -> str:
     C, seen, turns = found.clearance, found.spectrum, f"{found.revolutions[-1]:.0f} revolutions"
     size = f"{found.last_size / C:.3g} C from equilibrium"
@@ -251,7 +256,7 @@ def _outcome(found: Release, units: Units) -> str:
         )
     if found.last_size < _AT_REST * C:
         return f"Within {turns} the journal returns to equilibrium."
-    if seen.synchronous > 0.5 * found.last_size:
+    if _follows_the_imbalance(found):
         return f"After {turns} the journal follows the imbalance, up to {size}; {thin}."
     low, high = _STAYS
     way = "decaying" if _trend(found) < low else "growing" if _trend(found) > high else "going on"
@@ -264,9 +269,10 @@ def _theory(computed: Computed, found: Release) -> str:
         return "The linear theory has no oscillating mode here."
     if not computed.is_stable:
         said = f"The linear theory: unstable, a small whirl grows at {rate} 1/s"
-        if not _is_whirling(found) and found.spectrum.synchronous > 0.0:
+        if not _is_whirling(found) and _follows_the_imbalance(found):
             return (
-                f"{said}. It treats whirl and imbalance separately; here imbalance suppresses it."
+                f"{said}. It treats whirl and imbalance separately; here the imbalance suppresses "
+                "the whirl."
             )
         return f"{said}."
     said = f"The linear theory: stable, a small whirl decays at {rate} 1/s"
@@ -294,7 +300,7 @@ def _measured(computed: Computed, found: Release, units: Units) -> Text:
         "Whirl ratio, linear": "none" if math.isnan(predicted) else digits(predicted),
         "Whirl's circle": amount(units.amplitude, seen.whirl),
         "1× circle": amount(units.amplitude, seen.synchronous),
-        "Ends within": f"{found.last_size / C:.3g} C of equilibrium",
+        "Ends within": f"{digits(float(f'{found.last_size / C:.3g}'))} C of equilibrium",
     }
     lines = (rows, ["--:"] * len(rows), rows.values())
     return Text("\n".join(f"| {' | '.join(line)} |" for line in lines))

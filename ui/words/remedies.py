@@ -131,6 +131,8 @@ def answer(computed: Computed, key: str, wanted: Wanted, units: Units) -> str:
         return begin + _met(computed, found, axis, now, units)
     low, high = (float(units.speed.of(end)) for end in found.reachable)
     ends = f"{axis.text(axis.low)} and {axis.text(axis.high)}"
+    if math.isinf(low):
+        return f"{begin}With no {axis.words.lower()} between {ends} does this machine whirl."
     if low == high:
         return f"{begin}{axis.words} does not affect the onset of this machine."
     reached = f"{digits(low)} {units.speed.name} and {_speed_word(high, units)}"

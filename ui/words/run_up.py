@@ -84,9 +84,9 @@ def ask_run(page: Page, asked: AskRun) -> RunUp | None:
     job = Job(
         "Run up and down", "orbits_run_up",
         f"The speed rises from {ends} within {digits(asked.time)} s, by {rate} each second, "
-        "and falls again as slowly, in as many revolutions. Here will stand the "
-        "journal's amplitude over speed both ways, and the spectra. "
-        f"The slower, the longer it takes to compute: this about {seconds} s.",
+        "and falls again as slowly, in as many revolutions. The charts will show the "
+        "journal's amplitude over speed both ways, and its spectra. A slower run takes longer to "
+        f"compute; this one takes about {seconds} s.",
     )  # fmt: skip
     request = (asked.machine, asked.lowest, asked.highest, asked.revolutions)
     return on_demand(

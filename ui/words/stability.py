@@ -102,9 +102,10 @@ def bare(computed: Computed) -> Text | None:
     """Return that the closed forms drawn do not give the onset, where they do not."""
     if not (neglected := _neglected(computed)):
         return None
+    marked = 0.0 < computed.onset.speed <= computed.top_speed
     return Text(
         f"The closed forms, drawn dashed, neglect {' and '.join(neglected)}, so they do not give "
-        "this machine's onset. The vertical line marks it.",
+        f"this machine's onset.{' The vertical line marks it.' if marked else ''}",
         "info",
     )
 
@@ -166,8 +167,9 @@ def balance(computed: Computed, units: Units) -> str:
     here, running = energies(computed).here, amount(units.speed, computed.speed)
     if computed.onset.speed == 0.0:
         return (
-            f"{capital(without_load(computed))}, and the whirl is infinitely slow: damping "
-            f"dissipates nothing, and at {running} as at any speed the orbit grows."
+            f"{capital(without_load(computed))}: the onset lies at zero speed, where the whirl is "
+            f"infinitely slow and damping dissipates nothing. At {running}, as at any speed, the "
+            "orbit grows."
         )
     ratio = float((here.film_loss + here.disk_loss) / here.fed_in)
     whirl = amount(units.speed, computed.onset.whirl_frequency)
