@@ -226,15 +226,7 @@ def _onset_line(shown: OverSpeed) -> tuple[list[Item], list[Item]]:
 def _orbit(name: str, phasors: ComplexArray, colour: str, motion: ComplexArray) -> list[Trace]:
     """Return one orbit with an arrow at its end."""
     X, Y = (np.real(phasor * motion) for phasor in phasors)
-    arrow = {
-        "type": "scatter", "mode": "markers", "x": Y[-2:], "y": X[-2:], "name": name,
-        "showlegend": False, "hoverinfo": "skip",
-        "marker": {
-            "symbol": "arrow", "angleref": "previous", "size": np.array([0.1, 15.0]),
-            "color": colour,
-        },
-    }  # fmt: skip
-    return [style.line(Y, X, name, colour), arrow]
+    return [style.line(Y, X, name, colour), style.arrowhead(Y[-2:], X[-2:], name, colour)]
 
 
 _ZERO: Item = {

@@ -156,6 +156,18 @@ def mark(x: ArrayLike, y: ArrayLike, name: str, colour: str = HERE, **extra: Any
     }  # fmt: skip
 
 
+def arrowhead(x: ArrayLike, y: ArrayLike, name: str, colour: str, size: float = 15.0) -> Trace:
+    """Return an arrowhead at the second of two points, which points away from the first."""
+    return {
+        "type": "scatter", "mode": "markers", "x": np.asarray(x), "y": np.asarray(y), "name": name,
+        "showlegend": False, "hoverinfo": "skip",
+        "marker": {
+            "symbol": "arrow", "angleref": "previous", "size": np.array([0.1, size]),
+            "color": colour,
+        },
+    }  # fmt: skip
+
+
 def chart(traces: Iterable[Trace], x: Axis, y: Axis, **layout: Any) -> Chart:
     """Return a chart of traces over two axes; `layout` adds to or replaces what charts share."""
     return {"data": list(traces), "layout": {**_LAYOUT, "xaxis": x, "yaxis": y, **layout}}

@@ -115,7 +115,10 @@ function keepZoom(chart, { layout }) {
 }
 
 function times(factor, holder, names) {
-  for (const name of names) if (typeof holder?.[name] === "number") holder[name] *= factor;
+  for (const name of names) {
+    if (typeof holder?.[name] === "number") holder[name] *= factor;
+    else if (Array.isArray(holder?.[name])) holder[name] = holder[name].map((one) => factor * one);
+  }
 }
 
 // Enlarges type by a factor, with what must have room for it, and lines and marks by half of that.

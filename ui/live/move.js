@@ -9,7 +9,8 @@
 
 // Shown on hovering only, and the pointer is on a slider.
 const HOVERED = new Set(["customdata", "hovertemplate"]);
-const TRACE = new Set(["x", "y", "text", "name", ...HOVERED]);
+const TRACE = new Set(["x", "y", "text", "name", "marker", ...HOVERED]);
+const MARKER = new Set(["angle"]);
 const NOTE = new Set(["x", "y", "ax", "ay", "text"]);
 const SHAPE = new Set(["x0", "x1", "y0", "y1"]);
 const SLIDER = new Set(["steps", "active"]);
@@ -39,7 +40,7 @@ function each(before, now, known, act) {
   need((before?.length ?? 0) === (now?.length ?? 0));
   now?.forEach((item, i) => {
     const changed = changes(before[i], item, known);
-    if (changed.length > 0) act(item, i, changed);
+    if (changed.length > 0) act(item, i, changed, before[i]);
   });
 }
 
@@ -82,16 +83,38 @@ function path(points, end) {
   return pieces.filter((piece) => piece.length > 0).map((piece) => `M${piece.join("L")}${end}`).join("");
 }
 
-function moveTrace(gd, trace, i, changed) {
+// A fill to zero goes from both ends of the line to the axis, and has no gaps.
+function filled(points, fill, zero) {
+  if (fill === "toself") return path(points, "Z");
+  need(points.every((point) => point.every(Number.isFinite)));
+  const [first, last] = [points[0], points.at(-1)];
+  return path([[last[0], zero], [first[0], zero], ...points], "");
+}
+
+// The direction of each point from the one before, as seen, in degrees.
+function headings(points) {
+  return points.map(([x, y], k) => (k ? (Math.atan2(y - points[k - 1][1], x - points[k - 1][0]) * 180) / Math.PI : 0));
+}
+
+// By how many degrees each marker is turned from where Plotly drew it.
+function turns({ marker }, trace, points, drawn) {
+  const angles = ({ angle }) => (typeof angle === "object" ? numbers(angle) : points.map(() => angle ?? 0));
+  const [now, then] = marker.angleref === "previous" ? [headings(points), headings(drawn)] : [angles(trace.marker ?? {}), angles(marker)];
+  return points.map((_, k) => now[k] - then[k]);
+}
+
+function moveTrace(gd, trace, i, changed, before) {
   const { uid, visible, ...full } = gd._fullData[i];
   if (visible !== true) return;
   need(!trace.meta?.envelope); // what is drawn is not what is given
-  need(trace.type === "scatter" && (!trace.fill || trace.fill === "toself") && trace.line?.shape !== "spline");
+  need(trace.type === "scatter" && ["toself", "tozeroy", undefined].includes(trace.fill) && trace.line?.shape !== "spline");
+  if (changed.includes("marker")) changes(before.marker, trace.marker, MARKER);
   const label = changed.includes("name") && gd.querySelector(`.legendtext[data-unformatted="${full.name}"]`);
   if (label) say(label, trace.name);
   if (!changed.some((name) => !HOVERED.has(name) && name !== "name")) return;
   const [xs, ys, [x, y]] = [numbers(trace.x), numbers(trace.y), [axis(gd, full.xaxis), axis(gd, full.yaxis)]];
-  const points = Array.from(xs, (value, k) => [x.d2p(value), y.d2p(ys[k])]);
+  const pixels = (across, up) => Array.from(across, (value, k) => [x.d2p(value), y.d2p(up[k])]);
+  const points = pixels(xs, ys);
   const seen = points.filter((point) => point.every(Number.isFinite));
   const group = gd.querySelector(`.scatterlayer .trace${uid}`);
   if (full.mode.includes("lines")) {
@@ -99,15 +122,16 @@ function moveTrace(gd, trace, i, changed) {
     need(line || seen.length === 0);
     line?.setAttribute("d", path(points, ""));
     rest.forEach((piece) => piece.setAttribute("d", ""));
-    group.querySelector(".js-fill")?.setAttribute("d", path(points, "Z"));
+    group.querySelector(".js-fill")?.setAttribute("d", filled(points, trace.fill, y.d2p(0)));
   }
   for (const [part, drawn] of [["markers", ".point"], ["text", ".textpoint text"]]) {
     if (!full.mode.includes(part)) continue;
     const nodes = group.querySelectorAll(drawn);
     need(nodes.length === seen.length && nodes.length === points.length);
+    const turned = part === "markers" && turns(full, trace, points, pixels(full.x, full.y));
     nodes.forEach((node, k) => {
-      const turned = (node.getAttribute("transform") ?? "").replace(/translate\([^)]*\)/, "");
-      node.setAttribute("transform", `translate(${points[k]})${turned}`);
+      const text = (node.getAttribute("transform") ?? "").replace(/translate\([^)]*\)/, "");
+      node.setAttribute("transform", `translate(${points[k]})${turned ? `rotate(${turned[k]})` : text}`);
       if (part === "text" && changed.includes("text")) say(node, trace.text[k]);
     });
   }

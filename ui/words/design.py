@@ -5,6 +5,7 @@ the core names them by the fields of its records.
 """
 
 import math
+from contextlib import suppress
 from functools import lru_cache
 
 import numpy as np
@@ -68,7 +69,10 @@ def name(machine: Machine, key: str) -> str:
 
 
 def quantity(key: str, machine: Machine, units: Units) -> Quantity:
-    """Return an input as an axis about the machine's value, where that gives valid machines."""
+    """Return an input as an axis about the machine's value, where that gives valid machines.
+
+    Its ends are round, so that it seldom changes while the input is dragged.
+    """
     if key not in INPUTS:
         return _bore_quantity(key, machine, units)
     item, is_log = INPUTS[key], key in _BY_RATIO
@@ -77,12 +81,19 @@ def quantity(key: str, machine: Machine, units: Units) -> Quantity:
         values = values_of(machine, _SPEED, _SPEED)
         now = values[key]
         about = now if isinstance(now, float) and 0.0 < now < math.inf else usual(key, values)
+        about = _round(about)
         low, high = max(low, about / _REACH if is_log else 0.0), min(high, about * _REACH)
     low, high = (item.unit(SI).to_si(end) for end in (low, high))
     least, most = _valid(key, machine)
     return Quantity(
         item.label, item.symbol, item.unit(units), max(low, least), min(high, most), log=is_log
     )
+
+
+def _round(value: float) -> float:
+    """Return the nearest of 1, 3, 10 … to a number, by ratio."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return min((power, 3.0 * power, 10.0 * power), key=lambda one: abs(math.log(value / one)))
 
 
 def _bore_quantity(key: str, machine: Machine, units: Units) -> Quantity:
@@ -175,7 +186,11 @@ def coarse_map(computed: Computed, x: str, y: str, units: Units) -> design.Onset
     if computed.onset.method != "closed form" or "cs" in {x, y}:
         raise ValueError("the map is computed when the slider is released")
     machine = computed.machine
-    return _coarse_map(machine, *(_axis(key, machine, units) for key in (x, y)))
+    axes = [_axis(key, machine, units) for key in (x, y)]
+    with suppress(ValueError):
+        # Its own values of the two inputs do not matter: while one is dragged the map stays.
+        machine = variation.varied(machine, {field: low for field, low, *_ in axes})
+    return _coarse_map(machine, *axes)
 
 
 @lru_cache(maxsize=8)
