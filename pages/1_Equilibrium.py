@@ -84,7 +84,7 @@ def forces(page: Page) -> None:
     left, right = st.columns(2)
     with left:
         page.chart(
-            lambda c: film.forces(c.force_curves, c.forces, units), "forces",
+            lambda c: film.forces(c.force_curves, c.forces, c.sweep, c.point, units), "forces",
             alt="Resultant, tangential and radial force of the film over eccentricity ratio.",
             caption=cited(
                 "At the running speed: in equilibrium the resultant equals the load.",
@@ -93,10 +93,11 @@ def forces(page: Page) -> None:
         )  # fmt: skip
     with right:
         page.chart(
-            lambda c: film.force_balance(c.forces, c.point, units), "balance",
+            lambda c: film.force_balance(c.forces, c.sweep, c.point, units), "balance",
             alt="Right-angled triangle of load, tangential and radial film force.",
             caption=cited(
-                "The forces close a triangle; φ lies between load and radial force.",
+                "The forces close a triangle; φ lies between load and radial force. Grey: its "
+                "corner at other speeds.",
                 page.computed, "attitude", rotor="Eq. 5.4",
             ),
         )  # fmt: skip

@@ -206,11 +206,13 @@ def solved(page: Page, vary: str, wanted: remedy.Wanted) -> None:
             remedy.solution(c, vary, wanted.target(c), units),
             design.quantity(vary, c.machine, units),
             (design.value_of(c.machine, vary), c.onset.speed),
+            c.speed,
             units,
         ),
         "solution",
         alt="Onset speed over one input, with the onset wanted and the values that give it.",
-        caption="Onset with one input varied, all others unchanged; every crossing is solved for.",
+        caption="Onset with one input varied, all others unchanged; every crossing is solved for. "
+        "A running speed under the pointer is stable where the onset lies above its line.",
     )
 
 

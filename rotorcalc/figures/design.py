@@ -9,7 +9,7 @@ import numpy as np
 
 from rotorcalc.arrays import Array
 from rotorcalc.design import OnsetSolution, Sensitivities, Sensitivity
-from rotorcalc.figures import style
+from rotorcalc.figures import cursor, style
 from rotorcalc.figures.stability import LEGEND, MARGIN, near
 from rotorcalc.figures.style import Axis, Chart, Trace, titled
 from rotorcalc.figures.text import amount
@@ -124,11 +124,12 @@ def moving(found: Sensitivities) -> tuple[Sensitivity, ...]:
 
 
 def solution(
-    found: OnsetSolution, quantity: Quantity, here: tuple[float, float], units: Units
+    found: OnsetSolution, quantity: Quantity, here: tuple[float, float], speed: float, units: Units
 ) -> Chart:
     """Return the onset over one input, with the target, the values that meet it, and the machine.
 
-    `here` is the machine's value of the input and its onset, in SI.
+    `here` is the machine's value of the input and its onset, in SI, `speed` its running speed
+    [rad/s]. A running speed is marked across the chart: stable where the onset lies above it.
     """
     unit = units.speed
     x, now = quantity.axis(), float(unit.of(here[1]))
@@ -151,13 +152,8 @@ def solution(
         # Clear of the axis, of which an onset of zero would cross its words.
         height = max(now, 0.04 * top) if arrow else now
         traces += this_machine(x, y, quantity.place(here[0]), height, arrow)
-    return style.chart(
-        traces,
-        x,
-        y,
-        legend=LEGEND,
-        margin=MARGIN,
-    )
+    chart = style.chart(traces, x, y, legend=LEGEND, margin=MARGIN)
+    return cursor.over_speed(chart, speed, units, axis="y")
 
 
 def _round_numbers(low: float, high: float) -> Array:

@@ -8,7 +8,7 @@ import numpy as np
 from rotorcalc.analysis import Sweep
 from rotorcalc.arrays import BoolArray
 from rotorcalc.coefficients import FilmForces, PressureField
-from rotorcalc.figures import plane, style, text
+from rotorcalc.figures import cursor, plane, style, text
 from rotorcalc.figures.plane import Part
 from rotorcalc.figures.style import Axis, Chart, Trace
 from rotorcalc.units import Units
@@ -20,6 +20,7 @@ _THICKNESS, _PRESSURE, _PRESSURE_FILL = style.BLUE, style.PURPLE, "rgba(176,86,1
 _LOAD = style.symbols("F_o")
 _SOFT = "rgba(127,127,127,0.8)"
 _CAVITATED = "rgba(127,127,127,0.12)"
+_UP_TO_THE_TOP = "up to the top speed"
 
 
 def film_around(field: PressureField, point: Sweep, units: Units) -> Chart:
@@ -86,7 +87,9 @@ def pressure_map(field: PressureField, point: Sweep, units: Units) -> Chart:
     return style.chart(traces, x, y, height=HEIGHT, showlegend=False, **notes)
 
 
-def forces(curves: FilmForces, at: FilmForces, units: Units) -> Chart:
+def forces(
+    curves: FilmForces, at: FilmForces, sweep: Sweep, point: Sweep, units: Units
+) -> Chart:  # fmt: skip
     """Return the film's forces over ε at the running speed (Fig. 5.2), and the load on them."""
     eps, load = curves.eccentricity_ratio, float(units.force.of(at.total))
     within = units.force.of(curves.total[(eps > 0.02) & (eps < 0.8)])
@@ -116,11 +119,15 @@ def forces(curves: FilmForces, at: FilmForces, units: Units) -> Chart:
         ),
         *style.here(e, load, x, y),
     ]
-    return style.chart(traces, x, y, height=HEIGHT)
+    chart = style.chart(traces, x, y, height=HEIGHT)
+    return cursor.over_film(chart, sweep, point, units, "ε")
 
 
-def force_balance(at: FilmForces, point: Sweep, units: Units) -> Chart:
-    """Return load and film forces as a closed triangle, in units of the load (Eq. 5.4)."""
+def force_balance(at: FilmForces, sweep: Sweep, point: Sweep, units: Units) -> Chart:
+    """Return load and film forces as a closed triangle, in units of the load (Eq. 5.4).
+
+    Over speed its corner moves along a half circle over the load: the angle there is right.
+    """
     x = style.axis(f"Force along {style.symbols('Y')}, in {_LOAD} →", -0.55, 0.95, dtick=0.5)
     y = style.axis(f"← Force along {style.symbols('X')}, in {_LOAD}", 1.15, -0.25, dtick=0.5)
     load = float(at.total)
@@ -138,6 +145,7 @@ def force_balance(at: FilmForces, point: Sweep, units: Units) -> Chart:
     hidden: Part = {"showlegend": False, "hoverinfo": "skip"}
     traces = [
         plane.line(half_circle, "any speed", _SOFT, width=1.4, dash="dot", **hidden),
+        _corners(sweep, units),
         *(
             plane.line(
                 [tail, tip], f"{name} = {text.amount(units.force, size)}", colour,
@@ -145,10 +153,24 @@ def force_balance(at: FilmForces, point: Sweep, units: Units) -> Chart:
             )
             for tail, tip, name, colour, size in sides
         ),
+        *(
+            style.arrowhead((tail[1], tip[1]), (tail[0], tip[0]), name, colour)
+            for tail, tip, name, colour, _ in sides
+        ),
         style.mark(corner[1], corner[0], "running speed", **hidden),
     ]  # fmt: skip
-    arrows = [plane.arrow(tail, tip, colour) for tail, tip, _, colour, _ in sides]
-    return plane.chart(traces, x, y, height=HEIGHT, annotations=arrows, showlegend=True)
+    chart = plane.chart(traces, x, y, height=HEIGHT, showlegend=True)
+    return cursor.over_speed(chart, point.speed, units, along=_UP_TO_THE_TOP)
+
+
+def _corners(sweep: Sweep, units: Units) -> Trace:
+    """Return the triangle's corner over the speeds of a sweep, with the speed at each place."""
+    phi, speed = sweep.attitude_angle, units.speed.of(sweep.speed)
+    # In equilibrium the radial force is −Fₒ cos φ.
+    places = np.cos(phi)[:, None] * np.stack([np.cos(phi), np.sin(phi)], axis=-1)
+    hover = f"%{{customdata:.0f}} {units.speed.name}<extra></extra>"
+    extra: Part = {"customdata": speed, "hovertemplate": hover, "showlegend": False}
+    return plane.line(places, _UP_TO_THE_TOP, _SOFT, width=3.5, **extra)
 
 
 def _over_theta(field: PressureField, point: Sweep, units: Units, *, level: float) -> Part:

@@ -92,6 +92,7 @@ def test_a_speed_under_the_pointer_is_marked_in_all_charts_and_drawn(app: AppPag
 @pytest.mark.parametrize(
     ("page", "tab", "key", "charts"),
     [
+        ("Equilibrium", "Forces", "forces", 2),
         ("Equilibrium", "Losses and flow", "power_loss", 4),
         ("Coefficients", "Against speed", "stiffness_speed", 2),
         ("Coefficients", "Against σ", "k_σ", 2),

@@ -198,12 +198,14 @@ def test_a_chart_script_that_fails_to_load_is_reported_on_the_page(stranger: App
 
 @pytest.mark.parametrize("page", [
     "Machine", "Equilibrium", "Coefficients", "Stability", "Root locus", "Response",
+    "Equilibrium, Film and pressure",
 ])  # fmt: skip
 def test_a_key_is_answered_before_the_page_runs_and_the_run_changes_nothing(
     app: AppPage, page: str
 ) -> None:
     """Lines, points, notes, shapes, words and numbers stand where they stood before the run."""
-    app.open(page)
+    name, _, tab = page.partition(", ")
+    app.open(name, **({"tab": tab} if tab else {}))
     numbers = app.metrics()
     app.page.evaluate(_HOLD_BACK)
     app.slider("Radial clearance").press("ArrowRight")
@@ -243,7 +245,7 @@ _HOLD_BACK = """() => {
 
 
 @pytest.mark.parametrize("page", ["Machine", *(f"{page}, {tab}" for page, tabs in {
-    "Equilibrium": ["Locus", "Losses and flow"],
+    "Equilibrium": ["Locus", "Forces", "Losses and flow"],
     "Coefficients": ["Against speed", "Against ε", "Against σ", "Added mass"],
     "Stability": ["Threshold", "Figures of the notes"],
     "Root locus": ["Complex plane", "Mode"],
@@ -257,6 +259,45 @@ def test_a_dragged_slider_moves_charts_in_place(app: AppPage, page: str) -> None
         moved = app.page.evaluate(_MOVED, [key, value])
         assert moved
         assert [chart for chart, in_place in moved.items() if not in_place] == []
+
+
+@pytest.mark.parametrize(
+    ("page", "key", "rpm"),
+    [("Equilibrium, Forces", "balance", "1500"), ("Response, Orbits", "orbits", "7500")],
+)
+def test_an_arrowhead_turns_as_plotly_would_draw_it(
+    app: AppPage, page: str, key: str, rpm: str
+) -> None:
+    """By 17° and 39°: a chart that is moved in place, and drawn again when the slider rests."""
+    name, _, tab = page.partition(", ")
+    app.open(name, tab=tab)
+    chart = app.page.locator(f".st-key-chart_{key} .live-chart")
+    before = chart.locator(_HEADS).evaluate_all(_PLACES)
+    app.page.evaluate(_HELD, rpm)
+    expect(chart).to_have_attribute("data-moved", "")
+    moved = chart.locator(_HEADS).evaluate_all(_PLACES)
+    app.page.evaluate("() => document.querySelector('#held').remove()")
+    expect(chart).not_to_have_attribute("data-moved", "")
+    drawn = chart.locator(_HEADS).evaluate_all(_PLACES)
+    assert moved != pytest.approx(before, abs=2.0)
+    assert moved == pytest.approx(drawn, abs=1.0)
+
+
+_HEADS = ".scatterlayer .point"
+# Places on their outlines on the screen: the box of what is turned is not its own.
+_PLACES = """points => points.flatMap(point => [0, 1, 2, 3].flatMap(part => {
+  const place = point.getPointAtLength(point.getTotalLength() * part / 4);
+  const { x, y } = place.matrixTransform(point.getScreenCTM());
+  return [x, y];
+}))"""
+# A preview at a running speed, while a slider is held, so that Plotly draws nothing that was moved.
+_HELD = """async rpm => {
+  const held = document.createElement('div');
+  Object.assign(held, { className: 'live-slider', id: 'held', slider: { rest() {} } });
+  held.dataset.busy = '';
+  document.body.append(held);
+  await window.rotorcalcPreview.show('rpm', rpm);
+}"""
 
 
 def test_an_equation_is_as_high_in_a_preview_as_on_the_page(app: AppPage) -> None:

@@ -62,8 +62,8 @@ CHARTS: dict[str, Callable[[SimpleNamespace, Units], Chart]] = {
     "thinnest": lambda r, u: place.minimum_film_thickness(r.sweep, r.point, u),
     "film": lambda r, u: film.film_around(r.field, r.point, u),
     "pressure": lambda r, u: film.pressure_map(r.field, r.point, u),
-    "forces": lambda r, u: film.forces(r.force_curves, r.forces, u),
-    "balance": lambda r, u: film.force_balance(r.forces, r.point, u),
+    "forces": lambda r, u: film.forces(r.force_curves, r.forces, r.sweep, r.point, u),
+    "balance": lambda r, u: film.force_balance(r.forces, r.sweep, r.point, u),
 }
 OUTLINE = plane.arc(0.0, 2.0 * math.pi, 1.0)
 UNITS = [pytest.param(SI, id="SI"), pytest.param(US, id="US")]
@@ -219,6 +219,24 @@ def test_balance_is_a_right_angled_triangle_over_the_load(case: str) -> None:
     x, y = _mark(CHARTS["balance"](r, SI))
     assert math.hypot(x, y - 0.5) == pytest.approx(0.5)
     assert math.atan2(x, y) == pytest.approx(float(r.point.attitude_angle))
+
+
+@pytest.mark.parametrize("case", LOADED)
+def test_the_corner_of_the_balance_at_another_speed_is_that_of_its_forces(case: str) -> None:
+    r = CASES[case]
+    chart = CHARTS["balance"](r, SI)
+    along = chart["layout"]["meta"]["cursor"]["along"]
+    (line,) = (trace for trace in chart["data"] if trace["name"] == along)
+    other = _at(r, speed=float(r.sweep.speed[20]))
+    assert line["customdata"][20] == pytest.approx(other.point.speed / RPM)
+    corner = line["x"][20], line["y"][20]
+    assert corner == pytest.approx(_mark(CHARTS["balance"](other, SI)), abs=1e-9)
+
+
+def _at(r: SimpleNamespace, speed: float) -> SimpleNamespace:
+    point = analyse(r.point.machine, speed)
+    forces = film_forces(r.point.machine, speed, sommerfeld=point.sommerfeld)
+    return SimpleNamespace(point=point, forces=forces, sweep=r.sweep)
 
 
 @pytest.mark.parametrize(

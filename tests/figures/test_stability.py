@@ -65,7 +65,7 @@ def _map(c: Computed, units: Units) -> Chart:
 def _solution(c: Computed, units: Units) -> Chart:
     found = design.solve_onset(c.machine, vary="temperature", target=1.2 * c.speed, low=0, high=150)
     axis = moves.quantity("T", c.machine, units)
-    return what_if.solution(found, axis, (c.machine.temperature, c.onset.speed), units)
+    return what_if.solution(found, axis, (c.machine.temperature, c.onset.speed), c.speed, units)
 
 
 CHARTS: dict[str, Callable[[Computed, Units], Chart]] = {
@@ -285,7 +285,7 @@ def test_a_machine_beyond_its_axis_is_named_at_the_edge() -> None:
     computed = computed_from(SHEET | {"load": 0.0})
     axis = moves.quantity("load", computed.machine, SI)
     found = remedies.solution(computed, "load", 1.2 * computed.speed, SI)
-    chart = what_if.solution(found, axis, (0.0, 0.0), SI)
+    chart = what_if.solution(found, axis, (0.0, 0.0), computed.speed, SI)
     [words] = [trace for trace in chart["data"] if trace["name"].startswith("this machine")]
     assert words["text"] == ["← this machine"]
 
@@ -304,7 +304,7 @@ def _wanted(computed: Computed, margin: float = 20.0) -> remedies.Wanted:
 def test_the_solutions_stand_on_the_wanted_line() -> None:
     computed, axis = computed_from(SHEET), moves.quantity("C", computed_from(SHEET).machine, SI)
     found = remedies.solution(computed, "C", 1.2 * computed.speed, SI)
-    chart = what_if.solution(found, axis, (60e-6, computed.onset.speed), SI)
+    chart = what_if.solution(found, axis, (60e-6, computed.onset.speed), computed.speed, SI)
     [mark] = [trace for trace in chart["data"] if trace["name"] == "solution"]
     assert mark["x"] == pytest.approx([100.44, 459.40], rel=1e-4)
     assert mark["y"] == pytest.approx([7200.0, 7200.0])
@@ -320,6 +320,35 @@ def test_without_a_solution_the_text_gives_the_range_that_can_be_reached() -> No
     assert "No value" in words
     assert "8296" in words
     assert "8939" in words
+
+
+def test_a_coarse_map_stays_while_one_of_its_inputs_is_dragged() -> None:
+    first, second = (
+        moves.coarse_map(computed_from(SHEET | {"C": clearance}), "C", "load", SI)
+        for clearance in (61.0, 62.0)
+    )
+    assert first is second
+    machine = computed_from(SHEET | {"C": 61.0}).machine
+    own = design.onset_map(
+        machine, x="radial_clearance", xs=first.xs[::9], y="load", ys=first.ys[::9]
+    )
+    np.testing.assert_allclose(first.speed[::9, ::9], own.speed, rtol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("key", "here", "dragged", "low", "high"),
+    [
+        ("C", 60.0, 90.0, 1e-5, 1e-3),
+        ("load", 600.0, 1500.0, 100.0, 1e4),
+        ("cs", 2000.0, 5000.0, 0.0, 3e4),
+    ],
+)
+def test_an_axis_is_round_and_stays_while_its_input_is_dragged(
+    key: str, here: float, dragged: float, low: float, high: float
+) -> None:
+    for value in (here, dragged):
+        axis = moves.quantity(key, computed_from(SHEET | {key: value}).machine, SI)
+        assert (axis.low, axis.high) == pytest.approx((low, high))
 
 
 @pytest.mark.parametrize("key", sorted(INPUTS.keys() - {"TR", "rho", "u", "rpm", "rpm_max"}))
