@@ -10,10 +10,8 @@ import numpy as np
 from rotorcalc import modes
 from rotorcalc.analysis import Sweep, analyse
 from rotorcalc.arguments import checked
-from rotorcalc.arrays import Array
-from rotorcalc.coefficients import checked_speed, modified_sommerfeld
+from rotorcalc.coefficients import checked_speed, equilibrium
 from rotorcalc.display import Result
-from rotorcalc.films import film_of
 from rotorcalc.geometry import (
     AxialGrooves,
     Elliptical,
@@ -26,6 +24,7 @@ from rotorcalc.geometry import (
     PressureDam,
 )
 from rotorcalc.machine import JournalBearing, Machine
+from rotorcalc.numerics.first_answer import from_first_answer
 from rotorcalc.onset import onset_speed
 from rotorcalc.unbalance_peaks import response_peaks
 
@@ -52,6 +51,8 @@ class BearingResult(Result):
     ----------
     bearing : JournalBearing
         The bearing.
+    temperature : float
+        Temperature of the film [°C].
     refusal : str
         Why its film has no answer at this speed and load; empty where it has one. Then numbers
         are NaN.
@@ -72,8 +73,6 @@ class BearingResult(Result):
         Of one bearing [W].
     side_flow : float
         Of one bearing, both ends [m³/s].
-    temperature : float
-        Temperature of the film [°C].
     peak_response : float
         Largest peak of the disk's orbit, its semi-major axis, at speeds up to 1.5 times the running
         speed [m]; NaN where there is no peak.
@@ -82,18 +81,18 @@ class BearingResult(Result):
     """
 
     bearing: JournalBearing
-    refusal: str
-    onset: float
-    margin: float
-    whirl_ratio: float
-    log_decrement: float
-    minimum_film_thickness: float
-    eccentricity_ratio: float
-    power_loss: float
-    side_flow: float
     temperature: float
-    peak_response: float
-    peak_speed: float
+    refusal: str = ""
+    onset: float = math.nan
+    margin: float = math.nan
+    whirl_ratio: float = math.nan
+    log_decrement: float = math.nan
+    minimum_film_thickness: float = math.nan
+    eccentricity_ratio: float = math.nan
+    power_loss: float = math.nan
+    side_flow: float = math.nan
+    peak_response: float = math.nan
+    peak_speed: float = math.nan
 
 
 @checked
@@ -170,12 +169,12 @@ def bearing_result(machine: Machine, speed: float) -> BearingResult:
     try:
         sweep = analyse(machine, speed)
     except ValueError as error:
-        return _refused(machine, str(error))
+        return BearingResult(machine.bearing, machine.temperature, refusal=str(error))
     onset = onset_speed(machine)
     peak, at = _largest_peak(machine, speed)
     return BearingResult(
         bearing=machine.bearing,
-        refusal="",
+        temperature=machine.temperature,
         onset=onset.speed,
         margin=onset.speed / speed - 1.0,
         whirl_ratio=float(sweep.whirl_ratio),
@@ -184,27 +183,8 @@ def bearing_result(machine: Machine, speed: float) -> BearingResult:
         eccentricity_ratio=float(sweep.eccentricity_ratio),
         power_loss=float(sweep.power_loss),
         side_flow=float(sweep.side_flow),
-        temperature=machine.temperature,
         peak_response=peak,
         peak_speed=at,
-    )
-
-
-def _refused(machine: Machine, refusal: str) -> BearingResult:
-    return BearingResult(
-        bearing=machine.bearing,
-        refusal=refusal,
-        onset=math.nan,
-        margin=math.nan,
-        whirl_ratio=math.nan,
-        log_decrement=math.nan,
-        minimum_film_thickness=math.nan,
-        eccentricity_ratio=math.nan,
-        power_loss=math.nan,
-        side_flow=math.nan,
-        temperature=machine.temperature,
-        peak_response=math.nan,
-        peak_speed=math.nan,
     )
 
 
@@ -219,17 +199,9 @@ def _largest_peak(machine: Machine, speed: float) -> tuple[float, float]:
     """Return size and speed of the largest peak of the disk's orbit, NaN where there is none."""
     top = _TOP * speed
     speeds = np.linspace(top / _SPEEDS, top, _SPEEDS)
-    carried = speeds[speeds >= _slowest(machine)]
-    found = response_peaks(machine, carried) if len(carried) > 2 else None
-    if found is None or not found.amplitude.size:
+    carried = from_first_answer(lambda some: equilibrium(machine, some).speed, speeds)
+    found = response_peaks(machine, carried)
+    if not found.amplitude.size:
         return math.nan, math.nan
     largest = int(np.argmax(found.amplitude))
     return float(found.amplitude[largest]), float(found.speed[largest])
-
-
-def _slowest(machine: Machine) -> float:
-    """Return the lowest speed at which the film carries the load [rad/s]."""
-    unit: Array = modified_sommerfeld(machine, 1.0)
-    if film_of(machine.bearing).curve == "short":  # the short plain film carries any load
-        return 0.0
-    return float(film_of(machine.bearing).sommerfeld_range[0] / unit)

@@ -2,9 +2,7 @@
 
 import math
 from collections.abc import Callable
-from contextlib import suppress
 from functools import cached_property, lru_cache
-from typing import TypeVar
 
 import numpy as np
 
@@ -38,6 +36,7 @@ from rotorcalc.coefficients import (
 from rotorcalc.figures.equilibrium import Path
 from rotorcalc.figures.machine import OtherSpeeds
 from rotorcalc.films import film_of
+from rotorcalc.numerics.first_answer import from_first_answer
 from rotorcalc.root_locus import Locus, root_locus
 from rotorcalc.unbalance_curves import (
     ClearanceOrbit,
@@ -53,8 +52,6 @@ from rotorcalc.unbalance_peaks import ResponsePeaks, both_peaks
 from rotorcalc.validity import IMBALANCE_ORBIT, Check, validity
 from ui.bearing import Values
 from ui.inputs import machine_of, speeds_of
-
-T = TypeVar("T")
 
 # Points of a sweep: enough for a smooth line across a projector.
 POINTS = 240
@@ -134,7 +131,7 @@ class Computed:
         """Equilibrium positions at round speeds, up to the top speed."""
         # The allowance is for rounding: a top speed of 10000 rpm has its own mark.
         number = np.searchsorted(_ROUND_SPEEDS, self.top_speed * (1 + 1e-9), side="right")
-        return _from_first_answer(
+        return from_first_answer(
             lambda speed: equilibrium(self.machine, speed), _ROUND_SPEEDS[:number]
         )
 
@@ -167,7 +164,7 @@ class Computed:
     @cached_property
     def force_curves(self) -> FilmForces:
         """The film's forces at the running speed, from close to the wall to near the centre."""
-        return _from_first_answer(
+        return from_first_answer(
             lambda sigma: film_forces(self.machine, self.speed, sommerfeld=sigma), _TO_THE_WALL
         )
 
@@ -241,7 +238,7 @@ class Computed:
     @property
     def unloading(self) -> Unloading:
         """K and (Ω/2)·C at the running speed as the load is removed."""
-        return _from_first_answer(
+        return from_first_answer(
             lambda sigma: unloading(self.machine, self.speed, sommerfeld=sigma), _SOMMERFELD
         )
 
@@ -324,7 +321,7 @@ def _computed(machine: Machine, speed: float, top_speed: float) -> Computed:
 
 @lru_cache(maxsize=64)
 def _sweep(machine: Machine, top_speed: float) -> Sweep:
-    return _from_first_answer(lambda speed: analyse(machine, speed), speeds(top_speed))
+    return from_first_answer(lambda speed: analyse(machine, speed), speeds(top_speed))
 
 
 @lru_cache(maxsize=64)
@@ -381,30 +378,10 @@ def _curves(
     viscosity: float = 1.0,
     speed: float = 1.0,
 ) -> FilmCurves:
-    return _from_first_answer(
+    return from_first_answer(
         lambda sigma: film_curves(bearing, sigma, viscosity=viscosity, speed=speed),
         np.geomspace(10.0**lowest, 10.0**highest, POINTS),
     )
-
-
-def _from_first_answer(ask: Callable[[Array], T], values: Array) -> T:
-    """Return a film's results at rising σ or speeds, from the first at which it gives any.
-
-    A film can refuse too heavy a load or too low a speed, at which the journal nears the wall.
-    """
-    # All at once first: only a film that refuses some of them is asked one by one.
-    with suppress(ValueError):
-        return ask(values)
-    # By bisection: a film that gives a result at one value does so at all higher ones.
-    refused, answered = 0, len(values) - 1
-    while answered - refused > 1:
-        middle = (refused + answered) // 2
-        try:
-            ask(values[middle : middle + 1])
-            answered = middle
-        except ValueError:
-            refused = middle
-    return ask(values[answered:])
 
 
 def _decades(sommerfeld: float) -> tuple[int, int]:

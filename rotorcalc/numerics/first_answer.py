@@ -1,0 +1,46 @@
+"""Results from the first value on at which a function gives any."""
+
+from collections.abc import Callable
+from contextlib import suppress
+from typing import TypeVar
+
+from rotorcalc.arrays import Array
+
+T = TypeVar("T")
+
+
+def from_first_answer(ask: Callable[[Array], T], values: Array) -> T:
+    """Return the results of a function from the first value on at which it gives any.
+
+    A film refuses too heavy a load or too low a speed, at which the journal nears the wall: it is
+    asked at rising σ or speeds.
+
+    Parameters
+    ----------
+    ask : callable
+        Returns the results at an array of values, or raises ValueError where it refuses one.
+    values : array, (n,)
+        Rising. From the first that is not refused on, none is.
+
+    Returns
+    -------
+    object
+        What `ask` returns at the values that it does not refuse.
+
+    Raises
+    ------
+    ValueError
+        As `ask` does where it refuses the last value too.
+    """
+    # All at once first: only where some are refused is the first found.
+    with suppress(ValueError):
+        return ask(values)
+    refused, answered = 0, len(values) - 1
+    while answered - refused > 1:
+        middle = (refused + answered) // 2
+        try:
+            ask(values[middle : middle + 1])
+            answered = middle
+        except ValueError:
+            refused = middle
+    return ask(values[answered:])
