@@ -38,6 +38,8 @@ _CLOSE, _ROUNDING = 0.1, 1e-14
 # Speeds around a crossing, in units of |Re λ|, densest in the middle: where two modes lie close
 # together their peaks are displaced by a few units.
 _AROUND = 16.0 * np.sinh(np.linspace(-4.0, 4.0, 33)) / np.sinh(4.0)
+# Shares of the first and of the last spacing at which the response is computed too.
+_INSIDE = np.geomspace(1e-3, 0.6, 8)
 # Each zoom narrows the interval 32 times; after two, a parabola through the top is exact enough.
 _ZOOMS, _ZOOM_POINTS = 2, 65
 
@@ -159,10 +161,13 @@ def disk_peak_speeds(
 
 
 def _near_resonances(machine: Machine, rotor: Rotor, speed: Array, film: _Film) -> Array:
-    """Return speeds within a sweep around each narrow resonance of a rotor."""
+    """Return speeds within a sweep around each narrow resonance of a rotor, and near its ends."""
     crossing, width = _resonances(machine, rotor, speed, film)
     near = (crossing[:, None] + width[:, None] * _AROUND).ravel()
-    return near[(near > speed[0]) & (near < speed[-1])]
+    # A maximum between the first two speeds, or the last two, is at no speed of the sweep.
+    first = speed[0] + (speed[1] - speed[0]) * _INSIDE
+    last = speed[-1] - (speed[-1] - speed[-2]) * _INSIDE
+    return np.concatenate([near[(near > speed[0]) & (near < speed[-1])], first, last])
 
 
 def _resonances(machine: Machine, rotor: Rotor, speed: Array, film: _Film) -> tuple[Array, Array]:
@@ -211,8 +216,6 @@ def _denser(
     speed: Array, size: Array, near: Array, sizes: Callable[[Array], Array]
 ) -> tuple[Array, Array]:
     """Return a sweep's speeds, (n,), and sizes, (m, n), with those at more speeds inserted."""
-    if not len(near):
-        return speed, size
     dense, order = np.unique(np.concatenate([speed, near]), return_index=True)
     return dense, np.concatenate([size, sizes(near)], axis=-1)[:, order]
 

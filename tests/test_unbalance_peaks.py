@@ -125,7 +125,8 @@ def fall(size, k):
     return 1.0 - max(before, after) / size[k]
 
 
-@pytest.mark.parametrize("seed", range(24))
+# 42: a wide maximum between the first two speeds.
+@pytest.mark.parametrize("seed", [*range(24), 42])
 def test_no_peak_is_short_of_brute_force(seed):
     machine, top = drawn(seed)
     sweep = np.linspace(top / 240, top, 240)
