@@ -39,13 +39,12 @@ from ui.sharing.labels import Labels
 RPM = math.pi / 30
 FIXED = [*FINITE, *SHORT_PADS]
 OTHERS = [name for name in BEARINGS if name != "short"]
-# Bearings that differ in kind visit every page, the others home and one page more, in turn.
-_EVERYWHERE = ("sprung", "lossy", "ringed", "pressure dam", "short lobes")
-_REST = [name for name in OTHERS if name not in _EVERYWHERE]
-VISITS = (
-    [(path, name) for name in _EVERYWHERE for path in PAGES]
-    + [(HOME, name) for name in _REST]
-    + list(zip(itertools.cycle(path for path in PAGES if path != HOME), _REST, strict=False))
+# The last bearing of each class of films visits every page, where its citations are read
+# (tests/app/test_sources.py); the others visit home and one page more, in turn.
+EVERYWHERE = list({type(film_of(bearing)): name for name, bearing in BEARINGS.items()}.values())
+_REST = [name for name in OTHERS if name not in EVERYWHERE]
+VISITS = [(HOME, name) for name in _REST] + list(
+    zip(itertools.cycle(path for path in PAGES if path != HOME), _REST, strict=False)
 )
 # Keys of the address bar that are not inputs yet.
 _LATER = ("T_in", "flow", "share", "tab", "present")
@@ -173,25 +172,23 @@ def test_files_are_written_for_every_bearing(name: str) -> None:
         assert f"<td>{words}</td>" in page or f'<td class="n">{words}</td>' in page
 
 
-def refused_motion(name: str) -> list[str]:
-    """Return why a film has no force in any motion, where it has none."""
-    if name in MOVING:
+def refusal(path: str, name: str) -> list[str]:
+    """Return what a page refuses: Orbits need a force in any motion, and every tab says so."""
+    if path != ORBITS or name in MOVING:
         return []
-    with pytest.raises(ValueError, match="motion") as refusal:
+    with pytest.raises(ValueError, match="motion") as refused:
         film_of(BEARINGS[name]).motion()
-    return [str(refusal.value)]
+    return [str(refused.value)]
 
 
 @pytest.mark.usefixtures("coarse_maps")
 @pytest.mark.parametrize(("path", "name"), VISITS)
 def test_every_page_shows_every_bearing(path: str, name: str) -> None:
     at = visit(path, **query(name))
+    for tab in tours(at):
+        assert faults(at) == refusal(path, name), tab
     assert not at.warning or path != HOME
     assert machine_of(session_of(at).values).bearing == BEARINGS[name]
-    # Orbits need a force in any motion; without one every tab says so.
-    refusal = refused_motion(name) if path == ORBITS else []
-    for tab in tours(at):
-        assert faults(at) == refusal, tab
 
 
 @pytest.mark.parametrize("path", PAGES)

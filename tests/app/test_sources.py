@@ -9,12 +9,12 @@ from streamlit.testing.v1 import AppTest
 
 from rotorcalc.films import film_of
 from rotorcalc.units import SI
-from tests.app.session import HOME, NOTES, ORBITS, PAGES, session_of, texts, tours, visit
-from tests.app.test_bearings import SPEED, TOP, machine, query
+from tests.app.session import HOME, NOTES, ORBITS, PAGES, faults, session_of, texts, tours, visit
+from tests.app.test_bearings import EVERYWHERE, SPEED, TOP, machine, query, refusal
 from tests.films.models import BEARINGS, FINITE, MOVING, SHORT_PADS
 from tests.machines import SHEET
 from ui.computed import Computed
-from ui.inputs import values_of
+from ui.inputs import machine_of, values_of
 from ui.results.table import RESULTS
 from ui.sharing import report
 from ui.sharing.labels import Labels
@@ -26,8 +26,6 @@ ON_ANY_FILM = {
 }  # fmt: skip
 # What holds of a short film in a circular bore alone, whatever it is cited from.
 SHORT_ALONE = ("parabola", "C(1 − ε)", "calculation sheet. ", "clearance circle in")
-# Films of one class cite the same: the last bearing of each.
-NAMES = list({type(film_of(bearing)): name for name, bearing in BEARINGS.items()}.values())
 # A name with its index as a program writes it, outside TeX, HTML and links.
 STABILITY = "pages/3_Stability.py"
 RAW = re.compile(r"\b[A-Za-zα-ω]{1,2}_(?:[A-Za-z]{1,3})\b")
@@ -45,13 +43,14 @@ def own(name: str) -> set[str]:
     return {number for one in sources for number in re.findall(r"5\.\d+", one.equation)}
 
 
-def told(at: AppTest) -> Iterator[str]:
-    """Yield every text of a page on every tab, with each result explained."""
+def told(at: AppTest, refused: list[str] | None = None) -> Iterator[str]:
+    """Yield every text of a page on every tab, with each result explained and no other fault."""
     popovers = [popover.key for popover in at.get("popover") if popover.key]
     for key in popovers:
         if key.startswith("explain_"):
             at.session_state[key] = True
-    for _ in tours(at):
+    for tab in tours(at):
+        assert refused is None or faults(at) == refused, tab
         yield from texts(at)
         yield from (popover.proto.popover.label for popover in at.get("popover"))
 
@@ -63,9 +62,12 @@ def test_the_short_film_names_what_the_notes_have() -> None:
 
 @pytest.mark.usefixtures("coarse_maps")
 @pytest.mark.parametrize("path", [page for page in PAGES if page != NOTES])
-@pytest.mark.parametrize("name", NAMES)
-def test_no_page_cites_what_the_film_does_not_name(path: str, name: str) -> None:
-    said = list(told(visit(path, **query(name))))
+@pytest.mark.parametrize("name", EVERYWHERE)
+def test_every_page_shows_every_film_and_cites_only_what_it_names(path: str, name: str) -> None:
+    at = visit(path, **query(name))
+    assert machine_of(session_of(at).values).bearing == BEARINGS[name]
+    assert not at.warning or path != HOME
+    said = list(told(at, refusal(path, name)))
     wrong = {text: strange for text in said if (strange := numbers(text) - ON_ANY_FILM - own(name))}
     assert wrong == {}
     if name != "short":
@@ -77,7 +79,7 @@ def test_no_page_cites_what_the_film_does_not_name(path: str, name: str) -> None
 
 
 @pytest.mark.parametrize("load", ["0", "2000"])
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", EVERYWHERE)
 def test_no_verdict_cites_what_the_film_does_not_name(name: str, load: str) -> None:
     for path in (HOME, "pages/2_Coefficients.py", "pages/4_Root_locus.py", "pages/6_Orbits.py"):
         said = list(told(visit(path, **query(name) | {"load": load})))

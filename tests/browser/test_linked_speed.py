@@ -89,31 +89,28 @@ def test_a_speed_under_the_pointer_is_marked_in_all_charts_and_drawn(app: AppPag
         assert now == pytest.approx(then, abs=0.1)
 
 
-@pytest.mark.parametrize(
-    ("page", "tab", "key", "charts"),
-    [
-        ("Equilibrium", "Forces", "forces", 2),
-        ("Equilibrium", "Losses and flow", "power_loss", 4),
-        ("Coefficients", "Against speed", "stiffness_speed", 2),
-        ("Coefficients", "Against σ", "k_σ", 2),
-        ("Coefficients", "Against ε", "c_ε", 2),
-        ("Stability", "Threshold", "threshold", 3),
-        ("Stability", "Figures of the notes", "whirl_ratio", 4),
-        ("Root locus", "Against speed", "growth", 5),
-        ("Response", "Against speed", "phase", 2),
-        ("Response", "What damping and journal mass do", "family_disk", 2),
+@pytest.mark.parametrize(("page", "tabs"), {
+    "Equilibrium": [("Forces", "forces", 2), ("Losses and flow", "power_loss", 4)],
+    "Coefficients": [
+        ("Against speed", "stiffness_speed", 2), ("Against σ", "k_σ", 2), ("Against ε", "c_ε", 2)
     ],
-)
+    "Stability": [("Threshold", "threshold", 3), ("Figures of the notes", "whirl_ratio", 4)],
+    "Root locus": [("Against speed", "growth", 5)],
+    "Response": [
+        ("Against speed", "phase", 2), ("What damping and journal mass do", "family_disk", 2)
+    ],
+}.items())  # fmt: skip
 def test_every_chart_over_speed_marks_it(
-    app: AppPage, page: str, tab: str, key: str, charts: int
+    app: AppPage, page: str, tabs: list[tuple[str, str, int]]
 ) -> None:
     app.open(page)
-    app.open_tab(tab)
-    _point_at(app, key, 0.4)
-    assert app.changes(lambda: len(_labels(app)) == charts, False)
-    assert len(set(_labels(app).values())) == 1
-    _leave(app)
-    assert app.changes(lambda: bool(_labels(app)), True)
+    for tab, key, charts in tabs:
+        app.open_tab(tab)
+        _point_at(app, key, 0.4)
+        assert app.changes(lambda: len(_labels(app)) == charts, False), tab  # noqa: B023
+        assert len(set(_labels(app).values())) == 1
+        _leave(app)
+        assert app.changes(lambda: bool(_labels(app)), True), tab
 
 
 def test_a_speed_on_the_journals_path_is_marked_too(app: AppPage) -> None:

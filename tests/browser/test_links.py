@@ -11,17 +11,6 @@ from tests.browser.app_page import PATHS, AppPage
 LINK = {"preset": "sheet-1e7", "C": "80", "rpm": "3000", "cs": "500"}
 
 
-@pytest.mark.parametrize("name", PATHS)
-def test_page_opens_cold_by_its_own_address(app: AppPage, name: str) -> None:
-    app.open(name)
-    assert app.query() == {}
-    expect(app.page.get_by_test_id("stHeading").first).to_be_visible()
-    if name != "Notes":
-        assert app.metrics()
-        assert app.drawn()
-    expect(app.page.get_by_test_id("stException")).to_have_count(0)
-
-
 Shown = tuple[dict[str, str], list[str]]
 
 
@@ -37,6 +26,11 @@ def test_shared_link_gives_the_same_numbers_cold_and_on_the_pages_visited_after(
 ) -> None:
     app.open(name, **LINK)
     assert app.query() == LINK
+    expect(app.page.get_by_test_id("stHeading").first).to_be_visible()
+    expect(app.page.get_by_test_id("stException")).to_have_count(0)
+    if name != "Notes":
+        assert app.metrics()
+        assert app.drawn()
     assert cold.setdefault(name, _shown(app)) == _shown(app)
     app.go(after)
     assert app.query() == LINK
