@@ -198,7 +198,7 @@ export function move(gd, before, { data, layout }) {
   try {
     changes(before.layout, layout, LAYOUT);
     each(before.data, data, TRACE, (...item) => moveTrace(gd, ...item));
-    each(before.layout.annotations, layout.annotations, NOTE, (...item) => moveNote(gd, ...item, notes));
+    each(before.layout.annotations, layout.annotations, NOTE, (note, i, changed) => moveNote(gd, note, i, changed, notes));
     each(before.layout.sliders, layout.sliders, SLIDER, (...item) => moveSlider(gd, ...item));
     each(before.layout.shapes, layout.shapes, SHAPE, (...item) => moveShape(gd, ...item));
     placeNotes(notes);
