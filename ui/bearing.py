@@ -13,12 +13,8 @@ from rotorcalc import JournalBearing
 from rotorcalc.geometry import Geometry
 from rotorcalc.records import Bound, Rule, rules
 from rotorcalc.units import SI, Unit, Units
+from ui.bores import BORES, FILM, FILMS, KIND, Value, Values
 
-# A number; a word; or None for a value that follows from others, as a load from the weight.
-Value = float | str | None
-Values = dict[str, Value]
-
-KIND, FILM = "bearing", "film"
 # Keys of the address bar that mean something else: a bore's field "load" is "bearing_load" there.
 _TAKEN = frozenset((
     "mass", "load", "T", "mu", "TR", "alpha", "rho", "C", "D", "L", "k", "u", "cs", "mj", "rpm",
@@ -30,16 +26,14 @@ _UNITS = {"rad": "angle", "m": "length", "Pa": "pressure", "m³/s": "flow", "kg"
 
 @dataclass(frozen=True)
 class Field:
-    """A field of a bore: its key among the kept values, its name in the record, what it accepts."""
+    """A field of a bore: its key among the kept values, its name in the record and in words, and
+    what it accepts.
+    """
 
     key: str
     name: str
+    label: str
     rule: Rule
-
-    @property
-    def label(self) -> str:
-        """Its name in words, which tells a bearing's load from the machine's."""
-        return self.key.replace("_", " ").capitalize()
 
     def unit(self, units: Units) -> Unit:
         """Return the unit in which a visitor sees it."""
@@ -102,11 +96,26 @@ def fields_of(kind: object) -> dict[str, Field]:
 
 @functools.cache
 def _fields(geometry: type[Geometry]) -> dict[str, Field]:
+    keys = {name: f"{KIND}_{name}" if name in _TAKEN else name for name in rules(geometry)}
+    words = {item.key: item.label for item in BORES.get(geometry.kind, ())}
     found = (
-        Field(f"{KIND}_{name}" if name in _TAKEN else name, name, rule)
-        for name, rule in rules(geometry).items()
+        # A field that no slider has: its name tells a bearing's load from the machine's.
+        Field(key, name, words.get(key, key.replace("_", " ").capitalize()), rules(geometry)[name])
+        for name, key in keys.items()
     )
     return {field.key: field for field in found}
+
+
+def film_model(values: Mapping[str, Value]) -> str:
+    """Return the film model of kept values: that of the kind where they name none."""
+    film = values[FILM]
+    return film if isinstance(film, str) else kinds()[str(values[KIND])].models[0]
+
+
+def film_name(values: Mapping[str, Value]) -> str:
+    """Return the film model of kept values in words."""
+    model = film_model(values)
+    return FILMS.get(model, model)
 
 
 def bearing_values(bearing: JournalBearing) -> Values:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from rotorcalc.figures import Chart, with_cases
 from rotorcalc.figures import cases as figures
 from rotorcalc.figures.cases import COLOURS
-from ui.bearing import Values
+from ui.bores import Values
 from ui.computed import Computed, computed_from
 
 Draw = Callable[[Computed], Chart]

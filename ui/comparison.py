@@ -10,7 +10,8 @@ from html import escape
 
 from rotorcalc.figures import style
 from rotorcalc.units import Units
-from ui.bearing import FILM, KIND, Values, fields_of
+from ui.bearing import fields_of, film_name
+from ui.bores import KIND, Values, name_of
 from ui.cases import Shown
 from ui.computed import Computed
 from ui.format import minus
@@ -38,10 +39,11 @@ def inputs(machines: Sequence[Values], units: Units) -> Iterator[Row]:
     for key, item in INPUTS.items():
         if _differ(machines, key):
             yield Row(item.name(units), tuple(shown(key, values, units) for values in machines))
-    for key in (KIND, FILM):
-        if _differ(machines, key):
-            texts = (f"{values[key] or 'as usual'}" for values in machines)
-            yield Row(key.capitalize(), tuple(texts))
+    if _differ(machines, KIND):
+        yield Row("Bearing", tuple(name_of(values[KIND]) for values in machines))
+    films = tuple(film_name(values) for values in machines)
+    if len(set(films)) > 1:
+        yield Row("Film", films)
     # Bearings of two kinds have different fields: one that is missing is shown as a dash.
     fields = {key: field for values in machines for key, field in fields_of(values[KIND]).items()}
     for key, field in fields.items():

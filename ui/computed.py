@@ -50,7 +50,7 @@ from rotorcalc.unbalance_curves import (
 )
 from rotorcalc.unbalance_peaks import ResponsePeaks, both_peaks
 from rotorcalc.validity import IMBALANCE_ORBIT, Check, validity
-from ui.bearing import Values
+from ui.bores import Values
 from ui.inputs import machine_of, speeds_of
 
 # Points of a sweep: enough for a smooth line across a projector.

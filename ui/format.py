@@ -62,6 +62,11 @@ def display(tex: str) -> str:
     return f"$$\n{tex}\n$$"
 
 
+def lower(text: str) -> str:
+    """Return a text for the middle of a sentence, without its first capital."""
+    return text[:1].lower() + text[1:]
+
+
 def quoted(word: object) -> str:
     """Return a visitor's input, shortened and without markup."""
     # In backticks Markdown is text; a backtick of the visitor's own would end them.

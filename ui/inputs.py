@@ -1,105 +1,24 @@
 """The inputs of the sliders: their keys, symbols, units, ranges and groups.
 
 A value is kept in the unit of the address bar (SI as engineers write it: mm, µm, mPa·s, rpm), under
-its key there; the fields of a bearing's bore are in `ui.bearing`. `machine_of` and `values_of`
-convert such values to the core's records and back: here a slider's value becomes a machine.
+its key there. `INPUTS` has those of every machine, `ui.bores` those of each kind of bore.
+`machine_of` and `values_of` convert such values to the core's records and back: here a slider's
+value becomes a machine, a bore's by `ui.bearing.shape_of`.
 """
 
 import functools
 import math
-from dataclasses import dataclass
 from typing import Any
 
 from scipy.constants import g
 
 from rotorcalc import PRESETS, JournalBearing, Machine, Oil, Preset, Rotor
 from rotorcalc.figures import style
-from rotorcalc.units import SI, Unit, Units
-from ui.bearing import Values, bearing_values, shape_of
-from ui.format import quoted, short, typed_number
-
-# Smallest positive value: quotients by a smaller one would overflow.
-_LEAST = 1e-290
-
-
-@dataclass(frozen=True)
-class Input:
-    """An input that a visitor sets.
-
-    `field` is its place in the core's records; `kind` names its unit in `Units`; `low` to `high` is
-    what is admitted, in SI as engineers write it. Its scale is logarithmic, from `least` where
-    `low` is zero, or linear where it has a `step`: a temperature, whose zero is arbitrary.
-    `infinite` is the word for one value beyond `high`.
-    """
-
-    key: str
-    field: str
-    label: str
-    symbol: str
-    kind: str
-    low: float
-    high: float
-    group: str
-    help: str
-    least: float = 0.0
-    step: float = 0.0
-    infinite: str = ""
-
-    def unit(self, units: Units) -> Unit:
-        """Return the unit in which a visitor sees this input."""
-        return getattr(units, self.kind)
-
-    def shown(self, value: float, units: Units) -> float:
-        """Return a kept value in a visitor's unit."""
-        # Kept as it is: a change of unit and back would change its last digit.
-        if units.name == SI.name:
-            return float(value)
-        return float(self.unit(units).of(self.unit(SI).to_si(value)))
-
-    def stored(self, reading: float, units: Units) -> float:
-        """Return a visitor's reading as it is kept."""
-        # As above.
-        if units.name == SI.name:
-            return reading
-        return tidy(float(self.unit(SI).of(self.unit(units).to_si(reading))))
-
-    def name(self, units: Units) -> str:
-        """Return label, symbol and unit, as beside a slider."""
-        unit = self.unit(units).name
-        return f"{self.label} {self.symbol}" + ("" if unit == "-" else f" [{unit}]")
-
-    def taken(self, sent: object, units: Units) -> float:
-        """Return the value to keep of a slider's message, which is in a visitor's unit.
-
-        Raises ValueError where it is not a number or lies outside the range.
-        """
-        try:
-            reading = math.inf if self.infinite and sent == self.infinite else typed_number(sent)
-        except ValueError as error:
-            raise ValueError(f"{self.label}: {quoted(sent)} {error}") from None
-        value = self.stored(reading, units)
-        if problem := self.problem(value, units):
-            raise ValueError(f"{self.name(units)} = {short(reading)} {problem}")
-        return value
-
-    def problem(self, value: float | None, units: Units = SI) -> str:
-        """Return the fault of a kept value as a text, empty where there is none."""
-        if value is None:
-            return "" if self.key == "load" else "is missing"
-        if self.infinite and value == math.inf:
-            return ""
-        # Zero itself is a value of its own, no damping for instance.
-        if 0.0 < value < _LEAST:
-            return f"lies between 0 and {_LEAST:g}, where floating-point numbers lose precision"
-        if self.low <= value <= self.high:
-            return ""
-        low, high = (short(self.shown(end, units)) for end in (self.low, self.high))
-        return f"lies outside {low} to {high} {self.unit(units).name}"
-
-    def words(self, value: float, units: Units) -> str:
-        """Return a kept value as a field shows it, in a visitor's unit."""
-        return self.infinite if math.isinf(value) else short(self.shown(value, units))
-
+from rotorcalc.units import SI
+from ui.bearing import KIND, Values, bearing_values, defaults_of, shape_of, without_shape
+from ui.bores import Pick, bore_inputs
+from ui.format import quoted
+from ui.input_record import Input, tidy
 
 # What moves an onset of whirl stands together at the top.
 GROUPS = ("Speed and whirl", "Bearing", "Oil", "Rotor")
@@ -117,7 +36,7 @@ INPUTS: dict[str, Input] = {
             "load", "load",
             "Load per bearing", "Fₒ", "force", 0, 2e6, "Speed and whirl",
             "Static load on one bearing, half the rotor's weight unless given.",
-            least=0.01,
+            least=0.01, follows="Load is half the rotor's weight",
         ),
         Input(
             "T", "temperature",
@@ -204,13 +123,8 @@ def number(values: Values, key: str) -> float:
     """Return a kept number, or raise ValueError where it is missing."""
     value = values[key]
     if value is None or isinstance(value, str):
-        raise ValueError(f"{INPUTS[key].label}: missing")
+        raise ValueError(f"{INPUTS[key].label if key in INPUTS else key}: missing")
     return value
-
-
-def tidy(value: float) -> float:
-    """Return a value without the rounding that a change of unit leaves in its last digits."""
-    return float(f"{value:.14g}")
 
 
 def values_of(machine: Machine, speed: float, top_speed: float) -> Values:
@@ -236,20 +150,26 @@ def preset_values(preset: Preset) -> Values:
 PRESET_VALUES: dict[str, Values] = {key: preset_values(preset) for key, preset in PRESETS.items()}
 
 
+def usual_values(preset: str, kind: object) -> Values:
+    """Return a preset's values, with a bearing of another kind as it is by itself."""
+    values = PRESET_VALUES[preset]
+    return values if values[KIND] == kind else without_shape(values) | defaults_of(str(kind))
+
+
 def machine_of(values: Values) -> Machine:
     """Return the machine that kept values describe, or raise ValueError in the sidebar's words."""
     try:
         return _machine_of(values)
     except ValueError as error:
-        raise ValueError(_in_words(f"{error}")) from error
+        raise ValueError(_in_words(f"{error}", values)) from error
 
 
-def _in_words(message: str) -> str:
+def _in_words(message: str, values: Values) -> str:
     """Return a message of the core with a field's name as the sidebar has it."""
     field, _, _ = message.partition(" = ")
-    for item in INPUTS.values():
+    for item in inputs_of(values).values():
         if field == item.field.rpartition(".")[2]:
-            return f"{item.label} {item.symbol}{message.removeprefix(field)}"
+            return f"{item.words}{message.removeprefix(field)}"
     return message
 
 
@@ -270,12 +190,19 @@ def _machine_of(values: Values) -> Machine:
     )
 
 
+def inputs_of(values: Values) -> dict[str, Input]:
+    """Return the inputs of a machine's sliders by their keys, its bore's among them."""
+    return INPUTS | {item.key: item for item in bore_inputs(values) if not isinstance(item, Pick)}
+
+
 def usual(key: str, values: Values) -> float:
     """Return the kept value about which an input's slider lies while it is zero or infinite.
 
     An estimate from the machine, so that one drag leads from zero to an effect that can be seen.
     """
-    item, half_mass = INPUTS[key], number(values, "mass") / 2
+    item, half_mass = input_named(key, values), number(values, "mass") / 2
+    if item.step:
+        return (item.low + item.high) / 2
     speed = SI.speed.to_si(number(values, "rpm"))
     found = {
         "load": half_mass * g,
@@ -297,8 +224,9 @@ def speeds_of(values: Values) -> tuple[float, float]:
     return SI.speed.to_si(speed), SI.speed.to_si(top)
 
 
-def input_named(name: str) -> Input:
-    """Return an input by its key, or raise ValueError."""
-    if name not in INPUTS:
+def input_named(name: str, values: Values) -> Input:
+    """Return a machine's input by its key, or raise ValueError."""
+    found = INPUTS.get(name) or inputs_of(values).get(name)
+    if found is None:
         raise ValueError(f"{quoted(name)} is not an input")
-    return INPUTS[name]
+    return found

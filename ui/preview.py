@@ -15,7 +15,7 @@ from streamlit.delta_generator import DeltaGenerator
 
 from rotorcalc.figures import Chart, themed
 from rotorcalc.units import Units
-from ui.bearing import Values
+from ui.bores import Values
 from ui.cases import Draw, Shown
 from ui.computed import Computed, computed_from
 from ui.inputs import input_named
@@ -84,7 +84,7 @@ class Preview:
         such input, or the value makes no machine.
         """
         # The other inputs are those of the page as last drawn, which its charts show beside it.
-        values = self.values | {name: input_named(name).taken(value, self.units)}
+        values = self.values | {name: input_named(name, self.values).taken(value, self.units)}
         computed = computed_from(values)
         _ = computed.point  # a film may have no answer at the running speed
         return {

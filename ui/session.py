@@ -14,14 +14,16 @@ from urllib.parse import parse_qsl, urlencode
 
 import streamlit as st
 
+from rotorcalc import JournalBearing
 from rotorcalc.units import SYSTEMS, Units, with_amplitudes
 from ui import cases
-from ui.bearing import KIND, Value, Values
+from ui.bearing import bearing_values, defaults_of, without_shape
+from ui.bores import FILM, KIND, Pick, Value, Values, bore_inputs, with_pick
 from ui.cases import Case
 from ui.choices import Value as Choice
 from ui.choices import choices, release_of, words_of
 from ui.history import MOST_NEAR, History
-from ui.inputs import PRESET_VALUES
+from ui.inputs import PRESET_VALUES, usual_values
 from ui.preview import Preview
 from ui.sharing import address, labels
 
@@ -107,6 +109,32 @@ class Session:
         self.values[key] = value
         self.problems.clear()
 
+    def set_kind(self, kind: str) -> None:
+        """Take over a kind of bearing as it is by itself; diameter, length, clearance stay."""
+        self._set(without_shape(self.values) | defaults_of(kind))
+
+    def set_bearing(self, bearing: JournalBearing) -> None:
+        """Take over another bearing's bore and film model; diameter, length, clearance stay."""
+        self._set(without_shape(self.values) | bearing_values(bearing))
+
+    def set_film(self, film: str, usual: str) -> None:
+        """Take over a film model; `usual` is that of a bearing that names none."""
+        self.set_value(FILM, None if film == usual else film)
+
+    def set_pick(self, item: Pick, value: Value) -> None:
+        """Take over a whole number or a word of the bore, and say what it made narrower."""
+        before = self.values
+        self._set(with_pick(before, item, value))
+        self.problems += (
+            f"{item.label} {value:g}: each is narrower now, as they would overlap."
+            for part in item.parts[:1]
+            if self.values[part] != before[part]
+        )
+
+    def _set(self, values: Values) -> None:
+        self.values = values
+        self.problems.clear()
+
     def set_preset(self, preset: str) -> None:
         """Take over a preset's machine and speeds."""
         self.preset, self.values = preset, dict(PRESET_VALUES[preset])
@@ -148,7 +176,15 @@ class Session:
         """Return what the frame shows of the machine beside its sliders, which follow by
         themselves.
         """
-        return self.preset, self.values["load"] is None, self.values[KIND], self.units_name
+        inputs = bore_inputs(self.values)
+        picked = [
+            self.values[item.key] if isinstance(item, Pick) else self.values[item.key] is None
+            for item in inputs
+        ]
+        return (
+            self.preset, self.values["load"] is None, self.values[KIND], self.values[FILM],
+            inputs, picked, self.units_name,
+        )  # fmt: skip
 
     def view(self, chart: str) -> None:
         """Show a chart in a presentation, "1" for the first one, "" for none: all at a desk."""
@@ -236,10 +272,13 @@ class Session:
 
 
 def changed(preset: str, values: Values) -> list[str]:
-    """Return the keys of the values that differ from a preset's."""
-    usual = PRESET_VALUES[preset]
-    keys = [*values, *(usual.keys() - values.keys())]
-    return [key for key in keys if values.get(key) != usual.get(key)]
+    """Return the keys of the values that differ from a preset's.
+
+    Of another kind of bearing than the preset's these are the kind, and its fields that are not at
+    their default.
+    """
+    usual = usual_values(preset, values[KIND]) | {KIND: PRESET_VALUES[preset][KIND]}
+    return [key for key, value in values.items() if key not in usual or value != usual[key]]
 
 
 def _words(given: object, kind: type | tuple[type, ...]) -> dict[str, Any]:

@@ -15,15 +15,13 @@ from plotly.basedatatypes import BaseFigure
 
 from rotorcalc.figures import Chart, themed
 from rotorcalc.units import Units
-from ui.bearing import Values
+from ui.bores import KIND, Values
 from ui.format import short
-from ui.inputs import INPUTS, PRESET_VALUES, Input, input_named, number, usual
+from ui.input_record import Input
+from ui.inputs import input_named, inputs_of, number, usual, usual_values
 from ui.preview import Preview
 from ui.serving import settings
 from ui.session import Session, session
-
-# Width of the window of a linear scale: so that a pixel is a fifth of a degree.
-_SPAN = 60.0
 
 
 class _Checked(BaseFigure):
@@ -61,10 +59,10 @@ def show_preview(preview: Preview | None) -> None:
     visitor = session()
     if settings.live() == "off" or visitor.typed:
         return
-    units = visitor.units
+    units, items = visitor.units, inputs_of(visitor.values)
     _live().show_preview(
         preview if settings.live() == "drag" else None, visitor.token, visitor.frame,
-        {key: _sent(item, visitor.values, units) for key, item in INPUTS.items()}, _mover(units),
+        {key: _sent(item, visitor.values, units) for key, item in items.items()}, _mover(units),
     )  # fmt: skip
 
 
@@ -109,6 +107,7 @@ def _own(item: Input, visitor: Session) -> None:
     units = visitor.units
     shown = _shown(item, visitor.values, units)
     key = f"input_{item.key}_{units.name}_{'typed' if visitor.typed else 'slider'}"
+    low, high = item.shown(item.low, units), item.shown(item.high, units)
     common: dict[str, Any] = {
         "label": item.name(units), "key": key, "help": item.help, "on_change": _keep,
         "args": (item, key, units),
@@ -117,15 +116,17 @@ def _own(item: Input, visitor: Session) -> None:
         _typed(item, visitor, common)
         return
     draw = _slider if item.step else _log_slider
-    found = draw(item, shown, visitor, common)
+    # A link may have a value beyond a bore's slider, which then rests at its end.
+    begun = shown if math.isinf(shown) else min(max(shown, low), high)
+    found = draw(item, begun, visitor, common)
     # What a browser brings to a server without its session is no change to Streamlit.
-    if visitor.frame == 1 and not math.isclose(found, shown):
+    if visitor.frame == 1 and not math.isclose(found, begun):
         visitor.set_value(item.key, item.stored(found, units))
 
 
 def _typed(item: Input, visitor: Session, common: dict[str, Any]) -> None:
     """Show a field whose text `_keep` reads, and which shows the kept value again after that."""
-    text = item.words(_kept(item, visitor.values), visitor.units)
+    text = item.text(_kept(item, visitor.values), visitor.units)
     found = st.text_input(value=_begin(visitor, common["key"], text, "") or "", **common)
     if visitor.frame == 1 and found != text:  # as above
         _moved(item.key, visitor.units, found, dragging=False)
@@ -136,7 +137,7 @@ def _shown(item: Input, values: Values, units: Units) -> float:
 
 
 def _kept(item: Input, values: Values) -> float:
-    return item.low if values[item.key] is None else number(values, item.key)
+    return item.low if values.get(item.key) is None else number(values, item.key)
 
 
 def _keep(item: Input, key: str, units: Units) -> None:
@@ -152,14 +153,15 @@ def _live_sliders(group: str, items: Sequence[Input], visitor: Session) -> None:
     live, values, units = _live(), visitor.values, visitor.units
 
     def slider(item: Input) -> object:
-        start = PRESET_VALUES[visitor.preset]
+        start = _start(visitor)
         return live.Slider(
             item.key, item.name(units), item.help, _sent(item, values, units),
             item.shown(item.low, units), item.shown(item.high, units),
             usual=item.shown(usual(item.key, values), units),
-            preset=None if start[item.key] is None else _sent(item, start, units),
+            preset=None if start.get(item.key) is None else _sent(item, start, units),
             least=item.shown(item.least, units) if item.least else 0.0,
-            step=_step(item, units), span=_difference(item, _SPAN, units) if item.step else 0.0,
+            step=_step(item, units),
+            span=_difference(item, item.span, units) if item.step else 0.0,
             beyond=item.infinite,
         )  # fmt: skip
 
@@ -170,6 +172,11 @@ def _live_sliders(group: str, items: Sequence[Input], visitor: Session) -> None:
         on_move=_mover(units),
         while_dragging=settings.live() == "drag",
     )
+
+
+def _start(visitor: Session) -> Values:
+    """Return the values from which a visitor began."""
+    return usual_values(visitor.preset, visitor.values[KIND])
 
 
 def _sent(item: Input, values: Values, units: Units) -> float | str:
@@ -188,7 +195,7 @@ def _moved(name: str, units: Units, value: object, *, dragging: bool) -> None:
     visitor = session()
     visitor.dragging = dragging
     try:
-        item = input_named(name)
+        item = input_named(name, visitor.values)
         visitor.set_value(item.key, item.taken(value, units))
     except ValueError as error:
         visitor.problems[:] = [f"{error}; it was left as it is."]
@@ -209,11 +216,11 @@ def _slider(item: Input, shown: float, visitor: Session, common: dict[str, Any])
     units = visitor.units
     low, high = item.shown(item.low, units), item.shown(item.high, units)
     step = 0.5 * _step(item, units)
-    value = float(min(max(shown, low), high))
+    digits = max(1, math.ceil(-math.log10(step)))
     return st.slider(
-        min_value=low, max_value=high, step=step, format="%.1f",
+        min_value=float(low), max_value=float(high), step=step, format=f"%.{digits}f",
         # Without a value Streamlit looks through the whole session for one.
-        value=_begin(visitor, common["key"], value, low), **common,
+        value=_begin(visitor, common["key"], shown, float(low)), **common,
     )  # fmt: skip
 
 
@@ -221,7 +228,7 @@ def _log_slider(item: Input, shown: float, visitor: Session, common: dict[str, A
     units = visitor.units
     ends = [item.shown(end, units) for end in (item.low, item.least, item.high)]
     beyond = [math.inf] if item.infinite else []
-    start = _shown(item, PRESET_VALUES[visitor.preset], units)
+    start = _shown(item, _start(visitor), units)
     # Of several values with one text the last: Streamlit knows its options by their texts.
     stops = {_word(item.infinite, one): one for one in (*_stops(*ends), *beyond, start, shown)}
     options = sorted(stops.values())

@@ -9,7 +9,7 @@ from typing import Any
 from streamlit.testing.v1 import AppTest
 
 from ui.frame.page import PAGES
-from ui.inputs import INPUTS
+from ui.inputs import input_named
 from ui.session import Session
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -74,8 +74,9 @@ def slider(at: AppTest, key: str) -> tuple[Any, Any, Any]:
     found = [one for one in at.slider if one.key == key]
     if found:
         return found[0], found[0].min, found[0].max
-    item = INPUTS[key.split("_", 1)[1].rsplit("_", 2)[0]]
-    units = session_of(at).units
+    visitor = session_of(at)
+    item = input_named(key.split("_", 1)[1].rsplit("_", 2)[0], visitor.values)
+    units = visitor.units
     low, high = (item.shown(end, units) for end in (item.low, item.high))
     return at.select_slider(key=key), low, float("inf") if item.infinite else high
 

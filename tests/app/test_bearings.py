@@ -30,6 +30,7 @@ from tests.app.session import (
 from tests.films.models import BEARINGS, FINITE, MOVING, SHORT_PADS, Ringed
 from tests.machines import SHEET
 from ui.bearing import _TAKEN, bearing_values, fields_of, shape_of
+from ui.bores import name_of
 from ui.cases import Case, Shown
 from ui.computed import Computed
 from ui.inputs import INPUTS, machine_of, values_of
@@ -168,7 +169,7 @@ def test_files_are_written_for_every_bearing(name: str) -> None:
     page = report.report(shown, [SHEETS], US, "link", Labels()).decode()
     for field in fields_of(BEARINGS[name].geometry.kind).values():
         assert field.label in page
-    for words in ("Kind of bearing", BEARINGS[name].geometry.kind, "Film model"):
+    for words in ("Kind of bearing", name_of(BEARINGS[name].geometry.kind), "Film model"):
         assert f"<td>{words}</td>" in page or f'<td class="n">{words}</td>' in page
 
 
@@ -207,6 +208,6 @@ def test_a_bearing_of_another_kind_is_distinguished_in_the_cases() -> None:
     session_of(at).values = values_of(SHEET, SPEED, TOP)
     at.run()
     rows = comparison(at)
-    assert "ringed" in rows["Bearing"]
+    assert rows["Bearing"] == "Plain circular | Ringed"
     assert "Outer clearance [µm]" in rows
     assert faults(at) == []

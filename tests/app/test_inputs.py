@@ -11,11 +11,11 @@ from rotorcalc import PRESETS
 from rotorcalc.units import SI, SYSTEMS, US
 from ui.bearing import Values
 from ui.computed import computed_from
+from ui.input_record import Input
 from ui.inputs import (
     GROUPS,
     INPUTS,
     PRESET_VALUES,
-    Input,
     machine_of,
     speeds_of,
     usual,

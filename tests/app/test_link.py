@@ -12,7 +12,8 @@ from rotorcalc.records import Bound, Choice
 from rotorcalc.units import SYSTEMS, US
 from tests.films.models import BEARINGS
 from ui.bearing import KIND, Field, Value, Values, bearing_values, fields_of
-from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, Input, machine_of, tidy
+from ui.input_record import Input, tidy
+from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, machine_of
 from ui.sharing import address
 
 

@@ -2,7 +2,9 @@
 
 import streamlit as st
 
-from ui.bearing import FILM, KIND, Values, fields_of
+from ui.bearing import fields_of, film_name
+from ui.bores import FILM, KIND, Values, name_of
+from ui.format import lower
 from ui.inputs import INPUTS
 from ui.session import Session, changed
 
@@ -38,7 +40,9 @@ def changes(preset: str, values: Values) -> str:
 def _symbol(key: str, values: Values) -> str:
     if key in INPUTS:
         return INPUTS[key].symbol
-    if key in (KIND, FILM):
-        return key
+    if key == KIND:
+        return f"bearing: {lower(name_of(values[KIND]))}"
+    if key == FILM:
+        return f"film: {lower(film_name(values))}"
     fields = fields_of(values[KIND])
-    return fields[key].label.lower() if key in fields else key.replace("_", " ")
+    return lower(fields[key].label) if key in fields else key.replace("_", " ")

@@ -12,7 +12,7 @@ from streamlit.delta_generator import DeltaGenerator
 
 from rotorcalc.units import Units
 from ui import choices
-from ui.bearing import Values
+from ui.bores import Values
 from ui.cases import Draw, Shown, compared
 from ui.cases import computed as computed_cases
 from ui.choices import choice

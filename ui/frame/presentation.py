@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
 
-from ui.inputs import INPUTS
+from ui.inputs import inputs_of
 from ui.session import Session, session
 from ui.widgets import show_inputs
 
@@ -85,13 +85,15 @@ def draw_switch(visitor: Session) -> None:
 
 def draw_sliders(visitor: Session) -> None:
     """Draw the sliders in use: those changed from the preset first, or those chosen."""
-    changed = [key for key in visitor.changed() if key in INPUTS]
+    items = inputs_of(visitor.values)
+    changed = [key for key in visitor.changed() if key in items]
     usual = list(dict.fromkeys(["rpm", *changed, "C", "T", "L"]))[:_MOST]
-    chosen = st.session_state.get("in_use", usual)
-    show_inputs("in use", [INPUTS[key] for key in chosen])
+    # Another kind of bearing has other inputs.
+    chosen = [key for key in st.session_state.get("in_use", usual) if key in items]
+    show_inputs("in use", [items[key] for key in chosen])
     with st.popover("Other sliders", width="stretch"):
         st.multiselect(
-            "Sliders in use", list(INPUTS), format_func=lambda key: INPUTS[key].label,
+            "Sliders in use", list(items), format_func=lambda key: items[key].label,
             key="in_use", default=None if "in_use" in st.session_state else usual,
             persist_state="session",
         )  # fmt: skip

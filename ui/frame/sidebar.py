@@ -6,6 +6,7 @@ from rotorcalc import PRESETS, Oil
 from rotorcalc.oils import ISO_VG, fitted_oil, iso_oil
 from rotorcalc.units import AMPLITUDES, SI, SYSTEMS, Unit, Units
 from ui.format import amount
+from ui.frame import bore
 from ui.inputs import GROUPS, INPUTS, OPEN_GROUPS, machine_of, number
 from ui.session import session
 from ui.widgets import show_inputs
@@ -41,6 +42,8 @@ def draw_inputs() -> None:
                 _load()
                 show_inputs(group, items[place + 1 :])
             else:
+                if group == "Bearing":
+                    bore.draw()
                 show_inputs(group, items)
             if group == "Oil":
                 _oil_library()
@@ -149,7 +152,7 @@ def _take_over(oil: Oil) -> None:
         value = float(f"{float(item.unit(SI).of(getattr(oil, name))):.6g}")
         if problem := item.problem(value, units):
             visitor.problems.append(
-                f"{item.name(units)} = {item.words(value, units)} {problem}; it was left as it is."
+                f"{item.name(units)} = {item.text(value, units)} {problem}; it was left as it is."
             )
         else:
             visitor.values[key] = value

@@ -18,7 +18,6 @@ from ui.bearing import (
     Field,
     Value,
     Values,
-    defaults_of,
     fields_of,
     kinds,
     without_shape,
@@ -27,7 +26,8 @@ from ui.bearing import (
 from ui.cases import Case, added
 from ui.choices import NAMES
 from ui.format import quoted, typed_number
-from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, machine_of, tidy
+from ui.input_record import tidy
+from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, machine_of, usual_values
 
 CASES = "cases"
 # Parameters that are no value of the machine.
@@ -99,19 +99,13 @@ def _read_cases(text: str, preset: str, problems: list[str]) -> tuple[Case, ...]
 def _differing(preset: str, values: Values) -> dict[str, str]:
     """Return the preset, and the values that differ from it, as a link has them."""
     params = {} if preset == DEFAULT_PRESET else {"preset": preset}
-    usual = _usual(values[KIND], preset)
+    usual = usual_values(preset, values[KIND])
     for key, value in values.items():
         if key not in usual or value != usual[key]:
             params[key] = "weight" if key == "load" and value is None else written(value)
     if values[KIND] != PRESET_VALUES[preset][KIND]:
         params[KIND] = str(values[KIND])
     return params
-
-
-def _usual(kind: object, preset: str) -> Values:
-    """Return a preset's values with a bearing of a kind as it is by itself."""
-    values = PRESET_VALUES[preset]
-    return values if values[KIND] == kind else without_shape(values) | defaults_of(str(kind))
 
 
 def checked_values(given: Mapping[str, object], preset: str, problems: list[str]) -> Values:
@@ -122,7 +116,7 @@ def checked_values(given: Mapping[str, object], preset: str, problems: list[str]
             f"{KIND} = {quoted(kind)} is not one of {', '.join(kinds())}; {_kept(KIND, preset)}"
         )
         kind = PRESET_VALUES[preset][KIND]
-    values, fields = _usual(kind, preset), fields_of(kind)
+    values, fields = usual_values(preset, kind), fields_of(kind)
     values = dict(values)
     for key, word in given.items():
         if key in INPUTS:

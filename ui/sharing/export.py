@@ -15,7 +15,8 @@ from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.unbalance_response import phase_lag
 from rotorcalc.units import Unit, Units
 from ui import comparison
-from ui.bearing import FILM, KIND, fields_of
+from ui.bearing import fields_of, film_name
+from ui.bores import KIND, name_of
 from ui.computed import Computed
 from ui.inputs import INPUTS, values_of
 from ui.sharing import xlsx
@@ -88,8 +89,8 @@ def _head(computed: Computed, units: Units) -> Iterator[tuple[str, str]]:
     values = values_of(computed.machine, computed.speed, computed.top_speed)
     for key, item in INPUTS.items():
         yield f"# {item.name(units)}", comparison.shown(key, values, units).replace("−", "-")
-    for key in (KIND, FILM):
-        yield f"# {key.capitalize()}", f"{values[key] or 'as usual'}"
+    yield "# Bearing", name_of(values[KIND])
+    yield "# Film", film_name(values)
     for field in fields_of(values[KIND]).values():
         yield f"# {field.name_in(units)}", field.shown(values.get(field.key), units)
     onset = computed.onset

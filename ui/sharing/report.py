@@ -21,11 +21,12 @@ from rotorcalc.arrays import Array
 from rotorcalc.units import Unit, Units
 from rotorcalc.validity import validity
 from ui import comparison
-from ui.bearing import KIND, Values, fields_of
+from ui.bearing import fields_of, film_name
+from ui.bores import KIND, Values, name_of
 from ui.cases import Shown
 from ui.computed import Computed
 from ui.format import amount, digits, minus
-from ui.inputs import GROUPS, INPUTS, machine_of, values_of
+from ui.inputs import GROUPS, INPUTS, values_of
 from ui.results.table import RESULTS
 from ui.sharing import report_charts
 from ui.sharing.labels import Labels
@@ -130,8 +131,8 @@ def _inputs(computed: Computed, units: Units) -> str:
 def _bearing(live: Values, units: Units) -> Iterator[str]:
     """Yield rows of the kind of the bearing, its film model, and the fields of its bore."""
     rows = [
-        ("Kind of bearing", f"{live[KIND]}", "-"),
-        ("Film model", machine_of(live).bearing.model, "-"),
+        ("Kind of bearing", name_of(live[KIND]), "-"),
+        ("Film model", film_name(live), "-"),
         *(
             (field.label, field.shown(live.get(field.key), units), field.unit(units).name)
             for field in fields_of(live[KIND]).values()

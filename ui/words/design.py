@@ -65,7 +65,7 @@ def name(machine: Machine, key: str) -> str:
     """Return an input's label and symbol."""
     if key not in INPUTS:
         return bore_field(machine, key).label
-    return f"{INPUTS[key].label} {INPUTS[key].symbol}"
+    return INPUTS[key].words
 
 
 def quantity(key: str, machine: Machine, units: Units) -> Quantity:

@@ -9,7 +9,7 @@ import streamlit as st
 from rotorcalc import Machine, design
 from rotorcalc.figures.design import Quantity
 from rotorcalc.units import SI, Units
-from ui.bearing import Value
+from ui.bores import Value
 from ui.choices import choice
 from ui.computed import Computed
 from ui.format import amount, digits, quoted, typed_number

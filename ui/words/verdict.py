@@ -6,7 +6,7 @@ from typing import Literal
 
 from rotorcalc.units import Units
 from ui.computed import Computed
-from ui.format import above, amount, digits
+from ui.format import above, amount, digits, lower
 from ui.preview import Kind, Text
 from ui.results.stability import leading
 from ui.words import validity
@@ -41,12 +41,8 @@ def verdict(computed: Computed, units: Units) -> Verdict:
     return Verdict(
         "outside",
         "No verdict: the model does not hold for this machine. By the model it is "
-        f"{_lower(sentence)}",
+        f"{lower(sentence)}",
     )
-
-
-def _lower(text: str) -> str:
-    return text[:1].lower() + text[1:]
 
 
 def _sentence(computed: Computed, units: Units) -> str:

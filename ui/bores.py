@@ -1,0 +1,211 @@
+"""The bores that a visitor can choose, by their usual names, and the inputs of each.
+
+An angle, a share or a depth has a slider, as the machine's other inputs (`ui.inputs`); a whole
+number and a word are picked from a few. `bore_inputs` narrows a slider to what goes with the
+other values: pads that overlap, or a pocket beyond its pad, make no bearing.
+"""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+from ui.input_record import Input
+
+# A number; a word; or None for a value that follows from others, as a load from the weight.
+Value = float | str | None
+Values = dict[str, Value]
+
+KIND, FILM = "bearing", "film"
+
+NAMES = {
+    "plain": "Plain circular",
+    "partial-arc": "Partial arc",
+    "axial-grooves": "Axial grooves",
+    "elliptical": "Elliptical (two-lobe)",
+    "offset-halves": "Offset halves",
+    "lobes": "Lobed",
+    "pressure-dam": "Pressure dam",
+    "multi-dam": "Multi-pocket dam",
+}
+FILMS = {"short": "Short bearing", "finite": "Finite length"}
+
+# The narrowest pad, and the least land beside a pocket or between grooves [°].
+_LEAST_ARC, _LAND = 10.0, 2.0
+# How far a single pad may lie beside the load line, over its arc: further it carries nothing.
+_ASIDE = 0.3
+
+
+@dataclass(frozen=True)
+class Pick:
+    """A whole number or a word of a bore, picked from a few.
+
+    `parts` names the angles that grow narrower with more of them, so that they fit.
+    """
+
+    key: str
+    label: str
+    options: tuple[float | str, ...]
+    help: str
+    parts: tuple[str, ...] = ()
+
+
+def _angle(key: str, label: str, ends: tuple[float, float], about: str, follows: str = "") -> Input:
+    return Input(
+        key, f"bearing.geometry.{key}", label, "", "angle", *ends, "Bearing", about,
+        step=1.0, span=360.0, follows=follows,
+    )  # fmt: skip
+
+
+def _share(key: str, label: str, symbol: str, ends: tuple[float, float], about: str) -> Input:
+    return Input(
+        key, f"bearing.geometry.{key}", label, symbol, "number", *ends, "Bearing", about, step=0.01
+    )
+
+
+def _depth(label: str, follows: str) -> Input:
+    return Input(
+        "depth", "bearing.geometry.depth", label, "d", "film", 1, 5000, "Bearing",
+        "Depth below the surface of the pad; the film there is that much thicker.",
+        follows=follows,
+    )  # fmt: skip
+
+
+def _number(label: str, least: int, about: str, *parts: str) -> Pick:
+    return Pick("number", label, tuple(map(float, range(least, 7))), about, parts)
+
+
+_GROOVE = _angle(
+    "groove_width", "Groove width", (0, 90),
+    "Angle of the two grooves between the pads, at ±90° from the load line.",
+)  # fmt: skip
+_PRELOAD = _share(
+    "preload", "Preload", "m", (0, 0.9),
+    "How far each pad's centre of curvature is moved towards its pad, over C; 0 is a circular "
+    "bore. C is the clearance of a pad: the assembled one is (1 − m) C.",
+)  # fmt: skip
+_AXIAL = _share(
+    "axial_ratio", "Pocket length over L", "", (0.05, 0.95),
+    "Axial length of the pocket over that of the bearing.",
+)  # fmt: skip
+_LOAD = Pick(
+    "bearing_load", "Load points", ("on pad", "between pads"),
+    "Where the load line meets the bore.",
+)  # fmt: skip
+_PADS = "Number of equal pads around the bore."
+
+BORES: dict[str, tuple[Input | Pick, ...]] = {
+    "plain": (),
+    "partial-arc": (
+        _angle("arc", "Arc of the pad", (30, 350),
+               "Angle of the pad; the rest of the bore is relieved."),
+        _angle("centre", "Middle of the pad", (-45, 45),
+               "Angle of the pad's middle from the load line, in the sense of rotation."),
+    ),
+    "axial-grooves": (
+        _number("Number of grooves", 1, "Number of grooves, evenly spaced.", "width"),
+        _angle("width", "Groove width", (1, 60), "Angle of each groove."),
+        _angle("first", "First groove", (-180, 180),
+               "Angle of the middle of the first groove from the load line, in the sense of "
+               "rotation.", "Grooves lie evenly beside the load line"),
+    ),
+    "elliptical": (_PRELOAD, _GROOVE),
+    "offset-halves": (
+        _share("offset", "Offset", "δ", (0, 0.8),
+               "How far each half is moved sideways, over C; 0 is a circular bore."),
+        _GROOVE,
+    ),
+    "lobes": (
+        _number("Number of pads", 2, _PADS, "arc"),
+        _angle("arc", "Arc of a pad", (_LEAST_ARC, 180), "Angle of each pad."),
+        _PRELOAD,
+        _share("offset", "Offset", "α", (0.4, 1),
+               "Where on its arc a pad comes closest to a centred journal: 0.5 in its middle, 1 at "
+               "its trailing edge."),
+        _LOAD,
+    ),
+    "pressure-dam": (
+        _angle("pocket_arc", "Arc of the pocket", (_LEAST_ARC, 178),
+               "Angle from the unloaded pad's leading edge to the step."),
+        _depth("Pocket depth", "Pocket is 2 C deep"),
+        _AXIAL,
+        _GROOVE,
+        _PRELOAD,
+        _share("track_ratio", "Relief track over L", "", (0, 0.6),
+               "Width of a track around the middle of the loaded pad over the bearing's length; "
+               "0 for none."),
+    ),
+    "multi-dam": (
+        _number("Number of pads", 2, _PADS, "arc", "pocket_arc"),
+        _angle("arc", "Arc of a pad", (_LEAST_ARC, 180), "Angle of each pad."),
+        _angle("pocket_arc", "Arc of a pocket", (5, 178),
+               "Angle from each pad's leading edge to the step."),
+        _depth("Pocket depth", "Pockets are 1.5 C deep"),
+        _AXIAL,
+        _LOAD,
+    ),
+}  # fmt: skip
+
+
+def name_of(kind: object) -> str:
+    """Return the usual name of a kind of bearing."""
+    return NAMES.get(str(kind), str(kind).replace("-", " ").capitalize())
+
+
+def bore_inputs(values: Mapping[str, Value]) -> tuple[Input | Pick, ...]:
+    """Return the inputs of a machine's bore, each with the range that goes with the others."""
+    kind = str(values[KIND])
+    return tuple(_fitting(kind, item, values) for item in BORES.get(kind, ()))
+
+
+def with_pick(values: Values, item: Pick, value: Value) -> Values:
+    """Return values with another number or word; more pads or grooves are narrower where they must.
+
+    They keep their share of the circle.
+    """
+    changed: Values = values | {item.key: value}
+    if not item.parts:
+        return changed
+    widest, least = _pitch(changed), _LAND if "width" in item.parts else 0.0
+    if _angle_of(values, item.parts[0]) <= widest - least:
+        return changed
+    share = widest / _pitch(values)
+    return changed | {part: float(f"{_angle_of(values, part) * share:.10g}") for part in item.parts}
+
+
+def _fitting(kind: str, item: Input | Pick, values: Mapping[str, Value]) -> Input | Pick:
+    """Return an input with the range that the others leave it, if they leave any."""
+    if isinstance(item, Pick) or (kind, item.key) not in _ROOMS:
+        return item
+    low, high = _ROOMS[kind, item.key](values)
+    low, high = max(item.low, low), min(item.high, high)
+    return replace(item, low=low, high=high) if low < high else item
+
+
+def _pitch(values: Mapping[str, Value]) -> float:
+    return 360.0 / _angle_of(values, "number")
+
+
+def _about(angle: float) -> tuple[float, float]:
+    return -angle, angle
+
+
+def _half_without(values: Mapping[str, Value], key: str) -> float:
+    return 180.0 - _angle_of(values, key) - _LAND
+
+
+def _angle_of(values: Mapping[str, Value], key: str) -> float:
+    value = values[key]
+    return value if isinstance(value, float | int) else math.nan
+
+
+# Between which angles [°] the other values leave a bearing.
+_ROOMS: dict[tuple[str, str], Callable[[Mapping[str, Value]], tuple[float, float]]] = {
+    ("partial-arc", "arc"): lambda v: (abs(_angle_of(v, "centre")) / _ASIDE, math.inf),
+    ("partial-arc", "centre"): lambda v: _about(_ASIDE * _angle_of(v, "arc")),
+    ("axial-grooves", "width"): lambda v: (0.0, _pitch(v) - _LAND),
+    ("lobes", "arc"): lambda v: (0.0, _pitch(v)),
+    ("multi-dam", "arc"): lambda v: (_angle_of(v, "pocket_arc") + _LAND, _pitch(v)),
+    ("multi-dam", "pocket_arc"): lambda v: (0.0, _angle_of(v, "arc") - _LAND),
+    ("pressure-dam", "pocket_arc"): lambda v: (0.0, _half_without(v, "groove_width")),
+    ("pressure-dam", "groove_width"): lambda v: (0.0, _half_without(v, "pocket_arc")),
+}

@@ -1,0 +1,125 @@
+"""The bearing in the sidebar: its kind, its film model, and the inputs of its bore."""
+
+from collections.abc import Callable, Iterable
+from itertools import groupby
+
+import streamlit as st
+
+from rotorcalc.units import SI
+from ui.bearing import film_model, kinds, shape_of
+from ui.bores import FILMS, KIND, NAMES, Pick, Value, bore_inputs, name_of
+from ui.input_record import Input, tidy
+from ui.inputs import INPUTS, number
+from ui.session import session
+from ui.widgets import show_inputs
+
+_KIND_HELP = (
+    "Diameter, length, clearance and load stay as they are. The clearance is the one to which a "
+    "pad is machined: its radius of curvature less the journal's."
+)
+_FILM_HELP = (
+    "The short bearing has its film in closed form and neglects the flow around the journal, which "
+    "makes it too stable. A bearing of finite length is computed from Reynolds' equation."
+)
+
+
+def draw() -> None:
+    """Draw the choice of a kind and of a film model, and the inputs of the bore."""
+    _kind()
+    _film()
+    for place, (is_pick, items) in enumerate(
+        groupby(bore_inputs(session().values), lambda item: isinstance(item, Pick))
+    ):
+        if is_pick:
+            _picks(items)
+        else:
+            _sliders(f"Bore {place}", items)
+
+
+def _kind() -> None:
+    visitor = session()
+    kind = str(visitor.values[KIND])
+    visitor.mirror("bearing_kind", kind)
+    st.selectbox(
+        "Bearing", list(NAMES) if kind in NAMES else [*NAMES, kind], format_func=name_of,
+        key="bearing_kind", help=_KIND_HELP, on_change=_from("bearing_kind", visitor.set_kind),
+    )  # fmt: skip
+
+
+def _film() -> None:
+    visitor = session()
+    models = kinds()[str(visitor.values[KIND])].models
+    if len(models) < 2:
+        return
+    visitor.mirror("film_model", film_model(visitor.values))
+    st.segmented_control(
+        "Film model", sorted(models, reverse=True), format_func=lambda model: FILMS[model],
+        key="film_model", required=True, help=_FILM_HELP,
+        on_change=_from("film_model", lambda film: visitor.set_film(film, models[0])),
+    )  # fmt: skip
+
+
+def _picks(items: Iterable[Input | Pick]) -> None:
+    for item in items:
+        if isinstance(item, Pick):
+            _pick(item)
+
+
+def _pick(item: Pick) -> None:
+    visitor = session()
+    value, key = visitor.values[item.key], f"pick_{item.key}"
+    visitor.mirror(key, value)
+    # A link may have more pads than are offered here.
+    options = item.options if value in item.options else (*item.options, value)
+    st.segmented_control(
+        item.label, options, format_func=_word, key=key, required=True, help=item.help,
+        on_change=_from(key, lambda value: visitor.set_pick(item, value)),
+    )  # fmt: skip
+
+
+def _sliders(group: str, items: Iterable[Input | Pick]) -> None:
+    """Draw sliders; one whose value follows from others has a switch, which says from what."""
+    together: list[Input] = []
+    for item in items:
+        if isinstance(item, Pick):
+            continue
+        if item.follows:
+            _some(group, together)
+            group, together = f"{group}, after {item.key}", []
+            _follows(item)
+        if session().values[item.key] is not None:
+            together.append(item)
+    _some(group, together)
+
+
+def _some(group: str, items: list[Input]) -> None:
+    if items:
+        show_inputs(group, items)
+
+
+def _follows(item: Input) -> None:
+    visitor = session()
+    key = f"{item.key}_follows"
+    visitor.mirror(key, visitor.values[item.key] is None)
+
+    def toggle(follows: bool) -> None:
+        visitor.set_value(item.key, None if follows else _implied(item))
+
+    st.toggle(item.follows, key=key, on_change=_from(key, toggle))
+
+
+def _implied(item: Input) -> float:
+    """Return the value that an input has where none is given."""
+    values = session().values
+    geometry, _ = shape_of(values)
+    clearance = INPUTS["C"].unit(SI).to_si(number(values, "C"))
+    return tidy(float(item.unit(SI).of(geometry.implied(item.key, clearance))))
+
+
+def _from(key: str, take: Callable[..., None]) -> Callable[[], None]:
+    """Return a callback that takes a widget's value."""
+    return lambda: take(st.session_state[key])
+
+
+def _word(value: Value) -> str:
+    return f"{value:g}" if isinstance(value, float | int) else str(value)
