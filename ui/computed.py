@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -172,6 +173,15 @@ class Computed:
     def onset(self) -> Onset:
         """Onset of whirl of the machine."""
         return _onset(self.machine, True)
+
+    @property
+    def of_finite_length(self) -> "Computed | None":
+        """The same machine on the film of finite length; None where it has it or there is none."""
+        bearing = self.machine.bearing
+        if bearing.model == "finite" or "finite" not in bearing.geometry.models:
+            return None
+        machine = replace(self.machine, bearing=replace(bearing, film="finite"))
+        return _computed(machine, self.speed, self.top_speed)
 
     @property
     def rigid_onset(self) -> Onset:

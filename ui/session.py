@@ -17,7 +17,7 @@ import streamlit as st
 from rotorcalc import JournalBearing
 from rotorcalc.units import SYSTEMS, Units, with_amplitudes
 from ui import cases
-from ui.bearing import bearing_values, defaults_of, without_shape
+from ui.bearing import bearing_values, defaults_of, film_model, without_shape
 from ui.bores import FILM, KIND, Pick, Value, Values, bore_inputs, with_pick
 from ui.cases import Case
 from ui.choices import Value as Choice
@@ -117,8 +117,9 @@ class Session:
         """Take over another bearing's bore and film model; diameter, length, clearance stay."""
         self._set(without_shape(self.values) | bearing_values(bearing))
 
-    def set_film(self, film: str, usual: str) -> None:
-        """Take over a film model; `usual` is that of a bearing that names none."""
+    def set_film(self, film: str) -> None:
+        """Take over a film model; that of a bearing that names none needs no name."""
+        usual = film_model(self.values | {FILM: None})
         self.set_value(FILM, None if film == usual else film)
 
     def set_pick(self, item: Pick, value: Value) -> None:

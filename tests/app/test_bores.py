@@ -2,13 +2,16 @@
 
 import json
 import math
+import re
 from collections.abc import Iterator
+from dataclasses import replace
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from streamlit.testing.v1 import AppTest
 
+from rotorcalc import onset_speed
 from rotorcalc.comparison import KINDS
 from rotorcalc.units import SI, US
 from tests.app.session import (
@@ -340,3 +343,65 @@ def test_typed_values_of_a_bore_are_read(monkeypatch: pytest.MonkeyPatch) -> Non
     at.text_input(key="input_preload_SI_typed").set_value("1.5").run()
     assert session_of(at).values["preload"] == 0.35
     assert any("Preload m = 1.5 lies outside 0 to 0.9" in one.value for one in at.warning)
+
+
+def said_of_the_short_film(at: AppTest) -> list[str]:
+    return [one.value for one in at.markdown if one.value.startswith("The short bearing ")]
+
+
+def test_the_panel_has_the_short_bearings_own_error_and_leads_to_the_finite_film() -> None:
+    at = visit(HOME, L="150")
+    assert said_of_the_short_film(at) == []
+    open_part(at, "validity")
+    (said,) = said_of_the_short_film(at)
+    short = machine_of(session_of(at).values)
+    finite = replace(short, bearing=replace(short.bearing, film="finite"))
+    error = 100.0 * (onset_speed(short).speed / onset_speed(finite).speed - 1.0)
+    assert error > 1.0
+    assert f"puts the onset **{error:.2g} % too high** here" in said
+    at.button(key="use_finite").click().run()
+    assert machine_of(session_of(at).values) == finite
+    assert said_of_the_short_film(at) == []
+    assert not any(one.key == "use_finite" for one in at.button)
+    at.button(key="undo").click().run()
+    assert machine_of(session_of(at).values) == short
+    assert faults(at) == []
+
+
+def test_the_error_of_the_short_film_is_that_of_a_textbooks_example() -> None:
+    # Jindal, Machine Design, ex. 17-2: h_min 8 µm by the chart, 13.8 µm by the short bearing.
+    at = visit(
+        HOME, D="60", L="60", C="40", load="6000", mass="1200", rpm="1260", mu="6.293", T="50",
+        TR="50",
+    )  # fmt: skip
+    open_part(at, "validity")
+    (said,) = said_of_the_short_film(at)
+    found = re.search(r"the smallest film (\d+) % too thick", said)
+    assert found
+    assert float(found[1]) == pytest.approx(72, abs=12)
+
+
+@pytest.mark.parametrize(
+    ("query", "word"),
+    [
+        ({"load": "0"}, "has the same onset here"),
+        ({"bearing": "elliptical", "film": "short"}, "puts the onset"),
+        ({"bearing": "elliptical", "film": "short", "preload": "0.9"}, "has the same onset here"),
+        ({"load": "2e6", "D": "30", "L": "10", "C": "200"}, "On the film of finite length"),
+    ],
+)
+def test_what_the_finite_film_says_of_the_short_one_is_in_words(
+    query: dict[str, str], word: str
+) -> None:
+    at = visit(HOME, **query)
+    open_part(at, "validity")
+    assert any(word in one.value for one in at.markdown)
+    assert faults(at) == []
+
+
+@pytest.mark.parametrize("kind", ["elliptical", "pressure-dam"])
+def test_a_film_of_finite_length_has_no_error_of_a_short_one(kind: str) -> None:
+    at = visit(HOME, bearing=kind)
+    open_part(at, "validity")
+    assert said_of_the_short_film(at) == []
+    assert not any(one.key == "use_finite" for one in at.button)

@@ -55,7 +55,7 @@ def _film() -> None:
     st.segmented_control(
         "Film model", sorted(models, reverse=True), format_func=lambda model: FILMS[model],
         key="film_model", required=True, help=_FILM_HELP,
-        on_change=_from("film_model", lambda film: visitor.set_film(film, models[0])),
+        on_change=_from("film_model", visitor.set_film),
     )  # fmt: skip
 
 

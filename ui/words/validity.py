@@ -1,11 +1,14 @@
 """The validity panel: where the model holds for this machine, and where it is strained."""
 
+import math
+
 import streamlit as st
 
 from rotorcalc.validity import Check
 from ui.computed import Computed
 from ui.format import digits
-from ui.preview import Preview, Text
+from ui.preview import Preview, Text, not_at_once
+from ui.session import session
 
 _BADGES = {"good": "green", "caution": "orange", "outside": "red"}
 _FILM = ":small[Film: {}, laminar, isoviscous, aligned, rigid walls. Orbits: small.]"
@@ -39,8 +42,48 @@ def panel(computed: Computed) -> Text:
 
 def draw(preview: Preview) -> None:
     """Show all assumptions in an expander; the worst of them stands with the verdict."""
-    with st.expander("Where the model holds", expanded=False, key="validity"):
+    opened = st.expander("Where the model holds", key="validity", on_change="rerun")
+    with opened:
         preview.say("assumptions", panel)
+        # A bore that nobody asked before takes a tenth of a second: only where somebody reads it.
+        if opened.open and preview.computed.of_finite_length is not None:
+            preview.say("short_error", short_error, while_dragging=not_at_once)
+            st.button(
+                "Use the film of finite length", key="use_finite",
+                on_click=session().set_film, args=("finite",),
+            )  # fmt: skip
+
+
+def short_error(computed: Computed) -> Text | None:
+    """Return by how much a short bearing's film misses that of finite length on this machine."""
+    finite = computed.of_finite_length
+    if finite is None:
+        return None
+    try:
+        onset = _onset_error(computed.onset.speed, finite.onset.speed)
+        film = computed.point.minimum_film_thickness / finite.point.minimum_film_thickness
+    except ValueError as error:
+        return Text(f"On the film of finite length: {error}.")
+    thick = "" if film == 1.0 else f", and the smallest film {_by(float(film), 'thick', 'thin')}"
+    return Text(f"The short bearing {onset}{thick}, by the film of finite length.")
+
+
+def _onset_error(short: float, finite: float) -> str:
+    """Return in words how a short bearing's onset compares with that of finite length."""
+    if short == finite:  # both at any speed, or none
+        return "has the same onset here"
+    if math.isinf(short):
+        return "finds no onset here, where there is one"
+    if math.isinf(finite):
+        return "finds an onset here, where there is none"
+    if finite == 0.0:
+        return "finds an onset here, where the machine whirls at any speed"
+    return f"puts the onset **{_by(short / finite, 'high', 'low')}** here"
+
+
+def _by(ratio: float, more: str, less: str) -> str:
+    """Return in words by how much a ratio differs from one."""
+    return f"{abs(100.0 * (ratio - 1.0)):.2g} % too {more if ratio > 1.0 else less}"
 
 
 def _line(check: Check) -> str:
