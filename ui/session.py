@@ -116,6 +116,7 @@ class Session:
     def set_bearing(self, bearing: JournalBearing) -> None:
         """Take over another bearing's bore and film model; diameter, length, clearance stay."""
         self._set(without_shape(self.values) | bearing_values(bearing))
+        self.set_film(bearing.model)
 
     def set_film(self, film: str) -> None:
         """Take over a film model; that of a bearing that names none needs no name."""

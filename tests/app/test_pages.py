@@ -11,6 +11,7 @@ from streamlit.testing.v1 import AppTest
 from rotorcalc import PRESETS
 from rotorcalc.figures.style import HERE
 from tests.app.session import (
+    BEARINGS,
     HOME,
     NOTES,
     ORBITS,
@@ -84,7 +85,10 @@ def test_every_input_has_a_slider(path: str, units: str) -> None:
 def test_both_ends_of_every_slider(path: str, units: str) -> None:
     at = visit(path, units=units, **LOADED)
     keys = slider_keys(at)
-    # What notes say holds for all machines; the tabs of Orbits show one release after the other.
+    # What notes say holds for all machines; the tabs of Orbits show one release after the other, and
+    # Bearings computes nine machines at each end.
+    if path == BEARINGS:
+        keys = [key for key in keys if key.split("_")[1] in ("rpm", "L", "u")]
     for label in tours(at) if path not in (NOTES, ORBITS) else [""]:
         for key, end, shown in _ends(at, keys):
             assert shown == [] or _no_disk(at), (label, key, end, shown)

@@ -61,7 +61,8 @@ PAGES = {
     "pages/4_Root_locus.py": "Root locus",
     "pages/5_Response.py": "Response",
     "pages/6_Orbits.py": "Orbits",
-    "pages/7_Notes.py": "Notes",
+    "pages/7_Bearings.py": "Bearings",
+    "pages/8_Notes.py": "Notes",
 }
 
 

@@ -7,8 +7,10 @@ from collections.abc import Callable
 
 import numpy as np
 
-from rotorcalc import Machine, Onsets, design, onsets
+from rotorcalc import Machine, Onsets, compare_bearings, design, onsets
 from rotorcalc.arrays import Array
+from rotorcalc.comparison import BearingResult, bearing_result
+from rotorcalc.geometry import Geometry
 from rotorcalc.nonlinear import release as releases
 from rotorcalc.nonlinear import run_up as run_ups
 from rotorcalc.nonlinear.measured_onset import GrowthCurve, growth_curve
@@ -69,6 +71,13 @@ def solution(
 ) -> design.OnsetSolution:
     """Return the values of an input that put the onset at a speed."""
     return design.solve_onset(machine, vary=name, target=target, low=low, high=high)
+
+
+def bearing(machine: Machine, speed: float, geometry: Geometry | None) -> BearingResult:
+    """Return what a machine does on another bore, or on its own."""
+    if geometry is None:
+        return bearing_result(machine, speed)
+    return compare_bearings(machine, (geometry,), speed=speed)[0]
 
 
 def _places(axis: Axis, points: int) -> tuple[str, Array]:

@@ -1,0 +1,110 @@
+"""The bore of a bearing as lines: its pads, with their pockets, and a small picture of them."""
+
+import functools
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from rotorcalc.arrays import Array
+from rotorcalc.figures import style
+from rotorcalc.films.pads import Pad, pads_of
+from rotorcalc.machine import JournalBearing
+
+# Clearance over the bore's radius in a small picture, and the deepest pocket drawn, in C.
+_SHOWN, _DEEPEST = 0.3, 2.0
+_STEP = math.radians(2.0)
+
+
+@dataclass(frozen=True, eq=False)
+class PadLines:
+    """One pad as lines in X, Y.
+
+    Attributes
+    ----------
+    surface : array, (n, 2)
+        The pad's surface, over a pocket the land beside it.
+    pocket : array, (m, 2)
+        The pocket's bottom and its step; empty where there is none.
+    centre : array, (2,)
+        The pad's centre of curvature.
+    """
+
+    surface: Array
+    pocket: Array
+    centre: Array
+
+
+def pad_lines(pads: tuple[Pad, ...], *, journal: float, gap: float) -> tuple[PadLines, ...]:
+    """Return pads as lines, about the bearing's centre.
+
+    Parameters
+    ----------
+    pads : tuple of Pad
+        The pads.
+    journal : float
+        The journal's radius as drawn.
+    gap : float
+        The clearance C as drawn; a journal of that radius then touches a pad where it does in fact.
+
+    Returns
+    -------
+    tuple of PadLines
+        In the unit of the radius.
+    """
+    return tuple(_lines(pad, journal, gap) for pad in pads)
+
+
+def _lines(pad: Pad, journal: float, gap: float) -> PadLines:
+    centre = gap * np.array([pad.a_x, pad.a_y])
+    radius = journal + gap
+    pocket = np.empty((0, 2))
+    if pad.depth > 0.0:
+        deep = radius + gap * min(pad.depth, _DEEPEST)
+        bottom = _arc(centre, deep, pad.start, pad.step)
+        # From the pad's leading edge down, along the bottom, and up the step.
+        ends = _arc(centre, radius, pad.start, pad.step)[[0, -1]]
+        pocket = np.concatenate((ends[:1], bottom, ends[1:]))
+    return PadLines(_arc(centre, radius, pad.start, pad.end), pocket, centre)
+
+
+def _arc(centre: Array, radius: float, start: float, end: float) -> Array:
+    angle = np.linspace(start, end, max(2, math.ceil((end - start) / _STEP) + 1))
+    return centre + radius * np.stack((np.cos(angle), np.sin(angle)), axis=-1)
+
+
+@functools.lru_cache(maxsize=256)
+def picture(bearing: JournalBearing) -> str:
+    """Return a small picture of a bearing's bore, the journal in its middle, as SVG.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        A bearing of fixed pads.
+
+    Returns
+    -------
+    str
+        An SVG image: X, along the load, points down, Y to the right. The clearance is exaggerated.
+
+    Raises
+    ------
+    ValueError
+        Where the bearing has no fixed pads.
+    """
+    journal = 1.0 - _SHOWN
+    lines = pad_lines(pads_of(bearing), journal=journal, gap=_SHOWN)
+    strokes = [_path(one.surface, style.GREY, 0.07) for one in lines]
+    strokes += [_path(one.pocket, style.UNSTABLE, 0.05) for one in lines if len(one.pocket)]
+    return (
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="-1.7 -1.7 3.4 3.4" width="96" '
+        f'height="96" fill="none" stroke-linejoin="round"><circle r="{journal:g}" '
+        f'fill="{style.JOURNAL}" fill-opacity="0.25" stroke="{style.JOURNAL}" stroke-width="0.04"/>'
+        f"{''.join(strokes)}</svg>"
+    )
+
+
+def _path(places: Array, colour: str, width: float) -> str:
+    # On the screen Y points right and X down, as SVG's second axis does.
+    points = " ".join(f"{y:.3f},{x:.3f}" for x, y in places)
+    return f'<polyline points="{points}" stroke="{colour}" stroke-width="{width:g}"/>'

@@ -1,0 +1,152 @@
+"""The page Bearings: every kind on this machine, in a table, in words, and to take over."""
+
+import math
+import re
+from dataclasses import replace
+
+import pytest
+from streamlit.testing.v1 import AppTest
+
+from rotorcalc import compare_bearings
+from rotorcalc.comparison import KINDS
+from rotorcalc.units import SI, US
+from tests.app.session import BEARINGS, faults, session_of, visit
+from ui.bores import NAMES
+from ui.inputs import machine_of, speeds_of
+from ui.session import Session
+from ui.words import bearings as words
+
+HEAVY = {"load": "2e6", "D": "30", "L": "10", "C": "200"}
+
+
+def table(at: AppTest) -> dict[str, list[object]]:
+    """Return the columns of the table, none where a cell is empty."""
+    (found,) = at.dataframe
+    return {
+        label: [None if isinstance(cell, float) and math.isnan(cell) else cell for cell in column]
+        for label, column in found.value.items()
+    }
+
+
+def computed(visitor: Session) -> list[object]:
+    machine, (speed, _) = machine_of(visitor.values), speeds_of(visitor.values)
+    return list(compare_bearings(machine, speed=speed))
+
+
+@pytest.mark.parametrize(("units", "system"), [("SI", SI), ("US", US)])
+def test_the_table_has_every_kind_in_the_units_shown(units: str, system: object) -> None:
+    at = visit(BEARINGS, units=units, C="80")
+    shown, expected = table(at), computed(session_of(at))
+    assert shown["Bearing"][0] == "This machine's: plain circular, short bearing"
+    assert shown["Bearing"][1:] == [NAMES[geometry.kind] for geometry in KINDS]
+    for label, kind, name in (
+        ("Onset", "speed", "onset"),
+        ("Margin", "percent", "margin"),
+        ("Whirl ratio", "number", "whirl_ratio"),
+        ("Log decrement", "number", "log_decrement"),
+        ("Smallest film", "film", "minimum_film_thickness"),
+        ("Power", "power", "power_loss"),
+        ("Side flow", "flow", "side_flow"),
+        ("Peak of the disk", "amplitude", "peak_response"),
+    ):
+        unit = getattr(session_of(at).units, kind)
+        (column,) = (key for key in shown if key.startswith(label))
+        assert unit.name == "-" or f"[{unit.name}]" in column
+        values = [float(unit.of(getattr(one, name))) for one in expected]
+        assert shown[column][1:] == pytest.approx(values, rel=1e-12)
+    assert faults(at) == []
+
+
+def test_every_row_has_a_picture() -> None:
+    shown = table(visit(BEARINGS))
+    pictures = [str(one) for one in shown["Bore"]]
+    assert all(one.startswith("data:image/svg+xml;base64,") for one in pictures)
+    # Bores of two kinds look different; the machine's own is a plain one.
+    assert len(set(pictures)) == len(KINDS)
+
+
+@pytest.mark.parametrize("kind", [kind for kind in NAMES if kind != "plain"])
+def test_a_bearing_is_taken_over_and_given_back(kind: str) -> None:
+    at = visit(BEARINGS, D="120", load="4000")
+    before = dict(session_of(at).values)
+    at.button(key=f"use_{kind}").click().run()
+    machine = machine_of(session_of(at).values)
+    assert machine == replace(
+        machine_of(before), bearing=replace(machine.bearing, diameter=0.120, film=None)
+    )
+    assert machine.bearing.geometry.kind == kind
+    assert session_of(at).link()["bearing"] == kind
+    assert "film" not in session_of(at).link()
+    assert at.button(key=f"use_{kind}").disabled
+    assert at.selectbox(key="bearing_kind").value == kind
+    at.button(key="undo").click().run()
+    assert session_of(at).values == before
+    assert faults(at) == []
+
+
+def test_what_is_said_of_a_kind_is_borne_out_by_the_numbers_or_not() -> None:
+    at = visit(BEARINGS)
+    cards = [one.value for one in at.markdown if one.value.startswith("Here:")]
+    results = computed(session_of(at))
+    assert len(cards) == len(results)
+    plain = results[0]
+    for card, one in zip(cards, results, strict=True):
+        claimed = "onset is higher than the plain bore's" in card
+        if claimed:
+            assert ("Not borne out" in card) == (one.onset <= plain.onset)
+    lowest = min(results, key=lambda one: one.onset)
+    assert ("Not borne out" in cards[0]) == (lowest is not plain)
+
+
+def test_a_film_without_an_answer_says_why() -> None:
+    at = visit(BEARINGS, **HEAVY)
+    shown = table(at)
+    assert shown["Onset [rpm]"][1:] == [None] * len(KINDS)
+    assert any("No answer at this speed and load" in one.value for one in at.warning)
+    reasons = [one.value for one in at.markdown if "must be at least" in one.value]
+    assert len(reasons) == len(KINDS)
+    assert faults(at) == []
+
+
+def test_without_load_a_plain_bore_whirls_at_any_speed() -> None:
+    at = visit(BEARINGS, load="0")
+    cards = [one.value for one in at.markdown if one.value.startswith("Here:")]
+    assert "whirls at any speed" in cards[0]
+    assert "onset at" in cards[3]
+    assert faults(at) == []
+
+
+def test_bearings_that_do_not_whirl_are_named() -> None:
+    at = visit(BEARINGS, load="40000")
+    steady = [one.value for one in at.info if "No speed makes" in one.value]
+    shown = table(at)
+    empty = [
+        str(name).lower()
+        for name, onset in zip(shown["Bearing"][1:], shown["Onset [rpm]"][1:], strict=True)
+        if onset is None
+    ]
+    assert empty
+    assert re.fullmatch(rf"No speed .*: {re.escape(', '.join(empty))}\.", steady[0])
+
+
+def test_results_are_shown_as_they_come(monkeypatch: pytest.MonkeyPatch) -> None:
+    sizes: list[int] = []
+    original = words._table
+    monkeypatch.setattr(
+        words, "_table", lambda found, units: (sizes.append(len(found)), original(found, units))
+    )
+    at = visit(BEARINGS, C="61.7")
+    assert sizes == [*range(1, len(KINDS) + 2), len(KINDS) + 1]
+    sizes.clear()
+    at.run()
+    assert sizes == [len(KINDS) + 1]
+
+
+def test_nothing_is_compared_while_a_slider_is_dragged(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROTORCALC_LIVE", "drag")
+    visitor = session_of(visit(BEARINGS))
+    assert visitor.preview is not None
+    monkeypatch.setattr(words, "_results", None)
+    shown = visitor.preview.at("C", "75")
+    assert shown["texts"]["dimmed_bearings"] is None
+    assert shown["texts"]["said_verdict"] is not None
