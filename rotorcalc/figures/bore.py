@@ -11,9 +11,11 @@ from rotorcalc.figures import style
 from rotorcalc.films.pads import Pad, pads_of
 from rotorcalc.machine import JournalBearing
 
-# Clearance over the bore's radius in a small picture, and the deepest pocket drawn, in C.
+# Clearance over the bore's radius in a small picture, and the deepest pocket drawn there, in C.
 _SHOWN, _DEEPEST = 0.3, 2.0
-_STEP = math.radians(2.0)
+# Depth of a groove as drawn, over the radius there.
+_GROOVE = 0.07
+_STEP, _LEAST = math.radians(2.0), 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +37,9 @@ class PadLines:
     centre: Array
 
 
-def pad_lines(pads: tuple[Pad, ...], *, journal: float, gap: float) -> tuple[PadLines, ...]:
+def pad_lines(
+    pads: tuple[Pad, ...], *, journal: float, gap: float, deepest: float = _DEEPEST
+) -> tuple[PadLines, ...]:
     """Return pads as lines, about the bearing's centre.
 
     Parameters
@@ -46,26 +50,60 @@ def pad_lines(pads: tuple[Pad, ...], *, journal: float, gap: float) -> tuple[Pad
         The journal's radius as drawn.
     gap : float
         The clearance C as drawn; a journal of that radius then touches a pad where it does in fact.
+    deepest : float
+        Deeper pockets are drawn as deep, in C.
 
     Returns
     -------
     tuple of PadLines
         In the unit of the radius.
     """
-    return tuple(_lines(pad, journal, gap) for pad in pads)
+    return tuple(_lines(pad, journal, gap, deepest) for pad in pads)
 
 
-def _lines(pad: Pad, journal: float, gap: float) -> PadLines:
+def _lines(pad: Pad, journal: float, gap: float, deepest: float) -> PadLines:
     centre = gap * np.array([pad.a_x, pad.a_y])
     radius = journal + gap
     pocket = np.empty((0, 2))
     if pad.depth > 0.0:
-        deep = radius + gap * min(pad.depth, _DEEPEST)
+        deep = radius + gap * min(pad.depth, deepest)
         bottom = _arc(centre, deep, pad.start, pad.step)
         # From the pad's leading edge down, along the bottom, and up the step.
         ends = _arc(centre, radius, pad.start, pad.step)[[0, -1]]
         pocket = np.concatenate((ends[:1], bottom, ends[1:]))
     return PadLines(_arc(centre, radius, pad.start, pad.end), pocket, centre)
+
+
+def closed(lines: tuple[PadLines, ...]) -> Array:
+    """Return the surfaces of pads and the grooves between them as one closed line.
+
+    Parameters
+    ----------
+    lines : tuple of PadLines
+        In the sense of rotation.
+
+    Returns
+    -------
+    array, (n, 2)
+        Its last point is its first. A groove's depth is not to scale.
+    """
+    parts: list[Array] = []
+    for one, following in zip(lines, (*lines[1:], lines[0]), strict=True):
+        parts += [one.surface, _groove(one.surface[-1], following.surface[0])]
+    return np.concatenate((*parts, lines[0].surface[:1]))
+
+
+def _groove(end: Array, start: Array) -> Array:
+    """Return the bottom of the groove from one pad's end to the next one's start."""
+    from_, to = np.arctan2(end[1], end[0]), np.arctan2(start[1], start[0])
+    width = (to - from_) % (2.0 * math.pi)
+    if not _LEAST < width < 2.0 * math.pi - _LEAST:  # the pads meet
+        return np.empty((0, 2))
+    share = np.linspace(0.0, 1.0, max(2, math.ceil(width / _STEP) + 1))
+    ends = np.hypot(*end), np.hypot(*start)
+    radius = (1.0 + _GROOVE) * (ends[0] + share * (ends[1] - ends[0]))
+    angle = from_ + share * width
+    return radius[:, None] * np.stack((np.cos(angle), np.sin(angle)), axis=-1)
 
 
 def _arc(centre: Array, radius: float, start: float, end: float) -> Array:

@@ -1,6 +1,7 @@
 """The bearing in cross-section, with journal, equilibrium position and pressure distribution."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,8 +13,12 @@ from rotorcalc.arrays import Array
 from rotorcalc.coefficients import PressureField
 from rotorcalc.display import Result
 from rotorcalc.figures import cursor, style, text
+from rotorcalc.figures.bore import PadLines, closed, pad_lines
 from rotorcalc.figures.style import Chart, Trace
 from rotorcalc.films import film_of
+from rotorcalc.films.pads import pads_of
+from rotorcalc.geometry import PartialArc
+from rotorcalc.machine import JournalBearing
 from rotorcalc.modes import ModeShapes, leading_place
 from rotorcalc.unbalance_response import orbit_ellipse
 from rotorcalc.units import Unit, Units
@@ -26,6 +31,9 @@ _ANGLES = np.linspace(0.0, 2.0 * np.pi, 181)
 _AROUND = np.linspace(0.0, 2.0 * np.pi, 361)  # a square bore's corners are among these
 _BLUISH = "rgba(43,123,186,0.16)"
 _CROSS = {"symbol": "cross-thin", "size": 9, "line": {"color": style.GREY, "width": 1.6}}
+_SMALL_CROSS = {"symbol": "x-thin", "size": 6, "line": {"color": style.GREY, "width": 1.4}}
+# The deepest pocket in the exaggerated drawing, in C: a deeper one would reach the load's arrow.
+_POCKET = 0.5
 # Height of the peak pressure outside the bore, and the place of the bar that shows it, (x, y).
 _PEAK, _BAR = 0.5, (1.0, -1.42)
 # Ends of the load's arrow above the bore, X.
@@ -100,7 +108,7 @@ def cross_section(
     }
     traces = [
         *_pressure(film.theta - film.load_theta, pressure, bore),
-        _ring(bore.wall(_ANGLES), "bearing", style.GREY, fill=None),
+        *_walls(bore),
         _ring(centre + _circle(bore.journal, _ANGLES), "journal", style.JOURNAL, fill=_BLUISH),
         *_turning(centre, bore),
         *_attitude(point, bore),
@@ -134,6 +142,10 @@ class _Bore:
     outline: Array
     gap: float
     journal: float
+    # Where the bore has grooves; a circle has none.
+    pads: tuple[PadLines, ...] = ()
+    # Whether the journal can touch the rest of a circle beside a single pad.
+    is_open: bool = False
 
     @classmethod
     def of(cls, point: Sweep, *, to_scale: bool) -> "_Bore":
@@ -142,7 +154,10 @@ class _Bore:
         widest = float(np.hypot(*outline.T).max())
         C = bearing.radial_clearance
         gap = C / (bearing.radius + widest * C) if to_scale else EXAGGERATED / widest
-        return cls(outline, gap, 1.0 - gap * widest)
+        journal = 1.0 - gap * widest
+        return cls(
+            outline, gap, journal, *_pads(bearing, journal, gap, math.inf if to_scale else _POCKET)
+        )
 
     def wall(self, angles: Array) -> Array:
         """Return the wall where its normal points in these directions, (n, 2)."""
@@ -151,6 +166,47 @@ class _Bore:
             return normal
         touched = self.outline[np.argmax(normal @ self.outline.T, axis=-1)]
         return self.gap * touched + self.journal * normal
+
+
+def _pads(
+    bearing: JournalBearing, journal: float, gap: float, deepest: float
+) -> tuple[tuple[PadLines, ...], bool]:
+    """Return the pads of a bore that has grooves, and whether one pad is all there is of it."""
+    try:
+        pads = pads_of(bearing)
+    except ValueError:  # no fixed pads
+        return (), False
+    if pads[0].is_closed:
+        return (), False
+    lines = pad_lines(pads, journal=journal, gap=gap, deepest=deepest)
+    return lines, isinstance(bearing.geometry, PartialArc)
+
+
+def _walls(bore: _Bore) -> Iterator[Trace]:
+    """Yield the bore: its surface, and of a bore with grooves pads, pockets and centres."""
+    if not bore.pads:
+        yield _ring(bore.wall(_ANGLES), "bearing", style.GREY, fill=None)
+        return
+    around = _ring(bore.wall(_ANGLES), "bearing", style.GREY, fill=None)
+    if not bore.is_open:
+        x, y = _drawn(closed(bore.pads))
+        around = style.line(x, y, "bearing", style.GREY, hoverinfo="name")
+    yield around | {"line": around["line"] | {"width": 1.2}}
+    yield _several([one.surface for one in bore.pads], "pads", style.GREY, width=3.6)
+    pockets = [one.pocket for one in bore.pads if len(one.pocket)]
+    if pockets:
+        yield _several(pockets, "pocket", style.PURPLE, width=2.0)
+    centres = np.array([one.centre for one in bore.pads])
+    if np.any(centres != 0.0):
+        name = "centres of the pads' curvature"
+        yield style.mark(*_drawn(centres), name, marker=_SMALL_CROSS, hoverinfo="name")
+
+
+def _several(parts: list[Array], name: str, colour: str, *, width: float) -> Trace:
+    """Return lines as one trace."""
+    apart = np.full((1, 2), np.nan)
+    x, y = _drawn(np.concatenate([piece for part in parts for piece in (part, apart)][:-1]))
+    return style.line(x, y, name, colour, width=width, hoverinfo="name")
 
 
 def _drawn(position: Array) -> tuple[Array, Array]:

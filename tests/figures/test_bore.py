@@ -2,7 +2,6 @@
 
 import math
 import re
-from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -50,8 +49,7 @@ def test_every_pad_has_its_arc_its_centre_and_its_pocket(name):
 @pytest.mark.parametrize("name", [*FINITE, *SHORT_PADS])
 def test_a_picture_is_an_image_of_all_pads_within_its_frame(name):
     svg = picture(BEARINGS[name])
-    root = ElementTree.fromstring(svg)
-    lines = [one.get("points") for one in root if one.tag.endswith("polyline")]
+    lines = re.findall(r'<polyline points="([^"]*)"', svg)
     pads = pads_of(BEARINGS[name])
     assert len(lines) == len(pads) + sum(pad.depth > 0.0 for pad in pads)
     places = [float(number) for line in lines for number in re.findall(r"-?\d+\.\d+", line)]
