@@ -83,7 +83,9 @@ def _colour(element: Locator) -> list[float]:
     return [float(part) for part in re.findall(r"[\d.]+", colour)[:3]]
 
 
-@pytest.mark.parametrize("page", [page for page in PATHS if page not in ("Orbits", "Notes")])
+@pytest.mark.parametrize(
+    "page", [page for page in PATHS if page not in ("Orbits", "Bearings", "Notes")]
+)
 def test_what_is_shown_while_held_is_what_a_run_shows(app: AppPage, page: str) -> None:
     """On every tab, with damping and a case, and with all of the model's assumptions."""
     app.open(page, rpm="8000", cs="500")

@@ -13,7 +13,7 @@ FOCUS = """() => {
 }"""
 
 # Pages with results and charts of the machine.
-LIVE = [name for name in PATHS if name != "Notes"]
+LIVE = [name for name in PATHS if name not in ("Bearings", "Notes")]
 
 
 # Streamlit's own charts and sliders: on all other pages in tests/app, without a browser.
