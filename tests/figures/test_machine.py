@@ -61,7 +61,9 @@ def test_from_journal_to_wall_the_drawn_gap_is_the_films(name):
     assert wall[-1].tolist() == wall[0].tolist()
     ends = np.linspace(wall[:-1], wall[1:], 50).reshape(-1, 2)
     radius = float(np.ptp(journal[:, 0])) / 2.0
-    farthest = np.hypot(*film_of(bore.bearing).outline(THETA).T).max()
+    # A bore's corner may lie between two even degrees.
+    every_degree = np.linspace(0.0, 2.0 * np.pi, 361)
+    farthest = np.hypot(*film_of(bore.bearing).outline(every_degree).T).max()
     gap = (1.0 - radius) / farthest if name != "sprung" else (1.0 - radius) / np.sqrt(2.0)
     for place in ([0.0, 0.0], [0.5, 0.1], [-0.3, 0.6], [0.4, -0.4]):
         nearest = np.hypot(*(ends - gap * np.array(place)).T).min() - radius
@@ -73,7 +75,7 @@ def test_from_journal_to_wall_the_drawn_gap_is_the_films(name):
 
 def from_an_edge(bearing, place, gap, radius):
     """Return the drawn gap to the nearest pad where that is at its edge; else None."""
-    if name_of_pads(bearing) is None:
+    if not is_drawn_by_pads(bearing):
         return None
     found = []
     for pad in pads_of(bearing):
@@ -88,11 +90,10 @@ def from_an_edge(bearing, place, gap, radius):
     return distance if at_edge else None
 
 
-def name_of_pads(bearing):
-    """Return the kind of a bore that is drawn by its pads, None of one drawn by its outline."""
-    kind = bearing.geometry.kind
+def is_drawn_by_pads(bearing):
+    """Return whether a bore is drawn by its pads, not by where the journal can go."""
     known = ("axial-grooves", "elliptical", "offset-halves", "lobes", "pressure-dam", "multi-dam")
-    return kind if kind in known else None
+    return bearing.geometry.kind in known
 
 
 def test_the_pressure_carries_the_load():
