@@ -272,7 +272,7 @@ def _page(places: Places, views: presentation.Views) -> Page:
     )  # fmt: skip
     visitor.preview.say("verdict", lambda c: verdict.text(c, units))
     with places.foot:
-        validity.draw(visitor.preview)
+        validity.draw(visitor.preview, visitor.set_film)
         show_preview(visitor.preview)
     return Page(
         computed=computed, cases=beside, units=visitor.units, preview=visitor.preview, views=views

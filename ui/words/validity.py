@@ -1,6 +1,7 @@
 """The validity panel: where the model holds for this machine, and where it is strained."""
 
 import math
+from collections.abc import Callable
 
 import streamlit as st
 
@@ -8,7 +9,6 @@ from rotorcalc.validity import Check
 from ui.computed import Computed
 from ui.format import digits
 from ui.preview import Preview, Text, not_at_once
-from ui.session import session
 
 _BADGES = {"good": "green", "caution": "orange", "outside": "red"}
 _FILM = ":small[Film: {}, laminar, isoviscous, aligned, rigid walls. Orbits: small.]"
@@ -40,8 +40,11 @@ def panel(computed: Computed) -> Text:
     return Text("\n\n".join([*lines, _FILM.format(computed.machine.bearing.model)]))
 
 
-def draw(preview: Preview) -> None:
-    """Show all assumptions in an expander; the worst of them stands with the verdict."""
+def draw(preview: Preview, set_film: Callable[[str], None]) -> None:
+    """Show all assumptions in an expander; the worst of them stands with the verdict.
+
+    `set_film` takes a film model over.
+    """
     opened = st.expander("Where the model holds", key="validity", on_change="rerun")
     with opened:
         preview.say("assumptions", panel)
@@ -50,7 +53,7 @@ def draw(preview: Preview) -> None:
             preview.say("short_error", short_error, while_dragging=not_at_once)
             st.button(
                 "Use the film of finite length", key="use_finite",
-                on_click=session().set_film, args=("finite",),
+                on_click=set_film, args=("finite",),
             )  # fmt: skip
 
 
