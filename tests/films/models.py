@@ -142,6 +142,10 @@ class SprungFilm(_TestFilm):
     can_whirl: bool = field(default=False, init=False)
 
     @property
+    def sommerfeld_range(self):
+        return 0.26 / self.bearing.geometry.stiffness, 1e3
+
+    @property
     def _matrices(self):
         shape = self.bearing.geometry
         K = np.diag([shape.stiffness, shape.ratio * shape.stiffness])

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import streamlit as st
+from streamlit.elements.lib.column_types import ColumnConfig
 
 from rotorcalc import Machine
 from rotorcalc.comparison import KINDS, BearingResult
@@ -139,7 +140,7 @@ def _table(found: Sequence[BearingResult], units: Units) -> None:
 
 def _columns(
     found: Sequence[BearingResult], units: Units
-) -> Iterator[tuple[str, list[Any], object]]:
+) -> Iterator[tuple[str, list[Any], ColumnConfig | None]]:
     """Yield label, values in the units shown, and display of each column."""
     config = st.column_config
     yield "Bore", [_picture(one) for one in found], config.ImageColumn("", width="small")
