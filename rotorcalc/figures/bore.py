@@ -12,7 +12,7 @@ from rotorcalc.films.pads import Pad, pads_of
 from rotorcalc.machine import JournalBearing
 
 # Clearance over the bore's radius in a small picture, and the deepest pocket drawn there, in C.
-_SHOWN, _DEEPEST = 0.3, 2.0
+_SHOWN, _DEEPEST = 0.3, 1.0
 # Depth of a groove as drawn, over the radius there.
 _GROOVE = 0.07
 _STEP, _LEAST = math.radians(2.0), 1e-6
@@ -135,7 +135,7 @@ def picture(bearing: JournalBearing) -> str:
     strokes = [_path(one.surface, style.GREY, 0.07) for one in lines]
     strokes += [_path(one.pocket, style.UNSTABLE, 0.05) for one in lines if len(one.pocket)]
     return (
-        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="-1.7 -1.7 3.4 3.4" width="96" '
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="-1.4 -1.4 2.8 2.8" width="96" '
         f'height="96" fill="none" stroke-linejoin="round"><circle r="{journal:g}" '
         f'fill="{style.JOURNAL}" fill-opacity="0.25" stroke="{style.JOURNAL}" stroke-width="0.04"/>'
         f"{''.join(strokes)}</svg>"

@@ -36,17 +36,17 @@ def computed(visitor: Session) -> list[BearingResult]:
 def test_the_table_has_every_kind_in_the_units_shown(units: str, system: object) -> None:
     at = visit(BEARINGS, units=units, C="80")
     shown, expected = table(at), computed(session_of(at))
-    assert shown["Bearing"][0] == "This machine's: plain circular, short bearing"
-    assert shown["Bearing"][1:] == [NAMES[geometry.kind] for geometry in KINDS]
+    assert shown["Bearing"] == ["This machine", *(NAMES[geometry.kind] for geometry in KINDS)]
+    assert any("(plain circular, short bearing)" in one.value for one in at.caption)
     for label, kind, name in (
         ("Onset", "speed", "onset"),
         ("Margin", "percent", "margin"),
         ("Whirl ratio", "number", "whirl_ratio"),
-        ("Log decrement", "number", "log_decrement"),
-        ("Smallest film", "film", "minimum_film_thickness"),
+        ("Log dec.", "number", "log_decrement"),
+        ("h min", "film", "minimum_film_thickness"),
         ("Power", "power", "power_loss"),
-        ("Side flow", "flow", "side_flow"),
-        ("Peak of the disk", "amplitude", "peak_response"),
+        ("Flow", "flow", "side_flow"),
+        ("Peak", "amplitude", "peak_response"),
     ):
         unit = getattr(session_of(at).units, kind)
         (column,) = (key for key in shown if key.startswith(label))
@@ -83,18 +83,48 @@ def test_a_bearing_is_taken_over_and_given_back(kind: str) -> None:
     assert faults(at) == []
 
 
+def test_a_click_in_the_table_takes_its_bearing_over(monkeypatch: pytest.MonkeyPatch) -> None:
+    at = visit(BEARINGS)
+    # Its own bearing, on the short film, is not among the others.
+    assert table(at)["Use"] == ["", *(["Use"] * len(KINDS))]
+    visitor = session_of(at)
+    monkeypatch.setattr(words, "session", lambda: visitor)
+    monkeypatch.setattr(words.st, "session_state", {words._CLICKED: {"row": 4}})
+    words._take([one.bearing for one in computed(visitor)])
+    monkeypatch.undo()
+    at.run()
+    kind = KINDS[4].kind
+    assert session_of(at).values["bearing"] == kind
+    assert table(at)["Use"] == ["", *("" if one.kind == kind else "Use" for one in KINDS)]
+    assert faults(at) == []
+
+
+def judged(at: AppTest) -> list[str]:
+    """Return what is said of the kinds and judged by this machine's numbers."""
+    return [one.value for one in at.markdown if "-badge[" in one.value and "against" in one.value]
+
+
 def test_what_is_said_of_a_kind_is_borne_out_by_the_numbers_or_not() -> None:
     at = visit(BEARINGS)
-    cards = [one.value for one in at.markdown if one.value.startswith("Here:")]
-    results = computed(session_of(at))
-    assert len(cards) == len(results)
-    plain = results[0]
-    for card, one in zip(cards, results, strict=True):
-        claimed = "onset is higher than the plain bore's" in card
-        if claimed:
-            assert ("Not borne out" in card) == (one.onset <= plain.onset)
-    lowest = min(results, key=lambda one: one.onset)
-    assert ("Not borne out" in cards[0]) == (lowest is not plain)
+    plain, *others = computed(session_of(at))
+    later = [one for one in judged(at) if "onset is higher" in one]
+    claimed = [one for one in others if words._LATER in words._JUDGEMENTS[_kind(one)].claims]
+    assert len(later) == len(claimed) == 5
+    for said, one in zip(later, claimed, strict=True):
+        assert said.startswith(":green-badge[borne out]") == (one.onset > plain.onset)
+        assert (
+            f"{SI.speed.of(one.onset):.0f} rpm against {SI.speed.of(plain.onset):.0f} rpm" in said
+        )
+    (lowest,) = [one for one in judged(at) if "lowest of all" in one]
+    assert ("borne out" in lowest) == (plain.onset <= min(one.onset for one in others))
+    (friction,) = [one for one in judged(at) if "loses less power" in one]
+    assert ("borne out" in friction) == (others[0].power_loss < plain.power_loss)
+    (damped,) = [one for one in judged(at) if "peak response is lower" in one]
+    assert ("borne out" in damped) == (others[2].peak_response < plain.peak_response)
+
+
+def _kind(one: BearingResult) -> str:
+    return one.bearing.geometry.kind
 
 
 def test_a_film_without_an_answer_says_why() -> None:
@@ -109,9 +139,8 @@ def test_a_film_without_an_answer_says_why() -> None:
 
 def test_without_load_a_plain_bore_whirls_at_any_speed() -> None:
     at = visit(BEARINGS, load="0")
-    cards = [one.value for one in at.markdown if one.value.startswith("Here:")]
-    assert "whirls at any speed" in cards[0]
-    assert "onset at" in cards[3]
+    assert table(at)["Onset [rpm]"][1] == 0.0
+    assert "the lowest of all: 0 rpm against" in judged(at)[0]
     assert faults(at) == []
 
 
@@ -126,15 +155,16 @@ def test_bearings_that_do_not_whirl_are_named(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(words.st, "info", said.append)
     words.say_exceptions(results)
     assert said == ["No speed makes this machine whirl on: elliptical (two-lobe)."]
-    assert "whirls at no speed" in words.here(results[3], results, SI)
+    assert any("none against" in said for said in words.here(results[3], results, SI))
 
 
 def test_results_are_shown_as_they_come(monkeypatch: pytest.MonkeyPatch) -> None:
     sizes: list[int] = []
     original = words._table
     monkeypatch.setattr(
-        words, "_table", lambda found, units: (sizes.append(len(found)), original(found, units))
-    )
+        words, "_table",
+        lambda found, page, done: (sizes.append(len(found)), original(found, page, done=done)),
+    )  # fmt: skip
     at = visit(BEARINGS, C="61.7")
     assert sizes == [*range(1, len(KINDS) + 2), len(KINDS) + 1]
     sizes.clear()

@@ -6,83 +6,108 @@ out is computed.
 
 import base64
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import streamlit as st
-from streamlit.elements.lib.column_types import ColumnConfig
+from streamlit.elements.lib.column_types import ButtonColumnResult, ColumnConfig
 
-from rotorcalc import Machine
+from rotorcalc import JournalBearing, Machine
 from rotorcalc.comparison import KINDS, BearingResult
 from rotorcalc.figures import Units
 from rotorcalc.figures.bore import picture
 from rotorcalc.geometry import Geometry
-from ui.bores import FILMS, name_of
+from ui.bearing import film_name
+from ui.bores import name_of
 from ui.format import amount, lower
 from ui.frame.page import Page
 from ui.jobs import cache, work
 from ui.jobs.queue import SHORT
 from ui.session import session
 
-_HERE = "This machine's: "
+_OWN, _CLICKED = "This machine", "use_in_table"
 _A_ROW = 4
 
 _results = cache.Cached(work.bearing, entries=256, megabytes=4, turns=SHORT)
 
 
 @dataclass(frozen=True)
-class Judgement:
-    """What is said for and against a kind of bearing, and what can be asked of the numbers."""
+class Claim:
+    """What is said of a bearing and can be asked of its numbers.
+
+    `words` end before the numbers that are compared: those of `attribute`, in the unit `kind`, of
+    the bearing and of the plain bore, or of the plain bore and of the lowest of the others. `more`
+    tells whether the bearing's is said to be the greater.
+    """
 
     words: str
-    claim: str
-    # Of a bearing, and of the kinds that have an answer, the plain bore first.
-    holds: Callable[[BearingResult, Sequence[BearingResult]], bool]
+    attribute: str
+    kind: str
+    more: bool
+
+    def value(self, one: BearingResult) -> float:
+        """Return a bearing's number in SI."""
+        return getattr(one, self.attribute)
+
+    def shown(self, one: BearingResult, units: Units) -> str:
+        """Return a bearing's number with its unit, or in words."""
+        value = self.value(one)
+        return amount(getattr(units, self.kind), value) if math.isfinite(value) else "none"
 
 
-def _whirls_later(one: BearingResult, all_: Sequence[BearingResult]) -> bool:
-    return one.onset > all_[0].onset
+@dataclass(frozen=True)
+class Judgement:
+    """What is said for and against a kind of bearing, and what of it can be asked of numbers."""
+
+    words: str
+    claims: tuple[Claim, ...]
 
 
+_LATER = Claim("Its onset is higher than the plain bore's", "onset", "speed", more=True)
 _JUDGEMENTS = {
     "plain": Judgement(
         "Simple to turn and cheap, but of all bores the one that whirls most readily.",
-        "its onset is the lowest of all",
-        lambda one, all_: one.onset <= min(other.onset for other in all_),
+        (Claim("Its onset is the lowest of all", "onset", "speed", more=False),),
     ),
     "partial-arc": Judgement(
-        "Simple, with little friction, as half of its film is missing; it resists vibration less.",
-        "it loses less power than the plain bore",
-        lambda one, all_: one.power_loss < all_[0].power_loss,
+        "Simple, with little friction, as much of its film is missing; it resists vibration less.",
+        (
+            Claim("It loses less power than the plain bore", "power_loss", "power", more=False),
+            Claim("Its peak response is higher", "peak_response", "amplitude", more=True),
+        ),
     ),
     "axial-grooves": Judgement(
-        "Simple and cheap, and oil comes where it is needed; it still whirls.",
-        "it whirls", lambda one, _: math.isfinite(one.onset),
+        "Simple and cheap, and oil comes where it is needed; it whirls as readily as a plain bore.",
+        (Claim("Its onset is no higher than the plain bore's", "onset", "speed", more=False),),
     ),
     "elliptical": Judgement(
-        "Simple, and it damps critical speeds well; it must be set to the load's direction.",
-        "its peak response is lower than the plain bore's",
-        lambda one, all_: one.peak_response < all_[0].peak_response,
+        "Simple, and it damps critical speeds well; it must be set to the load's direction, and "
+        "it whirls at high speed.",
+        (
+            Claim("Its peak response is lower than the plain bore's", "peak_response", "amplitude",
+                  more=False),
+            _LATER,
+        ),
     ),
     "offset-halves": Judgement(
         "Cheap, and it suppresses whirl at high speed very well; it must be set to the load's "
         "direction.",
-        "its onset is higher than the plain bore's", _whirls_later,
+        (_LATER,),
     ),
     "lobes": Judgement(
         "It suppresses whirl well and is good all round; costly to make to its tolerances.",
-        "its onset is higher than the plain bore's", _whirls_later,
+        (_LATER,),
     ),
     "pressure-dam": Judgement(
         "It suppresses whirl well and cheaply; its step wears or silts up, and it then becomes "
         "unstable with little warning.",
-        "its onset is higher than the plain bore's", _whirls_later,
+        (_LATER,),
     ),
     "multi-dam": Judgement(
         "It can be cut into a bearing that exists, and suppresses whirl well; it has many "
         "dimensions to get right.",
-        "its onset is higher than the plain bore's", _whirls_later,
+        (_LATER,),
     ),
 }  # fmt: skip
 
@@ -103,12 +128,12 @@ def compare(page: Page) -> list[BearingResult]:
             known = _results(*one)
             found.append(known)
             with place.container():
-                _table(found, page.units)
+                _table(found, page, done=False)
         else:
             found.append(known)
     bar.empty()
     with place.container():
-        _table(found, page.units)
+        _table(found, page, done=True)
     return found
 
 
@@ -122,58 +147,101 @@ def _plain(machine: Machine) -> Machine:
     return replace(machine, bearing=replace(machine.bearing, geometry=KINDS[0], film="finite"))
 
 
-def _table(found: Sequence[BearingResult], units: Units) -> None:
-    """Show the results in a table that can be sorted, some of them as bars."""
-    columns = list(_columns(found, units))
+@dataclass(frozen=True)
+class _Column:
+    """A column of numbers: its head, a result and its unit, decimals, width [px], and help."""
+
+    head: str
+    attribute: str
+    kind: str
+    decimals: int
+    width: int
+    help: str
+    bars: bool = False
+
+
+_COLUMNS = (
+    _Column("Onset", "onset", "speed", 0, 116, "Speed at which the rotor begins to whirl. Empty: "
+            "no speed makes it whirl.", bars=True),
+    _Column("Margin", "margin", "percent", 0, 78, "Onset over running speed, less one."),
+    _Column("Whirl ratio", "whirl_ratio", "number", 3, 78, "Of the film at the running speed."),
+    _Column("Log dec.", "log_decrement", "number", 3, 76,
+            "Logarithmic decrement of the least damped mode at the running speed."),
+    _Column("h min", "minimum_film_thickness", "film", 1, 100, "Smallest film.", bars=True),
+    _Column("Power", "power_loss", "power", 2, 100, "Power loss of one bearing.", bars=True),
+    _Column("Flow", "side_flow", "flow", 2, 84, "Side flow of one bearing."),
+    _Column("Peak", "peak_response", "amplitude", 0, 106,
+            "Highest peak of the disk's imbalance response up to 1.5 times the running speed.",
+            bars=True),
+)  # fmt: skip
+_USE = "Diameter, length, clearance and load stay; Undo takes it back."
+
+
+def _table(found: Sequence[BearingResult], page: Page, *, done: bool) -> None:
+    """Show the results in a table that can be sorted, some as bars, each with a button at last."""
+    config = st.column_config
+    bearings = [one.bearing for one in found]
+    columns: list[tuple[str, list[Any], ColumnConfig | ButtonColumnResult]] = [
+        (
+            "Bearing",
+            [_OWN, *(name_of(one.geometry.kind) for one in bearings[1:])],
+            config.TextColumn(width=132, pinned=True),
+        ),
+        ("Bore", [_picture(one) for one in bearings], config.ImageColumn("", width=56)),
+        (
+            "Use",
+            ["Use" if done and one != bearings[0] else "" for one in bearings],
+            config.ButtonColumn(
+                "", width=58, key=_CLICKED, on_click=_take, args=(bearings,), help=_USE
+            )
+            if done  # a key stands for one table of a run
+            else config.TextColumn("", width=58),
+        ),
+        *(_numbers(column, found, page.units) for column in _COLUMNS),
+    ]
     st.dataframe(
         {label: values for label, values, _ in columns},
-        column_config={label: config for label, _, config in columns if config is not None},
+        column_config={label: config for label, _, config in columns},
         hide_index=True,
-        row_height=64,
+        row_height=52,
+        height="content",
         alt="Bearings of every kind on this machine: onset, damping, film, losses and response.",
     )
+    own = f"{name_of(bearings[0].geometry.kind)}, {film_name(page.preview.values)}".lower()
     st.caption(
-        "Each kind at its usual shape, on the film of finite length; the first row is this "
-        "machine's own. Click a column's head to sort. An empty onset: no speed makes it whirl."
+        f"First this machine's own bearing ({own}), then each kind at its usual shape, on the film "
+        "of finite length. A click on a column's head sorts by it."
     )
 
 
-def _columns(
-    found: Sequence[BearingResult], units: Units
-) -> Iterator[tuple[str, list[Any], ColumnConfig | None]]:
-    """Yield label, values in the units shown, and display of each column."""
-    config = st.column_config
-    yield "Bore", [_picture(one) for one in found], config.ImageColumn("", width="small")
-    yield "Bearing", [_name(one, place) for place, one in enumerate(found)], None
-    for label, unit, values, digits, bars in (
-        ("Onset", units.speed, [one.onset for one in found], 0, True),
-        ("Margin", units.percent, [one.margin for one in found], 1, False),
-        ("Whirl ratio", units.number, [one.whirl_ratio for one in found], 3, False),
-        ("Log decrement", units.number, [one.log_decrement for one in found], 3, False),
-        ("Smallest film", units.film, [one.minimum_film_thickness for one in found], 2, True),
-        ("Power", units.power, [one.power_loss for one in found], 3, True),
-        ("Side flow", units.flow, [one.side_flow for one in found], 3, False),
-        ("Peak of the disk", units.amplitude, [one.peak_response for one in found], 2, True),
-    ):
-        shown = [float(unit.of(value)) if math.isfinite(value) else None for value in values]
-        name = label + ("" if unit.name == "-" else f" [{unit.name}]")
-        most = max((value for value in shown if value is not None), default=0.0)
-        number = f"%.{digits}f"
-        if bars and most > 0.0:
-            yield name, shown, config.ProgressColumn(name, format=number, max_value=most)
-        else:
-            yield name, shown, config.NumberColumn(name, format=number)
+def _numbers(
+    column: _Column, found: Sequence[BearingResult], units: Units
+) -> tuple[str, list[Any], ColumnConfig]:
+    """Return head, values in the units shown, and display of a column."""
+    unit = getattr(units, column.kind)
+    values = [getattr(one, column.attribute) for one in found]
+    shown = [float(unit.of(value)) if math.isfinite(value) else None for value in values]
+    head = column.head + ("" if unit.name == "-" else f" [{unit.name}]")
+    number = f"%.{column.decimals}f"
+    most = max((value for value in shown if value is not None), default=0.0)
+    if column.bars and most > 0.0:
+        bar = st.column_config.ProgressColumn(
+            head, format=number, max_value=most, width=column.width, help=column.help
+        )
+        return head, shown, bar
+    plain = st.column_config.NumberColumn(head, format=number, width=column.width, help=column.help)
+    return head, shown, plain
 
 
-def _name(one: BearingResult, place: int) -> str:
-    name = name_of(one.bearing.geometry.kind)
-    return name if place else f"{_HERE}{lower(name)}, {FILMS[one.bearing.model].lower()}"
+def _take(bearings: Sequence[JournalBearing]) -> None:
+    """Take the bearing over whose button in the table was clicked."""
+    session().set_bearing(bearings[st.session_state[_CLICKED]["row"]])
 
 
-def _picture(one: BearingResult) -> str:
+def _picture(bearing: JournalBearing) -> str:
     """Return a bore's picture as an address that holds it, empty where there is none."""
     try:
-        svg = picture(one.bearing)
+        svg = picture(bearing)
     except ValueError:  # a bearing without fixed pads
         return ""
     return f"data:image/svg+xml;base64,{base64.b64encode(svg.encode()).decode()}"
@@ -197,41 +265,36 @@ def in_rows(found: Sequence[BearingResult]) -> Iterator[Sequence[BearingResult]]
 
 
 def card(page: Page, one: BearingResult, found: Sequence[BearingResult]) -> None:
-    """Show a kind's picture, what is said of it, what it does here, and a button to take it."""
+    """Show a kind's picture, what is said of it, whether it holds here, and a button to take it."""
     kind = one.bearing.geometry.kind
-    judgement = _JUDGEMENTS[kind]
     st.image(picture(one.bearing), width=96)
     st.markdown(f"**{name_of(kind)}**")
-    st.markdown(judgement.words)
-    st.markdown(here(one, found, page.units))
+    st.markdown(_JUDGEMENTS[kind].words)
+    for line in here(one, found, page.units):
+        st.markdown(line)
     st.button(
         "Use this bearing", key=f"use_{kind}", on_click=session().set_bearing, args=(one.bearing,),
-        disabled=one.bearing == page.computed.machine.bearing,
-        help="Diameter, length, clearance and load stay; Undo takes it back.",
+        disabled=one.bearing == page.computed.machine.bearing, help=_USE,
     )  # fmt: skip
 
 
-def here(one: BearingResult, found: Sequence[BearingResult], units: Units) -> str:
-    """Return what a bearing does on this machine, and whether that bears out what is said of it."""
+def here(one: BearingResult, found: Sequence[BearingResult], units: Units) -> list[str]:
+    """Return whether this machine's numbers bear out what is said of a bearing."""
     if one.refusal:
-        return f"Here: {one.refusal}."
-    numbers = (
-        f"Here: {_onset(one, units)}, smallest film "
-        f"{amount(units.film, one.minimum_film_thickness)}, power "
-        f"{amount(units.power, one.power_loss)}."
-    )
-    judgement = _JUDGEMENTS[one.bearing.geometry.kind]
-    others = [other for other in found if not other.refusal]
-    if others[0].bearing.geometry != KINDS[0]:  # nothing to compare with
-        return numbers
-    if judgement.holds(one, others):
-        return f"{numbers} Borne out: {judgement.claim}."
-    return f"{numbers} Not borne out here: {judgement.claim}."
+        return [f"Here: {one.refusal}."]
+    plain, *others = found
+    answered = [other for other in others if not other.refusal]
+    lines: list[str] = []
+    for claim in _JUDGEMENTS[one.bearing.geometry.kind].claims:
+        other = min(answered, key=claim.value, default=plain) if one is plain else plain
+        if not math.isnan(claim.value(one) + claim.value(other)):
+            lines.append(_judged(claim, one, other, units))
+    return lines
 
 
-def _onset(one: BearingResult, units: Units) -> str:
-    if one.onset == 0.0:
-        return "whirls at any speed"
-    if math.isinf(one.onset):
-        return "whirls at no speed"
-    return f"onset at {amount(units.speed, one.onset)}"
+def _judged(claim: Claim, one: BearingResult, other: BearingResult, units: Units) -> str:
+    value, to = claim.value(one), claim.value(other)
+    holds = value > to if claim.more else value <= to
+    badge = ":green-badge[borne out]" if holds else ":orange-badge[not here]"
+    numbers = f"{claim.shown(one, units)} against {claim.shown(other, units)}"
+    return f"{badge} {claim.words}: {numbers}."
