@@ -218,6 +218,6 @@ def solved(page: Page, vary: str, wanted: remedy.Wanted) -> None:
 
 show(
     "Stability",
-    "The speed above which the rotor whirls, at about half the running speed, and what affects it.",
+    "The speed above which the rotor whirls, and what affects it.",
     content,
 )

@@ -15,7 +15,7 @@ from ui.session import Session
 ROOT = Path(__file__).resolve().parents[2]
 TIMEOUT = 60  # seconds; a run takes 0.05, but the machine may be busy
 HOME, *OTHERS = PAGES
-*_, ORBITS, BEARINGS, NOTES = OTHERS
+*_, ORBITS, BEARINGS_PAGE, NOTES = OTHERS
 
 # A number that is none, as Python writes it, where a reader should find a word.
 _NO_NUMBER = re.compile(r"(?<![\w\\])(nan|NaN|None|-?inf|Infinity)(?![\w:])")

@@ -9,7 +9,7 @@ from streamlit.testing.v1 import AppTest
 from rotorcalc import compare_bearings
 from rotorcalc.comparison import KINDS, BearingResult
 from rotorcalc.units import SI, US
-from tests.app.session import BEARINGS, faults, session_of, visit
+from tests.app.session import BEARINGS_PAGE, faults, session_of, visit
 from ui.bores import NAMES
 from ui.inputs import machine_of, speeds_of
 from ui.session import Session
@@ -34,7 +34,7 @@ def computed(visitor: Session) -> list[BearingResult]:
 
 @pytest.mark.parametrize(("units", "system"), [("SI", SI), ("US", US)])
 def test_the_table_has_every_kind_in_the_units_shown(units: str, system: object) -> None:
-    at = visit(BEARINGS, units=units, C="80")
+    at = visit(BEARINGS_PAGE, units=units, C="80")
     shown, expected = table(at), computed(session_of(at))
     assert shown["Bearing"] == ["This machine", *(NAMES[geometry.kind] for geometry in KINDS)]
     assert any("(plain circular, short bearing)" in one.value for one in at.caption)
@@ -57,7 +57,7 @@ def test_the_table_has_every_kind_in_the_units_shown(units: str, system: object)
 
 
 def test_every_row_has_a_picture() -> None:
-    shown = table(visit(BEARINGS))
+    shown = table(visit(BEARINGS_PAGE))
     pictures = [str(one) for one in shown["Bore"]]
     assert all(one.startswith("data:image/svg+xml;base64,") for one in pictures)
     # Bores of two kinds look different; the machine's own is a plain one.
@@ -66,7 +66,7 @@ def test_every_row_has_a_picture() -> None:
 
 @pytest.mark.parametrize("kind", [kind for kind in NAMES if kind != "plain"])
 def test_a_bearing_is_taken_over_and_given_back(kind: str) -> None:
-    at = visit(BEARINGS, D="120", load="4000")
+    at = visit(BEARINGS_PAGE, D="120", load="4000")
     before = dict(session_of(at).values)
     at.button(key=f"use_{kind}").click().run()
     machine = machine_of(session_of(at).values)
@@ -84,7 +84,7 @@ def test_a_bearing_is_taken_over_and_given_back(kind: str) -> None:
 
 
 def test_a_click_in_the_table_takes_its_bearing_over(monkeypatch: pytest.MonkeyPatch) -> None:
-    at = visit(BEARINGS)
+    at = visit(BEARINGS_PAGE)
     # Its own bearing, on the short film, is not among the others.
     assert table(at)["Use"] == ["", *(["Use"] * len(KINDS))]
     visitor = session_of(at)
@@ -105,7 +105,7 @@ def judged(at: AppTest) -> list[str]:
 
 
 def test_what_is_said_of_a_kind_is_borne_out_by_the_numbers_or_not() -> None:
-    at = visit(BEARINGS)
+    at = visit(BEARINGS_PAGE)
     plain, *others = computed(session_of(at))
     later = [one for one in judged(at) if "onset is higher" in one]
     claimed = [one for one in others if words._LATER in words._JUDGEMENTS[_kind(one)].claims]
@@ -128,7 +128,7 @@ def _kind(one: BearingResult) -> str:
 
 
 def test_a_film_without_an_answer_says_why() -> None:
-    at = visit(BEARINGS, **HEAVY)
+    at = visit(BEARINGS_PAGE, **HEAVY)
     shown = table(at)
     assert shown["Onset [rpm]"][1:] == [None] * len(KINDS)
     assert any("No answer at this speed and load" in one.value for one in at.warning)
@@ -138,14 +138,14 @@ def test_a_film_without_an_answer_says_why() -> None:
 
 
 def test_without_load_a_plain_bore_whirls_at_any_speed() -> None:
-    at = visit(BEARINGS, load="0")
+    at = visit(BEARINGS_PAGE, load="0")
     assert table(at)["Onset [rpm]"][1] == 0.0
     assert "the lowest of all: 0 rpm against" in judged(at)[0]
     assert faults(at) == []
 
 
 def test_bearings_that_do_not_whirl_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    at = visit(BEARINGS, bearing="elliptical", preload="0.9")
+    at = visit(BEARINGS_PAGE, bearing="elliptical", preload="0.9")
     assert table(at)["Onset [rpm]"][0] is None
     assert faults(at) == []
     # At its default every kind whirls at some speed: of one that did not, this would be said.
@@ -165,7 +165,7 @@ def test_results_are_shown_as_they_come(monkeypatch: pytest.MonkeyPatch) -> None
         words, "_table",
         lambda found, page, done: (sizes.append(len(found)), original(found, page, done=done)),
     )  # fmt: skip
-    at = visit(BEARINGS, C="61.7")
+    at = visit(BEARINGS_PAGE, C="61.7")
     assert sizes == [*range(1, len(KINDS) + 2), len(KINDS) + 1]
     sizes.clear()
     at.run()
@@ -174,7 +174,7 @@ def test_results_are_shown_as_they_come(monkeypatch: pytest.MonkeyPatch) -> None
 
 def test_nothing_is_compared_while_a_slider_is_dragged(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROTORCALC_LIVE", "drag")
-    visitor = session_of(visit(BEARINGS))
+    visitor = session_of(visit(BEARINGS_PAGE))
     assert visitor.preview is not None
     monkeypatch.setattr(words, "_results", None)
     shown = visitor.preview.at("C", "75")

@@ -5,7 +5,17 @@ from contextlib import suppress
 import pytest
 from streamlit.testing.v1 import AppTest
 
-from tests.app.session import BEARINGS, HOME, ORBITS, PAGES, charts, faults, open_part, tabs, visit
+from tests.app.session import (
+    BEARINGS_PAGE,
+    HOME,
+    ORBITS,
+    PAGES,
+    charts,
+    faults,
+    open_part,
+    tabs,
+    visit,
+)
 from ui.bearing import fields_of, kinds
 from ui.choices import NAMES, Choices
 from ui.inputs import INPUTS
@@ -25,7 +35,7 @@ def test_the_names_of_choices_are_no_inputs() -> None:
     assert not NAMES & taken.union(*(fields_of(kind) for kind in kinds()))
 
 
-@pytest.mark.parametrize("path", [path for path in PAGES if path not in (HOME, BEARINGS)])
+@pytest.mark.parametrize("path", [path for path in PAGES if path not in (HOME, BEARINGS_PAGE)])
 def test_the_open_tab_is_in_the_link_which_opens_it_elsewhere(path: str) -> None:
     at = visit(path)
     assert at.query_params == {}

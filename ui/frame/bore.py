@@ -1,18 +1,26 @@
 """The bearing in the sidebar: its kind, its film model, and the inputs of its bore."""
 
+import base64
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from itertools import groupby
 
 import streamlit as st
+from streamlit.delta_generator import DeltaGenerator
 
+from rotorcalc import JournalBearing
+from rotorcalc.figures.bore import picture
 from rotorcalc.units import SI
 from ui.bearing import film_model, kinds, shape_of
-from ui.bores import FILMS, KIND, NAMES, Pick, Value, bore_inputs, name_of
+from ui.bores import FILMS, KIND, NAMES, Pick, Value, Values, bore_inputs, name_of
 from ui.input_record import Input, tidy
-from ui.inputs import INPUTS, number
+from ui.inputs import INPUTS, machine_of, number
+from ui.preview import Text
 from ui.session import session
 from ui.widgets import show_inputs
 
+# Key of the picture's place.
+PICTURE = "said_bore"
 _KIND_HELP = (
     "Diameter, length, clearance and load stay as they are. The clearance is the one to which a "
     "pad is machined: its radius of curvature less the journal's."
@@ -23,9 +31,14 @@ _FILM_HELP = (
 )
 
 
-def draw() -> None:
-    """Draw the choice of a kind and of a film model, and the inputs of the bore."""
-    _kind()
+def draw() -> DeltaGenerator:
+    """Draw the choice of a kind and of a film model, and the inputs of the bore.
+
+    Returns the place of its picture, which follows the sliders.
+    """
+    left, right = st.columns([3, 1], gap="small", vertical_alignment="bottom")
+    with left:
+        _kind()
     _film()
     for place, (is_pick, items) in enumerate(
         groupby(bore_inputs(session().values), lambda item: isinstance(item, Pick))
@@ -34,6 +47,30 @@ def draw() -> None:
             _picks(items)
         else:
             _sliders(f"Bore {place}", items)
+    return right
+
+
+def draw_picture(values: Values) -> None:
+    """Draw the small picture of the bore that values describe."""
+    with st.container(key=PICTURE):
+        st.html(drawing(values).words)
+
+
+def drawing(values: Values) -> Text:
+    """Return the small picture of the bore that values describe, where it has fixed pads."""
+    with suppress(ValueError):  # values that make no machine
+        if address := picture_address(machine_of(values).bearing):
+            return Text(f'<img src="{address}" alt="" width="72" height="72">', "html")
+    return Text("<span></span>", "html")
+
+
+def picture_address(bearing: JournalBearing) -> str:
+    """Return the small picture of a bore as an address that holds it, empty where there is none."""
+    try:
+        svg = picture(bearing)
+    except ValueError:  # a bearing without fixed pads
+        return ""
+    return f"data:image/svg+xml;base64,{base64.b64encode(svg.encode()).decode()}"
 
 
 def _kind() -> None:

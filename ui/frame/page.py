@@ -17,7 +17,7 @@ from ui.cases import Draw, Shown, compared
 from ui.cases import computed as computed_cases
 from ui.choices import choice
 from ui.computed import Computed, computed_from
-from ui.frame import cases, history, presentation, sidebar
+from ui.frame import bore, cases, history, presentation, sidebar
 from ui.preview import Preview, Text, Words
 from ui.results.row import show_results
 from ui.serving import one_at_a_time, version
@@ -142,6 +142,7 @@ class Places(NamedTuple):
     history: DeltaGenerator
     navigation: DeltaGenerator
     foot: DeltaGenerator
+    bore: DeltaGenerator | None
 
 
 def show(title: str, sentence: str, content: Callable[[Page], None]) -> None:
@@ -181,7 +182,7 @@ def _frame(title: str, sentence: str) -> Places:
         choices.choices().arrive()
     visitor.drawn = visitor.framed()
     with st.sidebar:
-        past, foot = _sidebar(visitor)
+        past, foot, picture = _sidebar(visitor)
     visitor.page = title
     with st.container(key="frame_top"):
         navigation = st.container()
@@ -189,24 +190,29 @@ def _frame(title: str, sentence: str) -> Places:
     with st.container(key="page_title"):
         st.header(title, anchor=False)
         st.markdown(sentence)
-    return Places(past, navigation, foot)
+    return Places(past, navigation, foot, picture)
 
 
-def _sidebar(visitor: Session) -> tuple[DeltaGenerator, DeltaGenerator]:
-    """Draw the inputs, in a presentation those in use; return places above and below them."""
+def _sidebar(
+    visitor: Session,
+) -> tuple[DeltaGenerator, DeltaGenerator, DeltaGenerator | None]:
+    """Draw the inputs, in a presentation those in use.
+
+    Returns places above and below them, and at a desk that of the bore's picture.
+    """
     if visitor.present:
         st.html(presentation.STYLE)
         past = st.container(key="past")
         presentation.draw_sliders(visitor)
-        return past, st.container()
+        return past, st.container(), None
     sidebar.draw_presets()
     past = st.container(key="past")
     cases.draw_buttons()
-    sidebar.draw_inputs()
+    picture = sidebar.draw_inputs()
     popover.draw()
     foot = st.container()
     st.caption(version.label())
-    return past, foot
+    return past, foot, picture
 
 
 # The browser's longest timer is 24 days.
@@ -242,8 +248,7 @@ def _page(places: Places, views: presentation.Views) -> Page:
     """
     visitor = session()
     visitor.record()
-    with places.history:
-        history.draw(visitor)
+    of_inputs = _draw_inputs(places, visitor)
     params = write_address_bar()
     with places.navigation:
         _navigation({key: word for key, word in params.items() if key not in choices.NAMES})
@@ -267,9 +272,8 @@ def _page(places: Places, views: presentation.Views) -> Page:
         st.warning(problem)
     first, units = (beside[0] if beside else None), visitor.units
     visitor.preview = Preview(
-        dict(visitor.values), computed, first, units, dark=is_dark(),
-        of_inputs={history.CHANGES: partial(_changes, visitor.preset)},
-    )  # fmt: skip
+        dict(visitor.values), computed, first, units, dark=is_dark(), of_inputs=of_inputs
+    )
     visitor.preview.say("verdict", lambda c: verdict.text(c, units))
     with places.foot:
         validity.draw(visitor.preview, visitor.set_film)
@@ -277,6 +281,20 @@ def _page(places: Places, views: presentation.Views) -> Page:
     return Page(
         computed=computed, cases=beside, units=visitor.units, preview=visitor.preview, views=views
     )
+
+
+def _draw_inputs(places: Places, visitor: Session) -> dict[str, Callable[[Values], Text]]:
+    """Draw what depends on the inputs alone; return it as functions of them, by their keys."""
+    with places.history:
+        history.draw(visitor)
+    drawn: dict[str, Callable[[Values], Text]] = {
+        history.CHANGES: partial(_changes, visitor.preset)
+    }
+    if places.bore is not None:
+        drawn[bore.PICTURE] = bore.drawing
+        with places.bore:
+            bore.draw_picture(visitor.values)
+    return drawn
 
 
 def _changes(preset: str, values: Values) -> Text:

@@ -1,6 +1,7 @@
 """The sidebar: presets, inputs in groups, the oil library, and display settings."""
 
 import streamlit as st
+from streamlit.delta_generator import DeltaGenerator
 
 from rotorcalc import PRESETS, Oil
 from rotorcalc.oils import ISO_VG, fitted_oil, iso_oil
@@ -30,9 +31,13 @@ _LOAD = INPUTS["load"]
 _READINGS = {"0-p": "zero to peak", "p-p": "peak to peak"}
 
 
-def draw_inputs() -> None:
-    """Draw the inputs in their groups, and the display settings."""
+def draw_inputs() -> DeltaGenerator | None:
+    """Draw the inputs in their groups, and the display settings.
+
+    Returns the place of the bore's picture.
+    """
     st.html(_STYLE)
+    bearing = None
     for group in GROUPS:
         with st.expander(group, expanded=group in OPEN_GROUPS):
             items = [item for item in INPUTS.values() if item.group == group]
@@ -43,11 +48,12 @@ def draw_inputs() -> None:
                 show_inputs(group, items[place + 1 :])
             else:
                 if group == "Bearing":
-                    bore.draw()
+                    bearing = bore.draw()
                 show_inputs(group, items)
             if group == "Oil":
                 _oil_library()
     _settings()
+    return bearing
 
 
 def draw_presets() -> None:

@@ -72,7 +72,7 @@ def report(
         version=escape(__version__),
         date=dt.datetime.now(dt.UTC).date().isoformat(),
         link=_anchor(link),
-        film=escape(_film(computed)),
+        film=escape(citation.film(computed)),
         plotly=_plotly(),
         charts=_script(charts),
     ).encode()
@@ -94,13 +94,6 @@ def _script(charts: report_charts.Charts) -> str:
 def _anchor(link: str) -> str:
     text = escape(link)
     return f'<a href="{text}">{text}</a>' if link.startswith(("http://", "https://")) else text
-
-
-def _film(computed: Computed) -> str:
-    """Return what the film's model is, in words."""
-    model = computed.machine.bearing.model
-    found = citation.source(computed, "film")
-    return found.equation if found else f"{model}, of a bearing of another kind than the notes'"
 
 
 def _subtitle(computed: Computed, cases: Sequence[Shown], units: Units) -> str:

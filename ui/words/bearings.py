@@ -4,7 +4,6 @@ What is said of each kind is Appendix B of the notes, in other words; whether th
 out is computed.
 """
 
-import base64
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -21,6 +20,7 @@ from rotorcalc.geometry import Geometry
 from ui.bearing import film_name
 from ui.bores import name_of
 from ui.format import amount, lower
+from ui.frame.bore import picture_address
 from ui.frame.page import Page
 from ui.jobs import cache, work
 from ui.jobs.queue import SHORT
@@ -187,7 +187,7 @@ def _table(found: Sequence[BearingResult], page: Page, *, done: bool) -> None:
             [_OWN, *(name_of(one.geometry.kind) for one in bearings[1:])],
             config.TextColumn(width=132, pinned=True),
         ),
-        ("Bore", [_picture(one) for one in bearings], config.ImageColumn("", width=56)),
+        ("Bore", [picture_address(one) for one in bearings], config.ImageColumn("", width=56)),
         (
             "Use",
             ["Use" if done and one != bearings[0] else "" for one in bearings],
@@ -236,15 +236,6 @@ def _numbers(
 def _take(bearings: Sequence[JournalBearing]) -> None:
     """Take the bearing over whose button in the table was clicked."""
     session().set_bearing(bearings[st.session_state[_CLICKED]["row"]])
-
-
-def _picture(bearing: JournalBearing) -> str:
-    """Return a bore's picture as an address that holds it, empty where there is none."""
-    try:
-        svg = picture(bearing)
-    except ValueError:  # a bearing without fixed pads
-        return ""
-    return f"data:image/svg+xml;base64,{base64.b64encode(svg.encode()).decode()}"
 
 
 def say_exceptions(found: Sequence[BearingResult]) -> None:

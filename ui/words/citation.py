@@ -17,6 +17,12 @@ def source(computed: Computed, name: str) -> Source | None:
     return film_of(computed.machine.bearing).sources.get(name)
 
 
+def film(computed: Computed) -> str:
+    """Return what the film's model is, in words."""
+    model, found = computed.machine.bearing.model, source(computed, "film")
+    return found.equation if found else f"{model}, of a bearing of another kind than the notes'"
+
+
 def cited(words: str, computed: Computed, *names: str, rotor: str = "") -> str:
     """Return a caption with its sources in a last sentence.
 
@@ -34,8 +40,9 @@ def remark(computed: Computed, name: str, words: str = "{}.", otherwise: str = "
 
 
 def capital(text: str) -> str:
-    """Return a text that begins with a capital."""
-    return text[:1].upper() + text[1:]
+    """Return a text that begins with a capital; a symbol's Greek letter stays as it is."""
+    first = text[:1]
+    return (first.upper() if first.isascii() else first) + text[1:]
 
 
 def is_stiff_unloaded(computed: Computed) -> bool:

@@ -9,9 +9,10 @@ from rotorcalc.validity import Check
 from ui.computed import Computed
 from ui.format import digits
 from ui.preview import Preview, Text, not_at_once
+from ui.words import citation
 
 _BADGES = {"good": "green", "caution": "orange", "outside": "red"}
-_FILM = ":small[Film: {}, laminar, isoviscous, aligned, rigid walls. Orbits: small.]"
+_FILM = ":small[Film: {}; laminar, isoviscous, aligned, rigid walls. Orbits: small.]"
 WORDS = {"good": "holds", "caution": "strained", "outside": "outside"}
 
 
@@ -37,7 +38,7 @@ def badge(computed: Computed) -> str:
 def panel(computed: Computed) -> Text:
     """Return each assumption with its number and limits."""
     lines = map(_line, computed.checks)
-    return Text("\n\n".join([*lines, _FILM.format(computed.machine.bearing.model)]))
+    return Text("\n\n".join([*lines, _FILM.format(citation.film(computed))]))
 
 
 def draw(preview: Preview, set_film: Callable[[str], None]) -> None:

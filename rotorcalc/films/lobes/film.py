@@ -28,7 +28,7 @@ from rotorcalc.machine import JournalBearing
 
 _CLOSED = "closed form of short pads"
 _SOURCES: dict[str, Source] = {
-    "film": Source("short pads cavitated at ambient pressure"),
+    "film": Source("short pads, at ambient pressure in the grooves and where they cavitate"),
     "eccentricity": Source("force balance", r"F_X(x,y)=-F_o,\quad F_Y(x,y)=0"),
     "attitude": Source("force balance", r"\tan\varphi=\frac yx"),
     "thickness": Source(

@@ -35,7 +35,9 @@ _WHIRLS_ABOVE, _CENTRED_ABOVE = 0.066385, 10.0
 # As printed in the notes, with their misprints corrected.
 _SHEET = "the notes' calculation sheet"
 _SOURCES: dict[str, Source] = {
-    "film": Source("short bearing, no pressure flow around the journal, cavitated at ambient"),
+    "film": Source(
+        "short bearing without a groove, no pressure flow around the journal, cavitated at ambient"
+    ),
     "eccentricity": Source(
         "Eq. 5.8",
         r"\frac{1}{\sigma}=\frac{\varepsilon\sqrt{16\varepsilon^2+\pi^2(1-\varepsilon^2)}}"
