@@ -38,7 +38,7 @@ class PadLines:
 
 
 def pad_lines(
-    pads: tuple[Pad, ...], *, journal: float, gap: float, deepest: float = _DEEPEST
+    pads: tuple[Pad, ...], *, journal: float, gap: float, deepest: float = math.inf
 ) -> tuple[PadLines, ...]:
     """Return pads as lines, about the bearing's centre.
 
@@ -131,7 +131,7 @@ def picture(bearing: JournalBearing) -> str:
         Where the bearing has no fixed pads.
     """
     journal = 1.0 - _SHOWN
-    lines = pad_lines(pads_of(bearing), journal=journal, gap=_SHOWN)
+    lines = pad_lines(pads_of(bearing), journal=journal, gap=_SHOWN, deepest=_DEEPEST)
     strokes = [_path(one.surface, style.GREY, 0.07) for one in lines]
     strokes += [_path(one.pocket, style.UNSTABLE, 0.05) for one in lines if len(one.pocket)]
     return (

@@ -16,7 +16,7 @@ from rotorcalc.figures import cursor, style, text
 from rotorcalc.figures.bore import PadLines, closed, pad_lines
 from rotorcalc.figures.style import Chart, Trace
 from rotorcalc.films import film_of
-from rotorcalc.films.pads import pads_of
+from rotorcalc.films.pads import Pad, pads_of
 from rotorcalc.geometry import PartialArc
 from rotorcalc.machine import JournalBearing
 from rotorcalc.modes import ModeShapes, leading_place
@@ -131,6 +131,38 @@ def cross_section(
     return cursor.over_speed(chart, point.speed, units, drawing=drawing)
 
 
+def remarks(bearing: JournalBearing, *, to_scale: bool) -> str:
+    """Return what the marks of a bearing's cross-section mean, and what is not as it is drawn.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing.
+    to_scale : bool
+        Whether its film is drawn to scale.
+
+    Returns
+    -------
+    str
+        Sentences; empty where the drawing needs none.
+    """
+    pads = _pads_of(bearing)
+    words: list[str] = []
+    if any(pad.a_x or pad.a_y for pad in pads):
+        words.append("Crosses: centres of curvature of the pads.")
+    if not to_scale and max((pad.depth for pad in pads), default=0.0) > _POCKET:
+        words.append(f"Pockets are drawn at most {_POCKET:g} C deep.")
+    return " ".join(words)
+
+
+def _pads_of(bearing: JournalBearing) -> tuple[Pad, ...]:
+    """Return a bearing's fixed pads, if it has such."""
+    try:
+        return pads_of(bearing)
+    except ValueError:
+        return ()
+
+
 @dataclass(frozen=True, eq=False)
 class _Bore:
     """The bore as it is drawn.
@@ -172,11 +204,8 @@ def _pads(
     bearing: JournalBearing, journal: float, gap: float, deepest: float
 ) -> tuple[tuple[PadLines, ...], bool]:
     """Return the pads of a bore that has grooves, and whether one pad is all there is of it."""
-    try:
-        pads = pads_of(bearing)
-    except ValueError:  # no fixed pads
-        return (), False
-    if pads[0].is_closed:
+    pads = _pads_of(bearing)
+    if not pads or pads[0].is_closed:
         return (), False
     lines = pad_lines(pads, journal=journal, gap=gap, deepest=deepest)
     return lines, isinstance(bearing.geometry, PartialArc)

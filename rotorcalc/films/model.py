@@ -119,6 +119,26 @@ class Source:
     remark: str = ""
 
 
+@dataclass(frozen=True)
+class Accuracy:
+    """How finely a film was computed, and how far a mesh about twice as fine is from it.
+
+    Attributes
+    ----------
+    mesh : str
+        The mesh in words.
+    place : float
+        Distance between the journal's two equilibrium positions, in C.
+    stiffness, damping : float
+        Largest difference of an entry over the largest entry [-].
+    """
+
+    mesh: str
+    place: float
+    stiffness: float
+    damping: float
+
+
 class Film(Protocol):
     """One bearing's film.
 
@@ -186,6 +206,10 @@ class Film(Protocol):
 
         Its functions can be pickled: a long computation runs in another process.
         """
+        ...
+
+    def accuracy(self, sommerfeld: float) -> Accuracy | None:
+        """Return how finely the film is computed and its error at σ; None for a closed form."""
         ...
 
     def gap(self, position: ArrayLike) -> Array:

@@ -405,3 +405,19 @@ def test_a_film_of_finite_length_has_no_error_of_a_short_one(kind: str) -> None:
     open_part(at, "validity")
     assert said_of_the_short_film(at) == []
     assert not any(one.key == "use_finite" for one in at.button)
+
+
+@pytest.mark.parametrize(("query", "words"), [
+    ({"bearing": "pressure-dam"}, ("∂p/∂n = 0", "2 pads, 96 cells", "twice as fine", "K by")),
+    ({"bearing": "elliptical", "load": "0"}, ("∂p/∂n = 0", "2 pads, 96 cells", "twice as fine")),
+    ({"bearing": "elliptical", "film": "short"}, ("at ambient pressure in the grooves",)),
+])  # fmt: skip
+def test_a_popover_has_what_was_solved_on_which_mesh(
+    query: dict[str, str], words: tuple[str, ...]
+) -> None:
+    at = visit(HOME, **query)
+    open_part(at, "explain_minimum_film_thickness")
+    (said,) = [one.value for one in at.markdown if "Smallest film h: **" in one.value]
+    assert all(word in said for word in words), said
+    assert ("Mesh" in said) == ("film" not in query)
+    assert faults(at) == []

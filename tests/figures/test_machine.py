@@ -204,3 +204,15 @@ def test_the_whirl_is_the_least_damped_modes():
     )
     assert np.hypot(x, y).max() == pytest.approx(1.0, rel=1e-4)
     assert np.sum(x[:-1] * np.diff(y) - y[:-1] * np.diff(x)) > 0.0
+
+
+@pytest.mark.parametrize("name", BEARINGS)
+def test_what_the_drawing_shows_otherwise_is_said(name):
+    made = replace(SHEET, bearing=BEARINGS[name])
+    point, film = analyse(made, 600.0), film_field(made, 600.0, theta=THETA)
+    for to_scale in (False, True):
+        chart = machine.cross_section(point, film, SI, to_scale=to_scale)
+        drawn_parts = {one["name"] for one in chart["data"]}
+        said = machine.remarks(BEARINGS[name], to_scale=to_scale)
+        assert ("centres of curvature" in said) == ("centres of the pads' curvature" in drawn_parts)
+        assert ("Pockets" in said) == ("pocket" in drawn_parts and not to_scale)

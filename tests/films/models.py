@@ -116,6 +116,9 @@ class _TestFilm:
     def motion(self):
         return FilmMotion(self._force, self._velocity)
 
+    def accuracy(self, sommerfeld):  # noqa: ARG002 - the seam's
+        return None
+
     def added_mass(self, points):  # noqa: ARG002 - the seam's
         raise ValueError("bearing: its film's added mass is not known")
 

@@ -196,6 +196,18 @@ def test_the_table_agrees_with_a_finer_mesh(name, ratio):
     assert np.all(deviations(name, ratio) < limits)
 
 
+@pytest.mark.parametrize("name", ["plain", "elliptical", "three lobes", "pressure dam"])
+def test_the_error_that_is_told_is_of_the_size_of_the_error(name):
+    film = film_of(on(BORES[name], 0.5))
+    load = film._table.load
+    loads = np.sqrt(load[:-1] * load[1:])[[4, len(load) * 2 // 3]]  # as of `deviations`
+    for sigma, (_, *true) in zip(0.25 / loads, deviations(name, 0.5), strict=True):
+        told = film.accuracy(float(sigma))
+        assert max(true) / 5 < max(told.stiffness, told.damping) < 5 * max(true)
+        assert f"{film._table.mesh.links} cells" in told.mesh
+    assert film.accuracy(math.inf).stiffness < 0.015  # without load
+
+
 @pytest.mark.parametrize(("dams", "limit"), [(False, 0.005), (True, 0.012)])
 def test_nine_states_in_ten_are_exact_to_half_a_percent_and_of_dams_to_more(dams, limit):
     names = [name for name in BORES if (name in DAMS) == dams]

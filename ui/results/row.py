@@ -72,6 +72,8 @@ def explanation(result: Result, computed: Computed, units: Units) -> str:
     own, cited = result.is_own(computed), [display(result.cites)] if result.cites else []
     if not own:
         lines = [_other(result, computed)]
+        if result.source:
+            lines.append(f":small[{citation.solution(computed)}]")
     elif computed.unloaded:
         lines = [
             *cited,

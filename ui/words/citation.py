@@ -3,11 +3,13 @@
 The only place that writes equation numbers of a film into a caption.
 """
 
+import math
 import re
 
 from rotorcalc.films import film_of
 from rotorcalc.films.model import Source
 from ui.computed import Computed
+from ui.format import digits
 
 _NUMBERED = re.compile(r"(Eq|Fig)s?\. (.+)")
 
@@ -21,6 +23,23 @@ def film(computed: Computed) -> str:
     """Return what the film's model is, in words."""
     model, found = computed.machine.bearing.model, source(computed, "film")
     return found.equation if found else f"{model}, of a bearing of another kind than the notes'"
+
+
+def solution(computed: Computed) -> str:
+    """Return in words what was solved for the film, its boundary condition, mesh and accuracy."""
+    found = film_of(computed.machine.bearing).accuracy(float(computed.point.sommerfeld))
+    words = f"{capital(film(computed))}."
+    if found is None:
+        return words
+    words = f"{words} Mesh: {found.mesh}, with splines between them."
+    if math.isnan(found.place):
+        return words
+    place = digits(float(f"{found.place:.1g}"))
+    K, C = (digits(float(f"{100.0 * one:.1g}")) for one in (found.stiffness, found.damping))
+    return (
+        f"{words} A mesh about twice as fine puts the journal {place} C from there, and changes K "
+        f"by {K} % and C by {C} % of their largest entries."
+    )
 
 
 def cited(words: str, computed: Computed, *names: str, rotor: str = "") -> str:

@@ -26,11 +26,7 @@ def content(page: Page) -> None:
                 c.point, c.middle_film, units, to_scale=scale == "to scale"
             ),
             alt="Cross-section of the bearing with the journal, the load and the film's pressure",
-            caption=cited(
-                "Journal in its bearing, seen along the shaft, and pressure of the film.",
-                page.computed,
-                "pressure",
-            ),
+            caption=lambda c: _bearing(c, to_scale=scale == "to scale"),
         )
     with results:
         st.caption("Stability")
@@ -61,6 +57,12 @@ def content(page: Page) -> None:
             caption="Amplitudes of disk and journals. Eq. 5.38.",
         )
         st.page_link("pages/5_Response.py", label="Imbalance response")
+
+
+def _bearing(computed: Computed, *, to_scale: bool) -> str:
+    remarks = machine.remarks(computed.machine.bearing, to_scale=to_scale)
+    words = f"Journal in its bearing, seen along the shaft, and pressure of the film. {remarks}"
+    return cited(words.rstrip(), computed, "pressure")
 
 
 def _heading(computed: Computed) -> Text:

@@ -9,9 +9,10 @@ from numpy.typing import ArrayLike
 
 from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.films.dynamics import NO_INERTIA, FilmDynamics
+from rotorcalc.films.finite.accuracy import accuracy
 from rotorcalc.films.finite.pressure import Pressures
 from rotorcalc.films.finite.table import FilmTable, table
-from rotorcalc.films.model import FilmMotion, Limit, Source
+from rotorcalc.films.model import Accuracy, FilmMotion, Limit, Source
 from rotorcalc.films.pads import gap, outline, pads_of, walls_of
 from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
 from rotorcalc.machine import JournalBearing
@@ -173,6 +174,10 @@ class FiniteFilm:
             "film = 'finite': nonlinear motion is not computed on a film of finite length; "
             "take film = 'short' where the bore has it"
         )
+
+    def accuracy(self, sommerfeld: float) -> Accuracy:
+        """Return the table's mesh, and its distance from a solution on a finer one."""
+        return accuracy(self._table, sommerfeld)
 
     def gap(self, position: ArrayLike) -> Array:
         """Return the smallest distance from the journal to the bore."""

@@ -175,8 +175,8 @@ def _tabulated(pads: tuple[Pad, ...], slenderness: float, fine: tuple[int, int, 
     concentric = zones == 1 and are_concentric(pads)
     load, start, wet = _loads(grids[0], count, lightest=_NEXT_TO_NONE if concentric else 0.0)
     # Rough positions are good enough to go on from.
-    rough = settled(grids[1], load, start, _carried(wet, grids[1]), steps=_ROUGH)
-    found = _followed(grids[2], load, rough.position, _carried(rough.wet, grids[2]))
+    rough = settled(grids[1], load, start, carried(wet, grids[1]), steps=_ROUGH)
+    found = _followed(grids[2], load, rough.position, carried(rough.wet, grids[2]))
     return _made(grids[2], found, concentric)
 
 
@@ -227,8 +227,21 @@ def _followed(grid: Mesh, load: Array, start: Array, wet: BoolArray) -> Equilibr
     return Equilibria(load[:last], found.position[:last], found.wet[:last], found.good[:last])
 
 
-def _carried(wet: BoolArray, fine: Mesh) -> BoolArray:
-    """Return an active set of a coarse mesh on a finer one, by the places of its nodes."""
+def carried(wet: BoolArray, fine: Mesh) -> BoolArray:
+    """Return an active set of a coarse mesh on a finer one, by the places of its nodes.
+
+    Parameters
+    ----------
+    wet : boolean array, (P, N, nodes, m)
+        The active set at P positions.
+    fine : Mesh
+        The finer mesh.
+
+    Returns
+    -------
+    boolean array
+        As large as the finer mesh asks for.
+    """
     _, nodes, m = fine.shape
     around = (np.arange(nodes) + 1.0) / (nodes + 1.0) * (wet.shape[2] + 1.0) - 1.0
     i = np.clip(np.rint(around).astype(int), 0, wet.shape[2] - 1)

@@ -210,6 +210,9 @@ class LobesFilm:
         moving = PadsInMotion(self._pads)
         return FilmMotion(force=moving.force, velocity=moving.velocity)
 
+    def accuracy(self, sommerfeld: float) -> None:
+        """Return None: the film is a closed form."""
+
     def gap(self, position: ArrayLike) -> Array:
         """Return the smallest distance from the journal to the bore."""
         return gap(walls_of(self.bearing), position)

@@ -174,6 +174,9 @@ class ShortFilm:
         """Return the force on a moving journal, and its inverse, in plain floats."""
         return FilmMotion(force=motion.force, velocity=motion.velocity)
 
+    def accuracy(self, sommerfeld: float) -> None:
+        """Return None: the film is a closed form."""
+
     def gap(self, position: ArrayLike) -> Array:
         """Return the minimum film thickness, 1 − ε (Eq. 5.19)."""
         place = np.asarray(position, dtype=float)
