@@ -9,7 +9,18 @@ from streamlit.testing.v1 import AppTest
 
 from rotorcalc.films import film_of
 from rotorcalc.units import SI
-from tests.app.session import BEARINGS_PAGE, HOME, NOTES, ORBITS, PAGES, faults, session_of, texts, tours, visit
+from tests.app.session import (
+    BEARINGS_PAGE,
+    HOME,
+    NOTES,
+    ORBITS,
+    PAGES,
+    faults,
+    session_of,
+    texts,
+    tours,
+    visit,
+)
 from tests.app.test_bearings import EVERYWHERE, SPEED, TOP, machine, query, refusal
 from tests.films.models import BEARINGS, FINITE, MOVING, SHORT_PADS
 from tests.machines import SHEET
