@@ -76,10 +76,10 @@ def show_connection() -> None:
         visitor.recall(kept)
 
 
-def keep() -> None:
-    """Give the browser what to keep of the session."""
+def keep(when: str) -> None:
+    """Give the browser what to keep of the session, before or after a page's content."""
     if settings.live() != "off":
-        _live().keep(session().kept())
+        _live().keep(session().kept(), when)
 
 
 def chart_key(key: str) -> str:

@@ -268,10 +268,15 @@ class Visitor:
 
     def _keep(self) -> None:
         """Act as connection.js: send the kept state with the next run."""
-        for component, _ in self._components(CONNECTION):
-            if (kept := json.loads(component.json)["kept"]) is not None:
-                state = WidgetState(id=component.id, json_value=json.dumps({"kept": kept}))
-                self._widgets[component.id] = state
+        shown = {
+            component.id: json.loads(component.json)
+            for component, _ in self._components(CONNECTION)
+        }
+        kept = [data["kept"] for data in shown.values() if "kept" in data]
+        (place,) = [place for place, data in shown.items() if "health" in data]
+        if kept:
+            state = json.dumps({"kept": kept[-1]})
+            self._widgets[place] = WidgetState(id=place, json_value=state)
 
     async def _trigger(self, component: BidiComponent, part: str, value: dict[str, Any]) -> None:
         key = _TRIGGERS.format(component.id)

@@ -232,12 +232,14 @@ def _content(content: Callable[[Page], None], places: Places, *, whole: bool) ->
             st.rerun()
         views = presentation.Views(st.container(key="views"))
         page = replace(_page(places, views), whole=whole)
+        if visitor.asked:
+            keep("before")  # the server may be lost while it computes
         content(page)
         page.views.draw()
         cases.draw_table(page.preview, page.cases)
         # The widgets drawn now have taken their choices.
         write_address_bar()
-        keep()
+        keep("after")
 
 
 def _page(places: Places, views: presentation.Views) -> Page:

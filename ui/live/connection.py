@@ -33,6 +33,6 @@ def show(on_reload: Callable[[object], None]) -> object:
     return state.kept
 
 
-def keep(state: dict[str, Any]) -> None:
-    """Send the browser the state to keep."""
-    _component(key="live_kept", data={"kept": state})
+def keep(state: dict[str, Any], when: str) -> None:
+    """Send the browser the state to keep; `when` names the place in a run."""
+    _component(key=f"live_kept_{when}", data={"kept": state})
