@@ -48,6 +48,22 @@ def test_inputs_on_a_phone(app: AppPage) -> None:
     assert _violations(app) == []
 
 
+@pytest.mark.parametrize(
+    ("name", "scheme", "query"),
+    [("Machine", "dark", {"cases": "A~1~C~95"}), ("Orbits", "light", {"present": "orbits_time"})],
+)
+def test_a_presentation_has_no_serious_fault(
+    app: AppPage, name: str, scheme: str, query: dict[str, str]
+) -> None:
+    app.page.emulate_media(color_scheme=scheme)
+    app.open(name, **{"present": "1"} | query)
+    assert app.charts().count() == 1
+    app.page.get_by_role("button", name="Other sliders").click()
+    expect(app.page.get_by_test_id("stPopoverBody")).to_be_visible()
+    assert _violations(app) == []
+    assert app.overflow() <= 0
+
+
 @pytest.mark.parametrize("button", ["Units and settings", "Share and keep", "Oil library"])
 def test_popover_has_no_serious_fault(app: AppPage, button: str) -> None:
     app.open("Machine")
