@@ -132,7 +132,8 @@ def test_a_link_with_another_reading_of_amplitudes_is_reported() -> None:
 
 def _amplitudes(at: AppTest) -> dict[str, tuple[str, str]]:
     """Return number and unit of each amplitude shown."""
-    parts = {metric.label: metric.value.partition(" ") for metric in at.metric}
+    shown = {metric.label: metric.value.replace("\u2060", "") for metric in at.metric}
+    parts = {label: value.partition(" ") for label, value in shown.items()}
     return {label: (number, unit) for label, (number, _, unit) in parts.items() if "-p" in unit}
 
 

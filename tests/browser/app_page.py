@@ -52,7 +52,7 @@ _METRICS = """() => Object.fromEntries(
   [...document.querySelectorAll('[data-testid="stMetric"]')].map(metric =>
     ['stMetricLabel', 'stMetricValue'].map(
       part => metric.querySelector(`[data-testid="${part}"]`).innerText
-        .replaceAll('\u200b', '').trim())))"""
+        .replaceAll(/[\u200b\u2060]/g, '').trim())))"""
 
 _INPUTS = """() => [...document.querySelectorAll('[role=slider], input[type=text]')].map(
   input => input.value ?? input.ariaValueNow)"""

@@ -12,6 +12,9 @@ from ui.results.record import Result
 from ui.results.table import RESULTS
 from ui.words import citation
 
+# A word joiner, of no width.
+_JOINED = "\u2060"
+
 
 def row_key(keys: tuple[str, ...]) -> str:
     """Return the key of a row of results."""
@@ -46,7 +49,8 @@ def _cells(result: Result, preview: Preview, computed: Computed) -> tuple[str, s
         change = f"{difference} vs {first.case.name}"
     # A column is too narrow for whose calculation sheet it is.
     source = citation.capital(result.cited(computed).removeprefix("The notes' "))
-    number = result.shown(computed, preview.units)
+    # A narrow column breaks before a unit, but not within "0-p".
+    number = result.shown(computed, preview.units).replace("-p", f"-{_JOINED}p")
     if result.is_doubtful(computed):
         number = f"({number})"
     return number, change, source
