@@ -21,6 +21,7 @@ from ui.widgets import show_inputs
 
 # Key of the picture's place.
 PICTURE = "said_bore"
+_NO_PICTURE = "<span></span>"
 _KIND_HELP = (
     "Diameter, length, clearance and load stay as they are. The clearance is the one to which a "
     "pad is machined: its radius of curvature less the journal's."
@@ -59,9 +60,16 @@ def draw_picture(values: Values) -> None:
 def drawing(values: Values) -> Text:
     """Return the small picture of the bore that values describe, where it has fixed pads."""
     with suppress(ValueError):  # values that make no machine
-        if address := picture_address(machine_of(values).bearing):
-            return Text(f'<img src="{address}" alt="" width="72" height="72">', "html")
-    return Text("<span></span>", "html")
+        return Text(picture_tag(machine_of(values).bearing, 72), "html")
+    return Text(_NO_PICTURE, "html")
+
+
+def picture_tag(bearing: JournalBearing, size: int) -> str:
+    """Return the small picture of a bore as HTML, so many pixels wide, beside its name."""
+    address = picture_address(bearing)
+    if not address:
+        return _NO_PICTURE
+    return f'<img src="{address}" alt="" width="{size}" height="{size}">'
 
 
 def picture_address(bearing: JournalBearing) -> str:
@@ -71,6 +79,15 @@ def picture_address(bearing: JournalBearing) -> str:
     except ValueError:  # a bearing without fixed pads
         return ""
     return f"data:image/svg+xml;base64,{base64.b64encode(svg.encode()).decode()}"
+
+
+def offer_short(bearing: JournalBearing) -> None:
+    """Offer the short bearing's film where another was asked for what only that one has."""
+    if bearing.model != "short" and "short" in bearing.geometry.models:
+        st.button(
+            "Use the short bearing's film", key="use_short", on_click=session().set_film,
+            args=("short",),
+        )  # fmt: skip
 
 
 def _kind() -> None:

@@ -15,12 +15,11 @@ from streamlit.elements.lib.column_types import ButtonColumnResult, ColumnConfig
 from rotorcalc import JournalBearing, Machine
 from rotorcalc.comparison import KINDS, BearingResult
 from rotorcalc.figures import Units
-from rotorcalc.figures.bore import picture
 from rotorcalc.geometry import Geometry
 from ui.bearing import film_name
 from ui.bores import name_of
 from ui.format import amount, lower
-from ui.frame.bore import picture_address
+from ui.frame.bore import picture_address, picture_tag
 from ui.frame.page import Page
 from ui.jobs import cache, work
 from ui.jobs.queue import SHORT
@@ -258,7 +257,7 @@ def in_rows(found: Sequence[BearingResult]) -> Iterator[Sequence[BearingResult]]
 def card(page: Page, one: BearingResult, found: Sequence[BearingResult]) -> None:
     """Show a kind's picture, what is said of it, whether it holds here, and a button to take it."""
     kind = one.bearing.geometry.kind
-    st.image(picture(one.bearing), width=96)
+    st.html(picture_tag(one.bearing, 96))
     st.markdown(f"**{name_of(kind)}**")
     st.markdown(_JUDGEMENTS[kind].words)
     for line in here(one, found, page.units):

@@ -25,6 +25,7 @@ from rotorcalc.nonlinear.limit_cycles import sweep
 from rotorcalc.nonlinear.measured_onset import GrowthCurve
 from ui.computed import Computed
 from ui.format import amount, digits
+from ui.frame.bore import offer_short
 from ui.frame.page import Page
 from ui.jobs import cache, work
 from ui.jobs.work import Progress
@@ -219,7 +220,10 @@ def _no_onset(computed: Computed) -> str:
 
 def has_motion(bearing: JournalBearing) -> bool:
     """Return whether a film gives a force in any motion; show why not where it gives none."""
-    return attempt(lambda: film_of(bearing).motion()) is not None
+    if attempt(lambda: film_of(bearing).motion()) is None:
+        offer_short(bearing)
+        return False
+    return True
 
 
 def attempt(work: Callable[[], T]) -> T | None:
