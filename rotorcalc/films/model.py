@@ -40,10 +40,20 @@ class FilmMotion:
     velocity : callable
         (x', y') from (x, y, f_x, f_y), and optionally a list, empty at first, in which one search
         leaves the starting value of the next.
+    thinnest : float
+        Gap below which the force is not known, in C.
+    tables : hashable or None
+        Equal for films that share the tables which are made when the first force is asked for; None
+        where there are none.
+    seconds : float
+        About how long that takes, on one core of a laptop.
     """
 
     force: Force
     velocity: Velocity
+    thinnest: float = 0.0
+    tables: Hashable | None = None
+    seconds: float = 0.0
 
 
 # (x, y, x', y') or (x, y, f_x, f_y), inner states, instantaneous viscosity [Pa·s], speed [rad/s]

@@ -111,8 +111,12 @@ class Equations:
         model = film_of(bearing)
         film = model.motion()
         self.inner: _Inner | None = None
+        # The gap at which a motion ends, in C: at the wall, or where the film's force is not known.
+        self.thinnest = 0.0
         if isinstance(film, InnerMotion):
             film = self.inner = _Inner(film, model.inner, machine.viscosity)
+        else:
+            self.thinnest = film.thinnest
         self.force, self.velocity = film.force, film.velocity
 
     def speed(self, angle: ArrayLike) -> Array:

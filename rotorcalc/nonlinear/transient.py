@@ -176,7 +176,7 @@ def simulate(  # noqa: PLR0913 - how long, from where, to which speed
     if not 0.0 <= pushes < math.inf:
         raise ValueError(f"pushes = {pushes} m/s: must be zero or more, and finite")
     model = Equations(machine, *speeds, turned=2.0 * math.pi * revolutions)
-    state = model.initial(_checked_start(machine, speeds[0], start))
+    state = model.initial(_checked_start(machine, speeds[0], start, model.thinnest))
     angles = np.linspace(0.0, model.turned, revolutions * samples_per_revolution + 1)
     run = _Run(angles, _STRETCH * samples_per_revolution, tolerance, pushes / (model.C * speeds[0]))
     return _integrate(model, state, run, progress)
@@ -321,11 +321,20 @@ def _stretch(
         return state[None, :], message
     film = film_of(model.machine.bearing)
     # The film's force is kept finite at the wall, so an integration can pass it without an error.
-    good = np.isfinite(states).all(axis=1) & (film.gap(model.journal(states)) > 0.0)
+    good = np.isfinite(states).all(axis=1) & (film.gap(model.journal(states)) > model.thinnest)
     reached = int(np.argmin(good)) if not good.all() else len(states)
     if reached < len(states):
-        return states[: max(reached, 1)], "the journal came too close to the wall"
+        return states[: max(reached, 1)], _too_close(model.thinnest)
     return states, ""
+
+
+def _too_close(thinnest: float) -> str:
+    if thinnest == 0.0:
+        return "the journal came too close to the wall"
+    return (
+        f"the journal came closer to the wall than {thinnest:.2g} of the clearance, beyond which "
+        "this film's force is not computed"
+    )
 
 
 def _attempt(motion: Motion, state: Array, angles: Array, tolerance: float) -> tuple[Array, str]:
@@ -367,7 +376,9 @@ def _check_tolerance(tolerance: float) -> None:
         raise ValueError(f"tolerance = {tolerance}: must lie within {low:g} and {high:g}")
 
 
-def _checked_start(machine: Machine, speed: float, start: ArrayLike | Start | None) -> Start:
+def _checked_start(
+    machine: Machine, speed: float, start: ArrayLike | Start | None, thinnest: float
+) -> Start:
     C = machine.bearing.radial_clearance
     if start is None:
         start = resting(machine, equilibrium(machine, speed).film.position * C)
@@ -376,7 +387,13 @@ def _checked_start(machine: Machine, speed: float, start: ArrayLike | Start | No
     for name in ("journal", "disk", "journal_velocity", "disk_velocity"):
         _checked_vector(f"start.{name}", getattr(start, name))
     # Contact is the film's own gap, not |position| ≥ C: bores need not be circular.
-    if float(film_of(machine.bearing).gap(start.journal / C)) <= 0.0:
+    gap = float(film_of(machine.bearing).gap(start.journal / C))
+    if 0.0 < gap <= thinnest:
+        raise ValueError(
+            f"start: the journal is {gap * C:.6g} m from the wall; this film's force is computed "
+            f"down to {thinnest:.2g} of the clearance, {thinnest * C:.6g} m"
+        )
+    if gap <= 0.0:
         distance = float(np.hypot(*start.journal))
         raise ValueError(
             f"start: the journal lies {distance:.6g} m from the bearing's centre, where its film "

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.films.dynamics import NO_INERTIA, FilmDynamics
 from rotorcalc.films.finite.accuracy import accuracy
+from rotorcalc.films.finite.motion import SECONDS, THINNEST, FinitePadsInMotion
 from rotorcalc.films.finite.pressure import Pressures
 from rotorcalc.films.finite.table import FilmTable, table
 from rotorcalc.films.model import Accuracy, FilmMotion, Limit, Source
@@ -169,10 +170,25 @@ class FiniteFilm:
         )
 
     def motion(self) -> FilmMotion:
-        """Refuse: the force on a journal in any motion is not computed."""
-        raise ValueError(
-            "film = 'finite': nonlinear motion is not computed on a film of finite length; "
-            "take film = 'short' where the bore has it"
+        """Return the force on a moving journal, and its inverse, in plain floats.
+
+        Raises
+        ------
+        ValueError
+            Where a pad has a pocket.
+        """
+        if any(pad.depth > 0.0 for pad in pads_of(self.bearing)):
+            raise ValueError(
+                f"bearing = {self.bearing.geometry.kind}: nonlinear motion is not computed where "
+                "pads have pockets, whose film depends on more than the direction of the motion"
+            )
+        moving = FinitePadsInMotion(self.bearing)
+        return FilmMotion(
+            force=moving.force,
+            velocity=moving.velocity,
+            thinnest=THINNEST,
+            tables=moving.shapes,
+            seconds=SECONDS * len(moving.shapes),
         )
 
     def accuracy(self, sommerfeld: float) -> Accuracy:

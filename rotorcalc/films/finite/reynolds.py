@@ -210,6 +210,14 @@ class Films:
             third.append(3.0 * sixth * (left * u + centre * v + right * w))
         return (second[0], second[1]), (third[0], third[1])
 
+    def taken(self, rows: IntArray) -> "Films":
+        """Return the films at some of the positions, (S,), each any number of times."""
+        return Films(
+            self.mesh, self.relative[rows], self.beta[rows], self.cos[rows], self.sin[rows],
+            self.h_left[rows], self.h_middle[rows], self.h_right[rows], self.I2[rows],
+            self.I3[rows],
+        )  # fmt: skip
+
     def _by_zone(self, values: Array) -> Array:
         weights = self.mesh.weights
         total = values[:, :, 0, :, None] * weights[:, 0]
@@ -359,7 +367,7 @@ def solved(found: Films, wet: BoolArray, squeeze: Array | None = None) -> Soluti
         )
     values = np.stack([right, *loads])
     p, *adjoint = banded(found, G, wet, values)
-    excess = right - _flow_out(found, G, p)
+    excess = right - flow_out(found, G, p)
     force = np.stack([(p * load).sum(axis=(1, 2, 3)) for load in loads], axis=-1)
     return Solution(p, wet, excess, np.stack(adjoint), force)
 
@@ -372,8 +380,23 @@ def force_weights(found: Films) -> tuple[Array, Array]:
     return np.diff(sin)[..., None] * w, -np.diff(cos)[..., None] * w
 
 
-def _flow_out(found: Films, G: Array, p: Array) -> Array:
-    """Return the operator on pressures: what flows out of the volume of each node."""
+def flow_out(found: Films, G: Array, p: Array) -> Array:
+    """Return the operator on pressures: what flows out of the volume of each node.
+
+    Parameters
+    ----------
+    found : Films
+        The films.
+    G : array, (P, N, links, m)
+        Their conductance around the pads.
+    p : array, (P, N, nodes, m)
+        Pressures.
+
+    Returns
+    -------
+    array, (P, N, nodes, m)
+        Flow, in the equation's units.
+    """
     flux = np.empty_like(G)
     flux[:, :, 1:-1] = p[:, :, :-1] - p[:, :, 1:]
     flux[:, :, 0], flux[:, :, -1] = -p[:, :, 0], p[:, :, -1]
