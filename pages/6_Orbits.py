@@ -32,6 +32,8 @@ def of_a_release(content):
         with st.container(key="release"):
             asked = ask.choose_release(page.computed)
         shown = ask.try_out(page, asked)
+        if shown is None:
+            return
         with answer:
             ask.say_outcome(shown.preview, asked)
         content(shown, asked)
@@ -177,7 +179,7 @@ def limit_cycles(page: Page) -> None:
 
 def onset_three_ways(page: Page) -> None:
     units = page.units
-    if (three := on_demand.ask_onsets(page.computed)) is not None:
+    if (three := on_demand.ask_onsets(page)) is not None:
         on_demand.say_onsets(three[0], units)
         on_demand.with_onset(page).chart(
             lambda c: draw.onset_growth(*on_demand.three_onsets(c), units), "orbits_onset",

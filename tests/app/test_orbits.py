@@ -210,3 +210,26 @@ def test_a_computation_that_started_again_says_so_beside_its_result() -> None:
     assert "interrupted" in said(at)
     at.run()
     assert "interrupted" not in said(at)
+
+
+def test_a_film_of_finite_length_says_what_its_tables_cost_and_makes_them_once_asked() -> None:
+    at = visit(ORBITS, film="finite")
+    words = " ".join(text.value for text in at.markdown)
+    assert re.search(r"tabulated once .* about \d+ s", words), words
+    assert charts(at) == {}
+    press(at, "orbits_tables")
+    assert set(charts(at)) == {"chart_orbits_path", "chart_orbits_time"}
+    assert re.search("After 40 revolutions|returns to equilibrium", said(at)), said(at)
+    session_of(at).set_value("rpm", 5800.0)
+    at.run()
+    assert faults(at) == []
+    assert len(charts(at)) == 2  # another speed needs no other tables
+
+
+def test_another_bore_may_refuse_a_release_after_its_tables() -> None:
+    at = visit(ORBITS, film="finite")
+    at.slider(key="orbits_kick").set_value(1.2).run()
+    at.button(key="orbits_tables").click().run()
+    assert not at.exception
+    assert "film has no thickness left" in said(at)
+    assert charts(at) == {}

@@ -20,7 +20,7 @@ from rotorcalc import (
 )
 from rotorcalc.arrays import Array
 from rotorcalc.figures import Units
-from rotorcalc.films import film_of
+from rotorcalc.films import FilmMotion, film_of
 from rotorcalc.nonlinear.limit_cycles import sweep
 from rotorcalc.nonlinear.measured_onset import GrowthCurve
 from ui.computed import Computed
@@ -35,11 +35,16 @@ from ui.words.citation import capital, without_load
 
 T = TypeVar("T")
 
+# Seconds that limit cycles and the onset three ways take on a laptop's core, and on a film whose
+# force comes from tables.
+_CYCLES_TAKE, _CYCLES_ON_TABLES, _THREE_ON_TABLES = 15, 45, 20
+# Of a revolution on such a film, at the tolerance of a chart.
+REVOLUTION = 0.03
 _CYCLES = (
     "From the onset on, whirl of a constant size is possible at each speed: a limit cycle. The "
     "chart will show the size of these cycles over speed, without imbalance: stable cycles, on "
     "which a machine stays, unstable ones, beyond which a disturbance grows, and the fold where "
-    "both end. It takes about 15 s."
+    "both end. It takes about {} s."
 )
 _THREE = (
     "The onset comes three ways: by the notes' equations, by eigenvalues, and measured on the "
@@ -107,8 +112,9 @@ def ask_cycles(page: Page) -> Bifurcation | None:
         st.info(_no_onset(computed))
         return None
     machine = balanced(computed.machine)
+    comes = _CYCLES.format(_CYCLES_ON_TABLES if tabulated(computed) else _CYCLES_TAKE)
     return on_demand(
-        page, Job("Follow the limit cycles", "orbits_cycles", _CYCLES), ("cycles", machine),
+        page, Job("Follow the limit cycles", "orbits_cycles", comes), ("cycles", machine),
         lambda tell: attempt(lambda: _cycles(machine, tell=tell)),
     )  # fmt: skip
 
@@ -155,12 +161,18 @@ def say_cycles(branch: Bifurcation, units: Units) -> None:
     st.caption(f"The branch of limit cycles {branch.ended}.")
 
 
-def ask_onsets(computed: Computed) -> tuple[Onsets, GrowthCurve] | None:
+def ask_onsets(page: Page) -> tuple[Onsets, GrowthCurve] | None:
     """Return the onset found three ways, and growth over speed, or show why there is none."""
-    onset = computed.onset.speed
+    computed, onset = page.computed, page.computed.onset.speed
     if not 0.0 < onset < math.inf:
         st.info(_no_onset(computed))
         return None
+    if (film := tabulated(computed)) is not None:
+        comes = f"{_THREE.removesuffix('A few seconds …')}About {_THREE_ON_TABLES} s."
+        return on_demand(
+            page, Job("Find the onset three ways", "orbits_three", comes), ("three", film.tables),
+            lambda _: attempt(lambda: three_onsets(computed)),
+        )  # fmt: skip
     place = st.empty()
     place.markdown(_THREE)
     found = attempt(lambda: three_onsets(computed))
@@ -216,6 +228,15 @@ def _no_onset(computed: Computed) -> str:
             "onset from which limit cycles could branch off, and none to compare."
         )
     return "No speed makes this machine whirl: it has no onset, and no limit cycles."
+
+
+def tabulated(computed: Computed) -> FilmMotion | None:
+    """Return the force of a film that makes tables before its first motion, else None."""
+    try:
+        motion = film_of(computed.machine.bearing).motion()
+    except ValueError:
+        return None
+    return motion if isinstance(motion, FilmMotion) and motion.tables is not None else None
 
 
 def has_motion(bearing: JournalBearing) -> bool:

@@ -18,8 +18,9 @@ from ui.frame.page import Page
 from ui.inputs import INPUTS, PRESET_VALUES
 from ui.jobs import cache, queue, work
 from ui.jobs.work import Progress
-from ui.preview import Preview, Text
+from ui.preview import Preview, Text, not_at_once
 from ui.session import session
+from ui.words.on_demand import REVOLUTION, Job, on_demand, tabulated
 
 T = TypeVar("T")
 
@@ -139,8 +140,10 @@ def let_go(computed: Computed, ask: Ask, tell: Progress | None = None) -> Releas
 def coarse(computed: Computed, ask: Ask) -> Release:
     """Return the first revolutions of a release, coarsely, for each value of a dragged slider.
 
-    Raises ValueError where it cannot be computed.
+    Raises ValueError where it cannot be computed, or not as fast as the slider moves.
     """
+    if tabulated(computed) is not None:
+        not_at_once(computed)
     ask = _affordable(computed, ask)
     turns = min(ask.revolutions, _COARSE)
     try:
@@ -161,12 +164,15 @@ def _affordable(computed: Computed, ask: Ask) -> Ask:
     return ask if ask.revolutions <= most else replace(ask, revolutions=most)
 
 
-def try_out(page: Page, ask: Ask) -> Page:
+def try_out(page: Page, ask: Ask) -> Page | None:
     """Return the page without the cases that allow no such release.
 
-    Say in words why there is none, and stop, where the live machine allows none.
+    Say in words why there is none, and stop, where the live machine allows none. Where tables must
+    be made first, say so, and return None until a visitor asks for them.
     """
     ask = _affordable(page.computed, ask)
+    if not _ask_for_tables(page, ask):
+        return None
     bar = st.progress(0.0, "Integrating …") if ask.revolutions >= work.LONG else None
     try:
         let_go(page.computed, ask, None if bar is None else bar.progress)
@@ -181,9 +187,28 @@ def try_out(page: Page, ask: Ask) -> Page:
     return replace(page, cases=tuple(s for s in page.cases if _can_let_go(s.computed, ask)))
 
 
-def _can_let_go(computed: Computed, ask: Ask) -> bool:
+def _ask_for_tables(page: Page, ask: Ask) -> bool:
+    """Return whether a release needs no tables, or a visitor has asked for them."""
+    if (film := tabulated(page.computed)) is None:
+        return True
+    seconds = math.ceil(film.seconds + ask.revolutions * REVOLUTION)
+    job = Job(
+        "Release the journal", "orbits_tables",
+        "The force of this film in any motion comes from solutions of Reynolds' equation, "
+        f"tabulated once for the pads' arc and L/D. With this release that takes about {seconds} "
+        "s; then other loads, speeds, clearances and preloads follow at once.",
+    )  # fmt: skip
+    # An error comes again, and is shown, where the release is asked for anew.
+    asked = on_demand(
+        page, job, ("tables", film.tables),
+        lambda tell: (_can_let_go(page.computed, ask, tell), True),
+    )  # fmt: skip
+    return asked is not None
+
+
+def _can_let_go(computed: Computed, ask: Ask, tell: Progress | None = None) -> bool:
     try:
-        let_go(computed, ask)
+        let_go(computed, ask, tell)
     except (ValueError, TransientError):
         return False
     return True

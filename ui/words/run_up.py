@@ -15,7 +15,7 @@ from ui.computed import Computed
 from ui.format import amount, digits
 from ui.frame.page import Page
 from ui.jobs import cache, work
-from ui.words.on_demand import Job, attempt, balanced, on_demand
+from ui.words.on_demand import REVOLUTION, Job, attempt, balanced, on_demand, tabulated
 
 # Ends of a passage around the onset, over its speed; and the start of one to the top speed, over
 # that.
@@ -80,7 +80,10 @@ def ask_run(page: Page, asked: AskRun) -> RunUp | None:
     units = page.units
     ends = " to ".join(amount(units.speed, speed) for speed in (asked.lowest, asked.highest))
     rate = amount(units.speed, asked.acceleration)
-    seconds = math.ceil(2.0 * asked.revolutions * _COST)
+    film = tabulated(page.computed)
+    # Both ways, after the tables of a film that needs them.
+    ways = 2.0 * asked.revolutions
+    seconds = math.ceil(ways * _COST if film is None else ways * REVOLUTION + film.seconds)
     job = Job(
         "Run up and down", "orbits_run_up",
         f"The speed rises from {ends} within {digits(asked.time)} s, by {rate} each second, "
