@@ -64,10 +64,11 @@ def _outlook(computed: Computed, units: Units) -> str:
         margin = above(onset.speed / computed.speed)
         beyond = " (outside the model's range)" if computed.onset_is_outside else ""
         where = f"{amount(units.speed, onset.speed)}{beyond}, {margin}"
-        return f"it becomes unstable at {where}, {_whirl(computed, units)}."
+        # Short: with the model's badge it stands in one line of 960 pixels.
+        return f"it becomes unstable at {where}, whirling at {_whirl(computed, units)}."
     return (
         f"it is above its range of whirl, which begins at {amount(units.speed, onset.speed)}, "
-        f"{_whirl(computed, units)}."
+        f"where it whirls at {_whirl(computed, units)}."
     )
 
 
@@ -91,9 +92,7 @@ def _growing(computed: Computed, value: complex, units: Units) -> str:
 def _whirl(computed: Computed, units: Units) -> str:
     onset = computed.onset
     ratio = onset.whirl_frequency / onset.speed if onset.speed > 0.0 else math.nan
-    return (
-        f"where it whirls at {_frequency(onset.whirl_frequency, units)}, {ratio:.3g} of that speed"
-    )
+    return f"{_frequency(onset.whirl_frequency, units)}, {ratio:.3g} of that speed"
 
 
 def _frequency(value: float, units: Units) -> str:
