@@ -160,8 +160,8 @@ class _Column:
 
 
 _COLUMNS = (
-    _Column("Onset", "onset", "speed", 0, 116, "Speed at which the rotor begins to whirl. Empty: "
-            "no speed makes it whirl.", bars=True),
+    _Column("Onset", "onset", "speed", 0, 116, "Speed at which the rotor begins to whirl; "
+            "without a number, no speed does.", bars=True),
     _Column("Margin", "margin", "percent", 0, 78, "Onset over running speed, less one."),
     _Column("Whirl ratio", "whirl_ratio", "number", 3, 78, "Of the film at the running speed."),
     _Column("Log dec.", "log_decrement", "number", 3, 76,
@@ -204,6 +204,7 @@ def _table(found: Sequence[BearingResult], page: Page, *, done: bool) -> None:
         hide_index=True,
         row_height=52,
         height="content",
+        placeholder="–",
         alt="Bearings of every kind on this machine: onset, damping, film, losses and response.",
     )
     own = f"{name_of(bearings[0].geometry.kind)}, {film_name(page.preview.values)}".lower()
