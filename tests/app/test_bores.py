@@ -16,7 +16,6 @@ from rotorcalc.comparison import KINDS
 from rotorcalc.units import SI, US
 from tests.app.session import (
     HOME,
-    ORBITS,
     comparison,
     faults,
     move,
@@ -422,15 +421,3 @@ def test_a_popover_has_what_was_solved_on_which_mesh(
     assert all(word in said for word in words), said
     assert ("Mesh" in said) == ("film" not in query)
     assert faults(at) == []
-
-
-@pytest.mark.parametrize("tab", ["Orbit", "Limit cycles"])
-def test_orbits_lead_to_the_short_film_where_they_need_it(tab: str) -> None:
-    at = visit(ORBITS, bearing="elliptical", tab=tab)
-    assert [one.value for one in at.error if "nonlinear motion" in one.value]
-    at.button(key="use_short").click().run()
-    assert machine_of(session_of(at).values).bearing.model == "short"
-    assert not any(one.key == "use_short" for one in at.button)
-    assert faults(at) == []
-    dam = visit(ORBITS, bearing="pressure-dam", tab=tab)
-    assert not any(one.key == "use_short" for one in dam.button)

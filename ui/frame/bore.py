@@ -81,15 +81,6 @@ def picture_address(bearing: JournalBearing) -> str:
     return f"data:image/svg+xml;base64,{base64.b64encode(svg.encode()).decode()}"
 
 
-def offer_short(bearing: JournalBearing) -> None:
-    """Offer the short bearing's film where another was asked for what only that one has."""
-    if bearing.model != "short" and "short" in bearing.geometry.models:
-        st.button(
-            "Use the short bearing's film", key="use_short", on_click=session().set_film,
-            args=("short",),
-        )  # fmt: skip
-
-
 def _kind() -> None:
     visitor = session()
     kind = str(visitor.values[KIND])

@@ -25,7 +25,6 @@ from rotorcalc.nonlinear.limit_cycles import sweep
 from rotorcalc.nonlinear.measured_onset import GrowthCurve
 from ui.computed import Computed
 from ui.format import amount, digits
-from ui.frame.bore import offer_short
 from ui.frame.page import Page
 from ui.jobs import cache, work
 from ui.jobs.work import Progress
@@ -241,10 +240,7 @@ def tabulated(computed: Computed) -> FilmMotion | None:
 
 def has_motion(bearing: JournalBearing) -> bool:
     """Return whether a film gives a force in any motion; show why not where it gives none."""
-    if attempt(lambda: film_of(bearing).motion()) is None:
-        offer_short(bearing)
-        return False
-    return True
+    return attempt(lambda: film_of(bearing).motion()) is not None
 
 
 def attempt(work: Callable[[], T]) -> T | None:

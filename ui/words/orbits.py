@@ -13,7 +13,6 @@ from rotorcalc.nonlinear.release import Release, affordable_revolutions
 from ui.choices import KICKS, TURNS, choice
 from ui.computed import Computed, computed_from
 from ui.format import amount, digits
-from ui.frame.bore import offer_short
 from ui.frame.page import Page
 from ui.inputs import INPUTS, PRESET_VALUES
 from ui.jobs import cache, queue, work
@@ -178,8 +177,6 @@ def try_out(page: Page, ask: Ask) -> Page | None:
         let_go(page.computed, ask, None if bar is None else bar.progress)
     except (ValueError, TransientError) as error:
         st.error(f"{error}", title="This release cannot be computed")
-        if isinstance(error, ValueError):
-            offer_short(page.computed.machine.bearing)
         st.stop()
     finally:
         if bar is not None:
