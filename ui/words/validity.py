@@ -8,7 +8,7 @@ import streamlit as st
 from rotorcalc.validity import Check
 from ui.computed import Computed
 from ui.format import digits
-from ui.preview import Preview, Text, not_at_once
+from ui.preview import Preview, Text
 from ui.words import citation
 
 _BADGES = {"good": "green", "caution": "orange", "outside": "red"}
@@ -51,7 +51,7 @@ def draw(preview: Preview, set_film: Callable[[str], None]) -> None:
         preview.say("assumptions", panel)
         # A bore that nobody asked before takes a tenth of a second: only where somebody reads it.
         if opened.open and preview.computed.of_finite_length is not None:
-            preview.say("short_error", short_error, while_dragging=not_at_once)
+            preview.say("short_error", short_error)
             st.button(
                 "Use the film of finite length", key="use_finite",
                 on_click=set_film, args=("finite",),
