@@ -161,13 +161,10 @@ def disk_peak_speeds(
 
 
 def _near_resonances(machine: Machine, rotor: Rotor, speed: Array, film: _Film) -> Array:
-    """Return speeds within a sweep around each narrow resonance of a rotor, and near its ends."""
+    """Return speeds within a sweep around each narrow resonance of a rotor."""
     crossing, width = _resonances(machine, rotor, speed, film)
     near = (crossing[:, None] + width[:, None] * _AROUND).ravel()
-    # A maximum between the first two speeds, or the last two, is at no speed of the sweep.
-    first = speed[0] + (speed[1] - speed[0]) * _INSIDE
-    last = speed[-1] - (speed[-1] - speed[-2]) * _INSIDE
-    return np.concatenate([near[(near > speed[0]) & (near < speed[-1])], first, last])
+    return near[(near > speed[0]) & (near < speed[-1])]
 
 
 def _resonances(machine: Machine, rotor: Rotor, speed: Array, film: _Film) -> tuple[Array, Array]:
@@ -215,9 +212,13 @@ def _by_frequency(rotor: Rotor, K: Array, C: Array) -> ComplexArray:
 def _denser(
     speed: Array, size: Array, near: Array, sizes: Callable[[Array], Array]
 ) -> tuple[Array, Array]:
-    """Return a sweep's speeds, (n,), and sizes, (m, n), with those at more speeds inserted."""
-    dense, order = np.unique(np.concatenate([speed, near]), return_index=True)
-    return dense, np.concatenate([size, sizes(near)], axis=-1)[:, order]
+    """Return speeds, (n,), and sizes, (m, n), of a sweep with more inserted, also at its ends."""
+    # A maximum between the first two speeds, or the last two, is at no speed of the sweep.
+    first = speed[0] + (speed[1] - speed[0]) * _INSIDE
+    last = speed[-1] - (speed[-1] - speed[-2]) * _INSIDE
+    more = np.concatenate([near, first, last])
+    dense, order = np.unique(np.concatenate([speed, more]), return_index=True)
+    return dense, np.concatenate([size, sizes(more)], axis=-1)[:, order]
 
 
 def _orbit_sizes(machine: Machine, rotor: Rotor | Rotors, speed: Array) -> Array:
