@@ -53,9 +53,11 @@ function plotly(address) {
 }
 
 // Plotly measures texts as it draws them: in another font than they end in, they stand beside their place.
+let lettering; // the fonts are asked for once per page: a held slider draws many charts
 function fonts(view) {
-  const family = getComputedStyle(view).fontFamily;
-  return Promise.allSettled(["", "italic "].map((style) => document.fonts.load(`${style}1em ${family}`)));
+  const load = (style) => document.fonts.load(`${style}1em ${getComputedStyle(view).fontFamily}`);
+  lettering ??= Promise.allSettled(["", "italic "].map(load));
+  return lettering;
 }
 
 async function tools(scripts) {
