@@ -5,11 +5,13 @@ out is computed.
 """
 
 import math
+import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import streamlit as st
+from streamlit.delta_generator import DeltaGenerator
 from streamlit.elements.lib.column_types import ButtonColumnResult, ColumnConfig
 
 from rotorcalc import JournalBearing, Machine
@@ -27,6 +29,8 @@ from ui.session import session
 
 _OWN, _CLICKED = "This machine", "use_in_table"
 _A_ROW = 4
+# Seconds after which the results so far are shown.
+_PATIENCE = 0.2
 
 _results = cache.Cached(work.bearing, entries=256, megabytes=4, turns=SHORT)
 
@@ -112,28 +116,47 @@ _JUDGEMENTS = {
 
 
 def compare(page: Page) -> list[BearingResult]:
-    """Return this machine's own bearing and every kind, and show their table as they come."""
+    """Return this machine's own bearing and every kind, and show their table as they come.
+
+    Most are computed before a table of the first would be drawn: then it is drawn once. Where it
+    takes longer the page runs whole, which a visitor can end, and what is found is kept.
+    """
     machine, speed = page.computed.machine, page.computed.speed
     asked = _asked(machine, speed)
     found: list[BearingResult] = []
-    if any(_results.known(*one) is None for one in asked):
-        page.run_whole()
-    place, bar = st.empty(), st.empty()
+    # A place made empty at once would be so until its table comes.
+    top, below = st.container(), st.container()
+    so_far: _SoFar | None = None
+    drawn = time.monotonic()
     for one in asked:
-        known = _results.known(*one)
-        if known is None:
-            geometry = one[2] or machine.bearing.geometry
-            bar.progress(len(found) / len(asked), f"Computing: {lower(name_of(geometry.kind))} …")
-            known = _results(*one)
-            found.append(known)
-            with place.container():
-                _table(found, page, done=False)
-        else:
-            found.append(known)
-    bar.empty()
-    with place.container():
+        late = time.monotonic() - drawn >= _PATIENCE
+        if found and late and _results.known(*one) is None:
+            page.run_whole()
+            so_far = so_far or _SoFar(top.empty(), below.empty())
+            so_far.show(found, one[2] or machine.bearing.geometry, len(asked), page)
+            drawn = time.monotonic()
+        found.append(_results(*one))
+    if so_far:
+        so_far.progress.empty()
+    with so_far.table.container() if so_far else top:
         _table(found, page, done=True)
     return found
+
+
+class _SoFar(NamedTuple):
+    """Places for the results so far, and for how far it is."""
+
+    table: DeltaGenerator
+    progress: DeltaGenerator
+
+    def show(
+        self, found: Sequence[BearingResult], geometry: Geometry, among: int, page: Page
+    ) -> None:
+        """Show what is found, and what comes next."""
+        words = f"Computing: {lower(name_of(geometry.kind))} …"
+        self.progress.progress(len(found) / among, words)
+        with self.table.container():
+            _table(found, page, done=False)
 
 
 def _asked(machine: Machine, speed: float) -> list[tuple[Machine, float, Geometry | None]]:
