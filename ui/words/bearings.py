@@ -30,7 +30,7 @@ from ui.session import session
 _OWN, _CLICKED = "This machine", "use_in_table"
 _A_ROW = 4
 # Seconds after which the results so far are shown.
-_PATIENCE = 0.2
+_PATIENCE = 0.4
 
 _results = cache.Cached(work.bearing, entries=256, megabytes=4, turns=SHORT)
 
