@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotorcalc.arrays import Array
+from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.frames import vector
 from rotorcalc.geometry import (
     AxialGrooves,
@@ -32,8 +32,8 @@ _TURN = 2.0 * math.pi
 _CUT = math.radians(135.0)
 # Why a film of pads may have no answer at any load.
 NO_POSITION = (
-    "bearing: no position of the journal was found at which its film carries a load along X; move "
-    "or widen its pads, or lower its preload"
+    "bearing: no position of the journal was found at which its film carries a load along X, and "
+    "to which it returns; move or widen its pads, or lower its preload"
 )
 
 
@@ -262,6 +262,30 @@ def outline(pads: tuple[Pad, ...], angle: ArrayLike) -> Array:
     r = reach.min(axis=-1)
     with np.errstate(invalid="ignore"):
         return vector(r * n_x[..., 0], r * n_y[..., 0])
+
+
+def resting(pads: tuple[Pad, ...], position: Array, stiffness: Array) -> BoolArray:
+    """Return where a journal in equilibrium stays: inside the bore, and not on a saddle.
+
+    A saddle, det K < 0, is left without whirl, by itself, on any rotor.
+
+    Parameters
+    ----------
+    pads : tuple of Pad
+        The pads.
+    position : array, (n, 2)
+        The journal's centre, in C.
+    stiffness : array, (n, 2, 2)
+        In any unit.
+
+    Returns
+    -------
+    boolean array, (n,)
+        Of each position.
+    """
+    stays = np.linalg.det(stiffness) > 0.0
+    # Beside a single pad the bore is relieved, but no wider.
+    return stays & (np.hypot(position[:, 0], position[:, 1]) < 1.0) if len(pads) == 1 else stays
 
 
 @functools.lru_cache(maxsize=256)

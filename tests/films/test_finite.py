@@ -504,7 +504,10 @@ def test_bores_that_cannot_be_are_refused_in_words(made, words):
 @pytest.mark.parametrize(
     "bearing",
     [
-        on(PartialArc(centre=math.radians(60.0)), 1 / 3),
+        on(PartialArc(centre=math.radians(90.0)), 1 / 3),
+        # Where loads are carried only beside the pad's bore, and by saddles.
+        on(PartialArc(arc=math.radians(100.0), centre=math.radians(-30.0)), 1 / 3),
+        on(PartialArc(centre=math.radians(-60.0)), 1 / 3),
         on(OffsetHalves(offset=0.95), 1 / 3),
         on(Lobes(offset=0.0), 1 / 3),
         on(PressureDam(preload=0.95), 1 / 3),
@@ -515,6 +518,33 @@ def test_bores_that_cannot_be_are_refused_in_words(made, words):
 def test_a_bore_that_carries_no_load_is_refused_in_words(bearing):
     with pytest.raises(ValueError, match="no position of the journal was found at which its film"):
         film_state(bearing, 4.0)
+
+
+# Between narrow pads Newton's method is drawn to where the film is next to nothing.
+NARROW = {
+    "five grooves at L/D 0.1": (AxialGrooves(number=5, width=0.8529557, first=1.7927927), 0.1),
+    "five grooves at L/D 0.5": (AxialGrooves(number=5, width=0.7062687, first=0.4864597), 0.5),
+    "six narrow lobes": (Lobes(number=6, arc=10 * DEGREE, preload=0.0, offset=0.4), 1.0),
+    "two dams": (MultiDam(number=2, arc=75 * DEGREE, pocket_arc=55 * DEGREE, axial_ratio=0.05),
+                 1.0),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", NARROW)
+def test_each_state_of_a_table_carries_its_load_and_is_no_saddle(name):
+    made = film_of(on(*NARROW[name]))._table
+    over = films(made.mesh, made.position)
+    force = settled_pressures(over, made.wet).force * made.mesh.slenderness / 4
+    astray = np.hypot(force[:, 0] + made.load, force[:, 1])
+    assert np.all(astray < 0.1 * made.load)
+    assert np.all(np.linalg.det(made.coefficients(0.25 / made.load)[0]) > 0.0)
+
+
+def test_a_position_inside_a_pad_is_refused_in_words():
+    grid = mesh(pads_of(on(PartialArc(), 1.0)), 1.0, 16, 2)
+    over = films(grid, np.array([[1.2, 0.0]]))
+    with pytest.raises(ValueError, match="must lie inside the bore"):
+        solved(over, np.ones((1, *grid.shape), dtype=bool))
 
 
 def test_every_kind_is_in_a_file_and_back():

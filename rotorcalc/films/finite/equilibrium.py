@@ -24,6 +24,9 @@ _MOST_STEPS = 30
 # The force's error over the load, or over the film's stiffness times C, at which a step is last:
 # its square is what remains. So few nodes of the active set may still change.
 _TOLERANCE, _CHANGES = 1e-4, 2
+# Close to a pad the film is so stiff that any step is small: there the force must be this close to
+# the load, or to the film's stiffness times its thickness cubed, which is alike everywhere.
+ASTRAY = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,8 +103,10 @@ def settled(
         Not all of them good.
     """
     position, wet = start.copy(), wet.copy()
-    good, active = np.zeros(len(load), dtype=bool), np.arange(len(load))
+    good, active = np.zeros(len(load), dtype=bool), np.flatnonzero(gap(mesh.pads, position) > 0.0)
     for _ in range(steps):
+        if not active.size:
+            break
         found = films(mesh, position[active])
         at = solved(found, wet[active])
         step, error = _newton(mesh, found, at, load[active])
@@ -111,8 +116,6 @@ def settled(
         wet[active] = after
         good[active] = still & (error < _TOLERANCE)
         active = active[~good[active]]
-        if not active.size:
-            break
     return Equilibria(load, position, wet, good)
 
 
@@ -120,15 +123,16 @@ def _newton(mesh: Mesh, found: Films, at: Solution, load: Array) -> tuple[Array,
     """Return Newton's step of each position, no longer than its film allows, and its error."""
     K = stiffness(found, at)
     rest = at.force + np.stack([load, np.zeros_like(load)], axis=-1)
-    scale = load + np.abs(K).max(axis=(1, 2))
+    stiffest = np.abs(K).max(axis=(1, 2))
     determinant = K[:, 0, 0] * K[:, 1, 1] - K[:, 0, 1] * K[:, 1, 0]
     x = K[:, 1, 1] * rest[:, 0] - K[:, 0, 1] * rest[:, 1]
     y = K[:, 0, 0] * rest[:, 1] - K[:, 1, 0] * rest[:, 0]
     with np.errstate(divide="ignore", invalid="ignore"):  # it never settles, which is noticed
         step = np.stack([x, y], axis=-1) / determinant[:, None]
     position = found.relative[:, 0] + mesh.a[0]
-    room = _LONGEST * gap(mesh.pads, position)
-    size = np.hypot(step[:, 0], step[:, 1])
+    film = gap(mesh.pads, position)
+    size, left = np.hypot(step[:, 0], step[:, 1]), np.hypot(rest[:, 0], rest[:, 1])
     with np.errstate(invalid="ignore"):
-        error = np.minimum(np.hypot(rest[:, 0], rest[:, 1]) / scale, size)
-    return step * np.minimum(1.0, room / np.maximum(size, 1e-300))[:, None], error
+        error = np.minimum(left / (load + stiffest), size)
+    error[left > ASTRAY * (load + stiffest * film**3)] = np.inf
+    return step * np.minimum(1.0, _LONGEST * film / np.maximum(size, 1e-300))[:, None], error

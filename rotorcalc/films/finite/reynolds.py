@@ -430,7 +430,9 @@ def banded(found: Films, G: Array, wet: BoolArray, values: Array) -> Array:
         overwrite_b=1,
     )
     if info != 0:
-        raise ArithmeticError("the film's equations are singular")
+        raise ValueError(
+            "position: the journal must lie inside the bore, where every pad leaves it a film"
+        )
     return np.asarray(x).T.reshape(values.shape) * wet
 
 

@@ -13,12 +13,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotorcalc.arrays import Array, BoolArray
-from rotorcalc.films.finite.equilibrium import Equilibria, scan, settled
+from rotorcalc.films.finite.equilibrium import ASTRAY, Equilibria, scan, settled
 from rotorcalc.films.finite.fronts import coefficients
 from rotorcalc.films.finite.results import drag, peak, side_flow
 from rotorcalc.films.finite.reynolds import Films, Mesh, Solution, films, mesh, solved
 from rotorcalc.films.load_splines import CoefficientSplines, LoadSplines, half_whirl
-from rotorcalc.films.pads import NO_POSITION, Pad, are_concentric, gap
+from rotorcalc.films.pads import NO_POSITION, Pad, are_concentric, gap, resting
 
 # The thinnest film that the table reaches, in C.
 THINNEST = 0.03
@@ -41,6 +41,8 @@ _LIGHT_LOADS = 6
 # lightest.
 _NEXT_TO_NONE = 1e-5
 _ROUGH, _MOST_SWEEPS = 5, 40
+# So few equilibria make no table.
+_TOO_FEW = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -221,10 +223,15 @@ def _followed(grid: Mesh, load: Array, start: Array, wet: BoolArray) -> Equilibr
         again = settled(grid, load[bad], found.position[near], found.wet[near])
         found.position[bad], found.wet[bad] = again.position, again.wet
         found.good[bad] = again.good
-    last = int(np.argmin(found.good)) if not found.good.all() else len(load)
-    if last < 8:
+    return _up_to_the_first_without(found.good, found)
+
+
+def _up_to_the_first_without(good: BoolArray, found: Equilibria) -> Equilibria:
+    """Return equilibria up to the heaviest below which all are good."""
+    last = len(good) if good.all() else int(np.argmin(good))
+    if last < _TOO_FEW:
         raise ValueError(NO_POSITION)
-    return Equilibria(load[:last], found.position[:last], found.wet[:last], found.good[:last])
+    return Equilibria(found.load[:last], found.position[:last], found.wet[:last], found.good[:last])
 
 
 def carried(wet: BoolArray, fine: Mesh) -> BoolArray:
@@ -264,9 +271,15 @@ def _made(grid: Mesh, found: Equilibria, concentric: bool) -> FilmTable:
     """Return the table of equilibria, the first of them without load unless concentric."""
     over = films(grid, found.position)
     at = settled_pressures(over, found.wet)
+    stiffness, damping = coefficients(over, at)
+    rests = resting(grid.pads, found.position, stiffness)
+    astray = np.hypot(at.force[1:, 0] + found.load[1:], at.force[1:, 1])
+    rests[1:] &= astray <= ASTRAY * found.load[1:]
+    if not rests.all():
+        return _made(grid, _up_to_the_first_without(rests, found), concentric)
     # R units to film units: force, stiffness, damping and pressure over 4(L/D)².
     film = grid.slenderness / 4.0
-    K, C = (film * each for each in coefficients(over, at))
+    K, C = film * stiffness, film * damping
     highest = peak(over, at.pressure)
     rows = np.column_stack([
         found.position, drag(over, at.pressure), side_flow(over, at.pressure),

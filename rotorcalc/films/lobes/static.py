@@ -14,7 +14,7 @@ from scipy.interpolate import CubicSpline
 from rotorcalc.arrays import Array
 from rotorcalc.films.load_splines import CoefficientSplines, half_whirl
 from rotorcalc.films.lobes.integrals import moments
-from rotorcalc.films.pads import NO_POSITION, Pad, are_concentric, gap
+from rotorcalc.films.pads import NO_POSITION, Pad, are_concentric, gap, resting
 from rotorcalc.films.rough_positions import crossings, net
 
 _TURN = 2.0 * np.pi
@@ -222,7 +222,10 @@ def _start(pads: tuple[Pad, ...]) -> tuple[Array, Array, CubicSpline]:
     # Dense enough that a single step of Newton's method remains.
     rough = CubicSpline(np.log(loads[1:]), places[1:])
     ln = np.linspace(math.log(loads[1]), math.log(loads[-1]), _KNOTS)
-    spline = CubicSpline(ln, _newton(pads, np.exp(ln), np.asarray(rough(ln))))
+    dense = _newton(pads, np.exp(ln), np.asarray(rough(ln)))
+    if not resting(pads, dense, answer(pads, dense).stiffness).all():
+        raise ValueError(NO_POSITION)
+    spline = CubicSpline(ln, dense)
     return loads, places, spline
 
 
