@@ -20,4 +20,5 @@ show(
     "Bearings",
     "Other bores with the same diameter, length, clearance, oil and load, on this rotor.",
     content,
+    unanswered=words.say_unanswered,
 )

@@ -10,6 +10,7 @@ from rotorcalc import compare_bearings
 from rotorcalc.comparison import KINDS, BearingResult
 from rotorcalc.units import SI, US
 from tests.app.session import BEARINGS_PAGE, faults, session_of, visit
+from ui.bearing import defaults_of
 from ui.bores import NAMES
 from ui.inputs import machine_of, speeds_of
 from ui.session import Session
@@ -131,9 +132,34 @@ def test_a_film_without_an_answer_says_why() -> None:
     at = visit(BEARINGS_PAGE, **HEAVY)
     shown = table(at)
     assert shown["Onset [rpm]"][1:] == [None] * len(KINDS)
+    assert shown["Bearing"][1:] == [f"{NAMES[one.kind]}: no answer" for one in KINDS]
     assert any("No answer at this speed and load" in one.value for one in at.warning)
     reasons = [one.value for one in at.markdown if "must be at least" in one.value]
     assert len(reasons) == len(KINDS)
+    assert faults(at) == []
+
+
+@pytest.mark.parametrize("case", [False, True])
+def test_an_own_bearing_without_an_answer_leaves_the_others_theirs(case: bool) -> None:
+    at = visit(BEARINGS_PAGE)
+    if case:
+        at.button(key="keep").click().run()
+    visitor = session_of(at)
+    visitor.values |= defaults_of("partial-arc") | {"arc": 100.0, "centre": -30.0}
+    at.run()
+    (said,) = [one.value for one in at.error]
+    assert "no position of the journal was found" in said
+    shown = table(at)
+    assert shown["Bearing"] == [
+        "This machine: no answer",
+        *(NAMES[geometry.kind] for geometry in KINDS),
+    ]
+    assert shown["Onset [rpm]"][0] is None
+    assert None not in shown["Onset [rpm]"][1:]
+    # The refusal is the machine's own: any other bearing is taken over as ever.
+    at.button(key="use_elliptical").click().run()
+    assert session_of(at).values["bearing"] == "elliptical"
+    assert list(at.error) == []
     assert faults(at) == []
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from datetime import timedelta
 from functools import cache, partial
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, NoReturn
 
 import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
@@ -145,10 +145,18 @@ class Places(NamedTuple):
     bore: DeltaGenerator | None
 
 
-def show(title: str, sentence: str, content: Callable[[Page], None]) -> None:
+def show(
+    title: str,
+    sentence: str,
+    content: Callable[[Page], None],
+    *,
+    unanswered: Callable[[str], object] | None = None,
+) -> None:
     """Draw a page: its frame, then its content, which alone is redrawn when a slider moves.
 
-    While a slider is dragged, what depends on the machine has a preview.
+    While a slider is dragged, what depends on the machine has a preview. Where the film has no
+    answer at the running speed the content is not drawn, unless it can do without and
+    `unanswered` shows the reason.
     """
     with one_at_a_time.PAGES.through():
         places = _frame(title, sentence)
@@ -158,9 +166,9 @@ def show(title: str, sentence: str, content: Callable[[Page], None]) -> None:
             # As a fragment's content stands in a container: elsewhere it would stand twice, beside
             # the old, until the run ends.
             with st.container():
-                _content(content, places, whole=True)
+                _content(content, places, unanswered, whole=True)
         else:
-            st.fragment(_content)(content, places, whole=False)
+            st.fragment(_content)(content, places, unanswered, whole=False)
 
 
 def _frame(title: str, sentence: str) -> Places:
@@ -224,14 +232,20 @@ def _run_when_reconnected() -> None:
     """
 
 
-def _content(content: Callable[[Page], None], places: Places, *, whole: bool) -> None:
+def _content(
+    content: Callable[[Page], None],
+    places: Places,
+    unanswered: Callable[[str], object] | None,
+    *,
+    whole: bool,
+) -> None:
     with one_at_a_time.PAGES.through():
         visitor = session()
         if visitor.drawn != visitor.framed():
             # A button of the content, such as a demonstration's, changed more than sliders show.
             st.rerun()
         views = presentation.Views(st.container(key="views"))
-        page = replace(_page(places, views), whole=whole)
+        page = replace(_page(places, views, unanswered or _stop), whole=whole)
         if visitor.asked:
             keep("before")  # the server may be lost while it computes
         content(page)
@@ -242,7 +256,13 @@ def _content(content: Callable[[Page], None], places: Places, *, whole: bool) ->
         keep("after")
 
 
-def _page(places: Places, views: presentation.Views) -> Page:
+def _stop(problem: str) -> NoReturn:
+    """Say why there are no results, and draw no more."""
+    st.error(problem, title=NO_MACHINE)
+    st.stop()
+
+
+def _page(places: Places, views: presentation.Views, unanswered: Callable[[str], object]) -> Page:
     """Return the page's machine and draw what depends on it everywhere; stop where there is none.
 
     A fragment may write into the places where it has done so when the whole page ran; the
@@ -263,26 +283,38 @@ def _page(places: Places, views: presentation.Views) -> Page:
         st.stop()
     try:
         computed = computed_from(visitor.values)
-        _ = computed.point  # a film may have no answer at the running speed
     except ValueError as error:
         with places.foot:
             show_preview(None)
-        st.error(f"{error}", title=NO_MACHINE)
-        st.stop()
+        _stop(f"{error}")
     beside, problems = computed_cases(visitor.cases)
     for problem in problems:
         st.warning(problem)
     first, units = (beside[0] if beside else None), visitor.units
-    visitor.preview = Preview(
+    preview = Preview(
         dict(visitor.values), computed, first, units, dark=is_dark(), of_inputs=of_inputs
     )
-    visitor.preview.say("verdict", lambda c: verdict.text(c, units))
+    page = Page(computed=computed, cases=beside, units=units, preview=preview, views=views)
+    return _answered(page, places, visitor, unanswered)
+
+
+def _answered(
+    page: Page, places: Places, visitor: Session, unanswered: Callable[[str], object]
+) -> Page:
+    """Return a page after what the frame says of its machine, or why the film has no answer."""
+    try:
+        _ = page.computed.point
+    except ValueError as error:
+        with places.foot:
+            show_preview(None)
+        unanswered(f"{error}")
+        return page.alone()
+    visitor.preview = page.preview
+    page.say("verdict", lambda c: verdict.text(c, page.units))
     with places.foot:
-        validity.draw(visitor.preview, visitor.set_film)
-        show_preview(visitor.preview)
-    return Page(
-        computed=computed, cases=beside, units=visitor.units, preview=visitor.preview, views=views
-    )
+        validity.draw(page.preview, visitor.set_film)
+        show_preview(page.preview)
+    return page
 
 
 def _draw_inputs(places: Places, visitor: Session) -> dict[str, Callable[[Values], Text]]:

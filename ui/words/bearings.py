@@ -27,6 +27,7 @@ from ui.jobs import cache, work
 from ui.jobs.queue import SHORT
 from ui.session import session
 
+_NO_ANSWER = "This machine's own bearing has no answer at this speed and load"
 _OWN, _CLICKED = "This machine", "use_in_table"
 _A_ROW = 4
 # Seconds after which the results so far are shown.
@@ -206,7 +207,7 @@ def _table(found: Sequence[BearingResult], page: Page, *, done: bool) -> None:
     columns: list[tuple[str, list[Any], ColumnConfig | ButtonColumnResult]] = [
         (
             "Bearing",
-            [_OWN, *(name_of(one.geometry.kind) for one in bearings[1:])],
+            [_name(one, first=one is found[0]) for one in found],
             config.TextColumn(width=132, pinned=True),
         ),
         ("Bore", [picture_address(one) for one in bearings], config.ImageColumn("", width=56)),
@@ -237,6 +238,11 @@ def _table(found: Sequence[BearingResult], page: Page, *, done: bool) -> None:
     )
 
 
+def _name(one: BearingResult, *, first: bool) -> str:
+    name = _OWN if first else name_of(one.bearing.geometry.kind)
+    return f"{name}: no answer" if one.refusal else name
+
+
 def _numbers(
     column: _Column, found: Sequence[BearingResult], units: Units
 ) -> tuple[str, list[Any], ColumnConfig]:
@@ -259,6 +265,11 @@ def _numbers(
 def _take(bearings: Sequence[JournalBearing]) -> None:
     """Take the bearing over whose button in the table was clicked."""
     session().set_bearing(bearings[st.session_state[_CLICKED]["row"]])
+
+
+def say_unanswered(problem: str) -> None:
+    """Say why the machine's own bearing has no answer; others may have one."""
+    st.error(f"{problem}. The other bearings are on the same machine.", title=_NO_ANSWER)
 
 
 def say_exceptions(found: Sequence[BearingResult]) -> None:
