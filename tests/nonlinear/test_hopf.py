@@ -28,6 +28,13 @@ STIFF = Machine(
     rotor=Rotor(mass=20.0),
     temperature=50.0,
 )
+# So lightly loaded that rounding decides the error of the third derivatives.
+NEARLY_CENTRAL = Machine(
+    oil=Oil(reference_viscosity=2e-3, reference_temperature=50, temperature_coefficient=0.03),
+    bearing=JournalBearing(diameter=0.4, length=0.0872, radial_clearance=197e-6),
+    rotor=Rotor(mass=10.0, disk_damping=1.677e6),
+    temperature=30.0,
+)
 
 
 def stiff(k, **rotor):
@@ -136,6 +143,7 @@ def lyapunov_of_cycles(machine, onset):
 
 @settings(max_examples=40)
 @given(machine=any_machine)
+@example(machine=NEARLY_CENTRAL)
 def test_the_error_bounds_the_difference_from_extended_precision(machine):
     onset = found_of(machine)
     with pytest.MonkeyPatch.context() as patch:
