@@ -10,7 +10,15 @@ from typing import Any
 from urllib.parse import parse_qs, urlencode, urlsplit
 
 from google.protobuf.message import DecodeError
-from playwright.sync_api import ConsoleMessage, Locator, Page, Request, WebSocket, expect
+from playwright.sync_api import (
+    ConsoleMessage,
+    Locator,
+    Page,
+    Request,
+    ViewportSize,
+    WebSocket,
+    expect,
+)
 from streamlit.proto.ForwardMsg_pb2 import ForwardMsg
 
 from ui.frame.page import PAGES
@@ -96,6 +104,14 @@ class AppPage:
             assert time.monotonic() < end, "nothing happened: the app did not run"
             self.page.wait_for_timeout(20)  # lets the websocket's messages in
         self.rest()
+
+    def leave(self, size: ViewportSize) -> None:
+        """Make the tab as good as new for what opens in it next, once nothing is held in it."""
+        # A page keeps its state when it is left; a listener of its own event comes after it.
+        self.page.evaluate("() => addEventListener('pagehide', () => sessionStorage.clear())")
+        self.page.mouse.move(0, 0)
+        self.page.emulate_media(color_scheme="light")
+        self.page.set_viewport_size(size)
 
     def go(self, name: str) -> None:
         """Go to a page by the navigation."""
