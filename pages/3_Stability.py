@@ -161,7 +161,9 @@ def onset_map(page: Page) -> None:
     page.chart(
         lambda c: map_of(c, onsets),
         "onset_map",
-        while_dragging=lambda c: map_of(c, design.coarse_map(c, x, y, units)),
+        while_dragging=lambda c: map_of(
+            c, onsets if c.machine == computed.machine else design.coarse_map(c, x, y, units)
+        ),
         alt="Contour map of the onset speed over two inputs, with this machine, and the machines "
         "that are unstable at the running speed shaded.",
         caption="Onset of this machine with two inputs varied and all others unchanged.",
@@ -191,7 +193,7 @@ def remedies(page: Page) -> None:
     with right:
         page.chart(
             lambda c: what_if.tornado(
-                design.sensitivities(c), design.names(c.machine, units), units
+                design.sensitivities(c), design.names(c.machine, units), c.speed, units
             ),
             "tornado",
             alt="Change of the onset speed for ten per cent less and more of each input.",

@@ -65,53 +65,61 @@ def this_machine(x: Axis, y: Axis, left: float, bottom: float, arrow: str) -> li
     ]  # fmt: skip
 
 
-def tornado(found: Sensitivities, names: Mapping[str, str], units: Units) -> Chart:
+def tornado(
+    found: Sensitivities, names: Mapping[str, str], speed: float, units: Units
+) -> Chart:  # fmt: skip
     """Return the onset's change with each input, a pair of bars per input, the largest on top.
 
-    Inputs that do not move the onset are left out.
+    Inputs that do not move the onset are left out. A running speed, `speed` [rad/s] at first, is
+    marked across the bars: those that reach beyond it make a stable machine unstable, and an
+    unstable one stable.
     """
     onset, unit = float(units.speed.of(found.onset)), units.speed
     inputs = moving(found)[::-1]  # the axis runs upwards
     places = np.arange(len(inputs), dtype=float)
     less = np.array([_change(float(unit.of(one.onset_low)), onset) for one in inputs])
     more = np.array([_change(float(unit.of(one.onset_high)), onset) for one in inputs])
-    all_of_them = np.array([*less, *more, 1.0])
+    # Of an onset that is zero or infinite there is no share.
+    share = 100.0 / onset if 0.0 < onset < math.inf else 1.0
+    title = titled("Change of the onset", "ΔΩ_on", unit.name)
+    if share != 1.0:
+        title = titled("Change of the onset", "ΔΩ_on/Ω_on", "%")
+    all_of_them = share * np.array([*less, *more, 1.0])
     reach = style.ceiling(1.1 * np.abs(all_of_them[np.isfinite(all_of_them)]))
 
     def texts(changes: Array) -> list[str]:
         return [f"{_effect(value, unit.name)}{_percent(value, onset)}" for value in changes]
 
-    title = titled("Change", "ΔΩ_on", unit.name)
     rows = [
         f"{names[one.field]}<br>{_effect(low, unit.name)} / {_effect(high, unit.name)}"
         for one, low, high in zip(inputs, less, more, strict=True)
     ]
     none = style.note("no input moves the onset", 0.5, 0.5)
-    return style.chart(
+    chart = style.chart(
         [
-            *(
-                # The bar of an infinite change ends with the axis.
-                _bars(np.clip(changes, -reach, reach), places, name, texts(changes), colour)
-                for changes, name, colour in (
-                    (less, "10 % less", _LESS),
-                    (more, "10 % more", _MORE),
-                )
-            ),
-            *_shares_axis_holder(onset),
+            # The bar of an infinite change ends with the axis.
+            _bars(np.clip(share * changes, -reach, reach), places, name, texts(changes), colour)
+            for changes, name, colour in (
+                (less, "10 % less", _LESS),
+                (more, "10 % more", _MORE),
+            )
         ],
         near(style.axis(title, -reach, reach)),
         style.axis(
             "", -0.6, max(len(inputs), 1) - 0.4, tickvals=places, ticktext=rows, showgrid=False,
             tickfont={"size": 13},
         ),
-        xaxis2=_shares_axis(reach, onset),
         barmode="overlay",
-        height=160 + 42 * max(len(inputs), 4),
+        height=120 + 42 * max(len(inputs), 4),
         legend=LEGEND,
-        margin={"l": 64, "r": 28, "t": 52, "b": 84},
+        margin={"l": 64, "r": 28, "t": 28, "b": 84},
         shapes=[_zero()],
         annotations=[] if inputs else [none],
     )  # fmt: skip
+    if not math.isfinite(onset):
+        return chart
+    to = np.linspace(-reach, reach, 401)
+    return cursor.over_speed(chart, speed, units, axis="x", at=onset + to / share, to=to)
 
 
 def moving(found: Sensitivities) -> tuple[Sensitivity, ...]:
@@ -187,25 +195,6 @@ def _bars(x: Array, y: Array, name: str, texts: list[str], colour: str) -> Trace
 def _percent(change: float, onset: float) -> str:
     share = 100.0 * change / onset if 0.0 < onset < math.inf else math.nan
     return f", {share:+.2g} %".replace("-", "−") if math.isfinite(share) else ""
-
-
-def _shares_axis(reach: float, onset: float) -> Axis:
-    """Return the upper axis, the change in per cent of the onset."""
-    share = 100.0 * reach / onset if 0.0 < onset < math.inf else 1.0
-    return near(
-        style.axis(
-            "of the onset [%]", -share, share,
-            overlaying="x", side="top", showgrid=False, tickmode="auto", nticks=7,
-        )
-    )  # fmt: skip
-
-
-def _shares_axis_holder(onset: float) -> list[Trace]:
-    """Return an invisible trace: Plotly draws an axis only where a trace refers to it."""
-    if not 0.0 < onset < math.inf:
-        return []
-    holder = style.mark(0.0, 0.0, "", showlegend=False, hoverinfo="skip", xaxis="x2")
-    return [holder | {"marker": {"opacity": 0}}]
 
 
 def _zero() -> dict[str, Any]:

@@ -37,8 +37,9 @@ def film_around(field: PressureField, point: Sweep, units: Units) -> Chart:
     C = float(units.film.of(point.machine.bearing.radial_clearance))
     x = _around(field, anchor="y2")
     y = style.axis(
-        style.titled("Film", "h", units.film.name), 0.0, style.ceiling(2 * C), domain=style.UPPER
-    )
+        style.titled("Film", "h", units.film.name), 0.0, style.ceiling(2.05 * C),
+        domain=style.UPPER,
+    )  # fmt: skip
     y2 = style.axis(
         style.titled("Pressure", "p", units.pressure.name), 0.0, style.ceiling(top),
         domain=style.LOWER,

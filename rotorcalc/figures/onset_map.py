@@ -50,11 +50,12 @@ def onset_map(
     onset, running = units.speed.of(shown.speed), float(units.speed.of(speed))
     levels = _levels(onset, running)
     name = units.speed.name
-    notes = _sides(onset, running, grid) + [
+    # The levels first: their labels then stay while the running speed moves the division.
+    notes = [
         grid.note(f"{level:.0f}", place)
         for level in levels
         if (place := grid.crossing(onset, level))
-    ]
+    ] + _sides(onset, running, grid)
     return style.chart(
         [
             *_fields(onset, levels, grid, name),
@@ -95,21 +96,21 @@ class _Grid:
         """Return the place on a contour that is farthest from what is there, None where close."""
         places = [*_crossings(onset, level), *((x, y) for y, x in _crossings(onset.T, level))]
         inside = [place for place in places if all(0.06 < share < 0.94 for share in place)]
-        return self._freest(inside)
+        return self._freest(inside, apart=_APART)
 
     def middle(self, inside: BoolArray) -> Place | None:
-        """Return the place deepest in a region."""
+        """Return the place deepest in a region, None where there is no such region."""
         # Beyond the map is outside every region, so that words do not stand at its edge.
         depth = distance_transform_edt(np.pad(inside, 1))[1:-1, 1:-1]
-        rows, columns = np.nonzero(depth >= 0.7 * depth.max(initial=1.0))
+        rows, columns = np.nonzero(depth >= 0.7 * max(depth.max(), 1.0))
         height, width = (size - 1 for size in inside.shape)
         return self._freest([(c / width, r / height) for r, c in zip(rows, columns, strict=True)])
 
-    def _freest(self, places: Sequence[Place]) -> Place | None:
+    def _freest(self, places: Sequence[Place], apart: float = 0.0) -> Place | None:
         if not places:
             return None
         room, place = max((self._room(place), place) for place in places)
-        return place if room > _APART else None
+        return place if room >= apart else None
 
     def _room(self, place: Place) -> float:
         return min((math.dist(place, other) for other in self.taken), default=1.0)

@@ -95,7 +95,7 @@ def in_clearance(orbit: ClearanceOrbit, locus: Array, units: Units) -> Chart:
     """Return the journal's orbit about its static equilibrium inside its clearance."""
     unit = units.film
     farthest = max(float(np.abs(path).max()) for path in (orbit.wall, orbit.path))
-    reach = float(unit.of(1.06 * farthest))
+    reach = style.ceiling(unit.of(1.04 * farthest), steps=style.CLOSE)
     x, y = _plane(reach, unit)
     centre = unit.of(orbit.centre)
     bottom = {**y, "range": [reach, reach]}  # reversed axis: its larger end is at the bottom

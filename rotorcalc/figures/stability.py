@@ -219,6 +219,10 @@ def energy_bars(energies: Energies, units: Units) -> Chart:
         _energy_axis(top, units),
         barmode="overlay",
         shapes=_level(places, gains) if energies.at_onset is not None else [],
+        annotations=[
+            *_heights(places - _BESIDE, gains),
+            *_heights(places + _BESIDE, films + disks),
+        ],
         legend=LEGEND,
         margin=MARGIN,
     )
@@ -404,10 +408,20 @@ def _energy_axis(top: float, units: Units) -> Axis:
 def _bar(x: Array, y: Array, name: str, colour: str, base: Array | None = None) -> Trace:
     return {
         "type": "bar", "x": x, "y": y, "base": base, "name": name, "width": _WIDE,
-        "marker": {"color": colour}, "text": [number(float(value), 3) for value in y],
-        "textposition": "inside", "insidetextanchor": "end", "textangle": 0,
-        "textfont": {"color": "#ffffff"},
+        "marker": {"color": colour}, "customdata": [number(float(value)) for value in y],
+        "hovertemplate": f"{name}: %{{customdata}}<extra></extra>",
     }  # fmt: skip
+
+
+def _heights(x: Array, y: Array) -> list[Item]:
+    """Return the heights of bars above them."""
+    return [
+        {
+            "text": number(float(value), 3), "x": float(place), "y": float(value),
+            "yanchor": "bottom", "showarrow": False,
+        }
+        for place, value in zip(x, y, strict=True)
+    ]  # fmt: skip
 
 
 def _level(places: Array, gains: Array) -> list[Item]:

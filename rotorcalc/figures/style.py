@@ -46,7 +46,11 @@ SMALL_HEIGHT = 260
 # Shares of a chart's height for two panes, one above the other.
 UPPER, LOWER = [0.55, 1.0], [0.0, 0.45]
 # Round ends of an axis within a decade, so close that at most a quarter of it stays empty.
-_LADDER = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
+ROUND = (1.0, 1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)
+# For what an axis should closely fit.
+CLOSE = (
+    1.0, 1.15, 1.3, 1.5, 1.7, 2.0, 2.3, 2.6, 3.0, 3.5, 4.0, 4.5, 5.0, 5.6, 6.4, 7.0, 8.0, 9.0, 10.0,
+)  # fmt: skip
 
 
 def figure(chart: Chart) -> "go.Figure":
@@ -57,8 +61,13 @@ def figure(chart: Chart) -> "go.Figure":
     return go.Figure(chart)
 
 
-def ceiling(values: ArrayLike, least: float = 0.0) -> float:
-    """Return a round number at or above all finite values, an axis end that seldom changes."""
+def ceiling(
+    values: ArrayLike, least: float = 0.0, *, steps: Sequence[float] = ROUND
+) -> float:  # fmt: skip
+    """Return a round number at or above all finite values, an axis end that seldom changes.
+
+    Round are `steps` within a decade, times a power of ten.
+    """
     finite = np.asarray(values, dtype=float)
     finite = finite[np.isfinite(finite)]
     top = max(float(finite.max(initial=0.0)), least)
@@ -66,7 +75,7 @@ def ceiling(values: ArrayLike, least: float = 0.0) -> float:
         return 1.0
     power = 10.0 ** math.floor(math.log10(top))
     # A maximum that is round already may be off by rounding.
-    return next(step * power for step in _LADDER if step * power >= top * (1 - 1e-12))
+    return next(step * power for step in steps if step * power >= top * (1 - 1e-12))
 
 
 def decades(values: ArrayLike) -> tuple[float, float]:

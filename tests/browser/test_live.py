@@ -79,7 +79,7 @@ def test_a_slider_dragged_back_leaves_the_page_as_it_was(app: AppPage) -> None:
     assert app.query() == {}
     assert app.metrics() == numbers
     for now, then in zip(_picture(app), pictures, strict=True):
-        assert now == pytest.approx(then, abs=0.1)
+        assert now == pytest.approx(then, abs=2.0)  # Plotly ends lines at the plot's edge
 
 
 @pytest.mark.parametrize(("page", "charts"), [("Stability", 2), ("Root locus", 1)])
@@ -198,7 +198,7 @@ def test_a_chart_script_that_fails_to_load_is_reported_on_the_page(stranger: App
 
 @pytest.mark.parametrize("page", [
     "Machine", "Equilibrium", "Coefficients", "Stability", "Root locus", "Response",
-    "Equilibrium, Film and pressure",
+    "Equilibrium, Film and pressure", "Stability, Follower force", "Stability, Remedies",
 ])  # fmt: skip
 def test_a_key_is_answered_before_the_page_runs_and_the_run_changes_nothing(
     app: AppPage, page: str
@@ -218,7 +218,8 @@ def test_a_key_is_answered_before_the_page_runs_and_the_run_changes_nothing(
     drawn = _picture(app)
     assert [len(part) for part in moved] == [len(part) for part in drawn]
     for previewed, final in zip(moved, drawn, strict=True):
-        assert previewed == pytest.approx(final, abs=1.5)  # Plotly puts words on whole pixels
+        # Plotly puts words on whole pixels, and ends lines at the plot's edge.
+        assert previewed == pytest.approx(final, abs=2.0)
     assert app.metrics() == seen
     assert app.page.evaluate(SAID) == said
 
@@ -246,11 +247,11 @@ _HOLD_BACK = """() => {
 
 @pytest.mark.parametrize(("page", "tabs"), {
     "Machine": [],
-    "Equilibrium": ["Locus", "Forces", "Losses and flow"],
+    "Equilibrium": ["Locus", "Film and pressure", "Forces", "Losses and flow"],
     "Coefficients": ["Against speed", "Against ε", "Against σ", "Added mass"],
-    "Stability": ["Threshold", "Figures of the notes"],
+    "Stability": ["Threshold", "Figures of the notes", "Follower force", "Map", "Remedies"],
     "Root locus": ["Complex plane", "Mode"],
-    "Response": ["Against speed", "What damping and journal mass do"],
+    "Response": ["Against speed", "Orbits", "What damping and journal mass do"],
 }.items())  # fmt: skip
 def test_a_dragged_slider_moves_charts_in_place(app: AppPage, page: str, tabs: list[str]) -> None:
     """Plotly would need ten times as long to draw them again."""
@@ -321,10 +322,9 @@ _MOVED = """async ([name, value]) => {
     { headers: { "X-Rotorcalc-Page": token } });
   const moved = {};
   for (const [key, figure] of Object.entries((await answer.json()).charts)) {
-    const { element, given } = window.rotorcalcCharts.get(key);
-    const { move } = await import(location.origin + given.scripts.move);
-    moved[key] = move(element, given.chart, figure);
-    if (moved[key]) move(element, figure, given.chart);
+    const { element, given, tools } = window.rotorcalcCharts.get(key);
+    moved[key] = tools.move(element, given.chart, figure);
+    if (moved[key]) tools.move(element, figure, given.chart);
   }
   return moved;
 }"""
@@ -333,7 +333,9 @@ _MOVED = """async ([name, value]) => {
 def _picture(app: AppPage) -> list[list[float]]:
     """Return where on the screen each chart's lines, points, notes and shapes stand."""
     return app.charts().evaluate_all("""charts => charts.map(gd => {
-      const parts = ".plot :is(.js-line, .js-fill, .point), .annotation-text, .shapelayer path";
+      // A contour chart's first fill covers missing heights, which are clipped away.
+      const parts = ".overplot :is(.lines, .fills, .point, .contourfill path + path), "
+        + ".annotation-text, .shapelayer path";
       const seen = [...gd.querySelectorAll(parts)].filter(part => part.getAttribute("d") !== "");
       const plot = gd.querySelector(".nsewdrag").getBoundingClientRect();
       return seen.flatMap(part => {

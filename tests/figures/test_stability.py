@@ -84,7 +84,7 @@ CHARTS: dict[str, Callable[[Computed, Units], Chart]] = {
     "energy": lambda c, units: figures.energy(ask.energies(c), ask.crossing(c), units),
     "map": _map,
     "tornado": lambda c, units: what_if.tornado(
-        moves.sensitivities(c), moves.names(c.machine, units), units
+        moves.sensitivities(c), moves.names(c.machine, units), c.speed, units
     ),
     "solution": _solution,
 }
@@ -204,7 +204,8 @@ def test_axes_stay_where_they_are_while_a_slider_moves() -> None:
 
 def test_the_bars_meet_at_the_onset() -> None:
     for key in ("sheet-1e8", "damped"):
-        gain, *losses = figures.energy_bars(ask.energies(computed_from(VALUES[key])), SI)["data"]
+        chart = figures.energy_bars(ask.energies(computed_from(VALUES[key])), SI)
+        gain, *losses = chart["data"]
         taken = sum(loss["y"][1] for loss in losses)
         assert gain["y"][1] == pytest.approx(taken, rel=1e-9)
         assert len(losses) == (2 if key == "damped" else 1)
@@ -212,12 +213,13 @@ def test_the_bars_meet_at_the_onset() -> None:
 
 def test_the_tornado_has_the_largest_on_top() -> None:
     computed = computed_from(SHEET)
-    chart = what_if.tornado(moves.sensitivities(computed), moves.names(computed.machine, SI), SI)
+    found, speed = moves.sensitivities(computed), computed.speed
+    chart = what_if.tornado(found, moves.names(computed.machine, SI), speed, SI)
     less, more = (np.abs(trace["x"]) for trace in chart["data"][:2])
     reach = np.maximum(less, more)
     assert np.all(np.diff(reach) >= 0.0)
     assert any("Film temperature T ±5 °C" in row for row in chart["layout"]["yaxis"]["ticktext"])
-    in_us = what_if.tornado(moves.sensitivities(computed), moves.names(computed.machine, US), US)
+    in_us = what_if.tornado(found, moves.names(computed.machine, US), speed, US)
     assert any("Film temperature T ±9 °F" in row for row in in_us["layout"]["yaxis"]["ticktext"])
 
 

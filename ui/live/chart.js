@@ -1,7 +1,7 @@
 // A chart: Plotly redraws it in the same element, which keeps zoom and hidden lines.
 //
 // `data` is JSON in UTF-8: key, chart (data, layout, frames), config, alt, presenting, and the
-// addresses of the scripts: Plotly, move.js, cursor.js, drawing.js.
+// addresses of the scripts: Plotly, move.js, contour.js, cursor.js, drawing.js.
 //
 // A trace whose `meta.envelope` is a number is a long signal: see `envelop`.
 //
@@ -61,9 +61,9 @@ function fonts(view) {
 }
 
 async function tools(scripts) {
-  const [{ move, numbers }, cursor, drawing] = await Promise.all(
-    ["move", "cursor", "drawing"].map((name) => import(location.origin + scripts[name])));
-  return { move, numbers, cursor, drawing };
+  const [{ move, numbers }, contour, cursor, drawing] = await Promise.all(
+    ["move", "contour", "cursor", "drawing"].map((name) => import(location.origin + scripts[name])));
+  return { move: (gd, before, now) => move(gd, before, now, contour), numbers, cursor, drawing };
 }
 
 const charts = new WeakMap();

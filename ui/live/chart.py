@@ -26,7 +26,7 @@ def show(
         "key": key, "chart": chart, "config": config, "alt": alt,
         "presenting": presenting,
         "plotly": assets.plotly_bundle(),
-        "scripts": {name: assets.script(name) for name in ("move", "cursor", "drawing")},
+        "scripts": {name: assets.script(name) for name in ("move", "contour", "cursor", "drawing")},
     }  # fmt: skip
     _component(key=key, data=encoded(message))
 

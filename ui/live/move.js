@@ -4,19 +4,25 @@
 // at once, otherwise after a pause.
 //
 // Written for plotly.js of the Python package plotly 7.1.0: it relies on _fullLayout and _fullData, on the classes
-// of the SVG and their order, and on uid, data-index and data-unformatted, none of which is part of Plotly's API.
+// of the SVG, their order and what is bound to them, and on uid, data-index and data-unformatted, none of which is
+// part of Plotly's API.
 // After an update run tests/browser/test_live.py, then change the number.
 
 // Shown on hovering only, and the pointer is on a slider.
 const HOVERED = new Set(["customdata", "hovertemplate"]);
-const TRACE = new Set(["x", "y", "text", "name", "marker", ...HOVERED]);
+const TRACE = new Set(["x", "y", "z", "base", "contours", "text", "name", "marker", ...HOVERED]);
 const MARKER = new Set(["angle"]);
 const NOTE = new Set(["x", "y", "ax", "ay", "text"]);
 const SHAPE = new Set(["x0", "x1", "y0", "y1"]);
 const SLIDER = new Set(["steps", "active"]);
+const BAR = new Set(["x", "y", "base", ...HOVERED]);
+const CONTOUR = new Set(["x", "y", "z", "contours", "name", ...HOVERED]);
+const AXIS = /^[xy]axis\d*$/;
 const INSET = 10; // of a slider's first and last stop from its ends, in pixels
 // Only these parts of a layout may differ.
 const LAYOUT = new Set(["annotations", "shapes", "sliders", "meta"]);
+const TICKS = new Set(["ticktext"]);
+const CONTOURS = new Set(["value"]);
 
 class Fixed extends Error {}
 
@@ -103,14 +109,80 @@ function turns({ marker }, trace, points, drawn) {
   return points.map((_, k) => now[k] - then[k]);
 }
 
-function moveTrace(gd, trace, i, changed, before) {
+const byTrace = (gd, layer, uid) => [...gd.querySelectorAll(layer)].find((group) => group.__data__[0].trace.uid === uid);
+
+// A bar reaches from its base along its length; its number is what a pointer sees.
+function moveBars(gd, trace, full) {
+  const [xs, ys] = [numbers(trace.x), numbers(trace.y)];
+  const isLevel = trace.orientation === "h";
+  const [along, across] = [isLevel ? "x" : "y", isLevel ? "y" : "x"].map((letter) => axis(gd, full[`${letter}axis`]));
+  const [lengths, places] = isLevel ? [xs, ys] : [ys, xs];
+  const bases = trace.base ? numbers(trace.base) : lengths.map(() => 0);
+  const bars = byTrace(gd, ".barlayer .trace", full.uid)?.querySelectorAll(".point > path");
+  need(bars?.length === lengths.length && !trace.text);
+  bars.forEach((bar, k) => {
+    const [from, to] = [bases[k], bases[k] + lengths[k]].map((end) => along.d2p(end).toFixed(2));
+    const [one, other] = [-0.5, 0.5].map((side) => across.d2p(places[k] + side * trace.width).toFixed(2));
+    bar.setAttribute("d", isLevel ? `M${from},${one}V${other}H${to}V${one}Z` : `M${one},${from}V${to}H${other}V${from}Z`);
+  });
+}
+
+// Rows of a grid, which the server sends as one array with its shape.
+function grid({ shape, ...array }) {
+  const width = Number(shape?.split(",")[1]);
+  const heights = shape ? numbers(array) : null;
+  return Array.from({ length: heights.length / width }, (_, r) => heights.subarray(r * width, (r + 1) * width));
+}
+
+// Fills and lines at the levels of a contour chart, or on one side of a level and along it.
+function moveContour(gd, trace, before, full, { regions, outlines }) {
+  const { type, operation, value } = trace.contours;
+  if (differ(before.contours, trace.contours)) changes(before.contours, trace.contours, CONTOURS);
+  const group = byTrace(gd, ".contourlayer .contour", full.uid);
+  need(group && trace.z.shape);
+  const below = operation === ">"; // Plotly fills where that is broken
+  const rows = grid(trace.z).map((row) => (below ? row.map((one) => -one) : row));
+  const [xs, ys] = ["x", "y"].map((letter) => Array.from(numbers(trace[letter]), (one) => axis(gd, full[`${letter}axis`]).d2p(one)));
+  const between = (list, place) => list[Math.floor(place)] + (place % 1 && (place % 1) * (list[Math.ceil(place)] - list[Math.floor(place)]));
+  const drawn = (loops, end) => loops.map((loop) => path(loop.map(({ point: [c, r] }) => [between(xs, c), between(ys, r)]), end)).join("");
+  const put = (nodes, places) => {
+    need(nodes.length > 0 || places === "");
+    nodes.forEach((node, k) => node.setAttribute("d", k ? "" : places));
+  };
+  const fills = [...group.querySelectorAll(".contourfill path")];
+  for (const line of group.querySelectorAll(".contourlevel")) {
+    const { level } = line.__data__;
+    const loops = regions(rows, type === "constraint" ? (below ? -value : value) : level);
+    if (operation !== "=") put(fills.filter((one) => type === "constraint" || one.__data__.level === level), drawn(loops, "Z"));
+    put(line.querySelectorAll("path"), trace.line?.width === 0 ? "" : drawn(outlines(loops), ""));
+  }
+  const clip = gd.querySelector(`#clip${full.uid} path`);
+  clip?.setAttribute("d", drawn(regions(rows.map((row) => row.map((one) => (Number.isFinite(one) ? 1 : NaN))), 0, 0.5), "Z"));
+}
+
+// Words at an axis's ticks, where those stand still.
+function moveTicks(gd, before, now) {
+  for (const name of Object.keys(now).filter((key) => AXIS.test(key) && differ(before[key], now[key]))) {
+    changes(before[name], now[name], TICKS);
+    const ticks = [...gd.querySelectorAll(`.${name.replace("axis", "")}tick`)].filter((tick) => tick.querySelector("text"));
+    numbers(now[name].tickvals).forEach((value, k) => {
+      const tick = ticks.find(({ __data__ }) => __data__.x === value);
+      need(tick);
+      say(tick.querySelector("text"), now[name].ticktext[k]);
+    });
+  }
+}
+
+function moveTrace(gd, contour, trace, i, changed, before) {
   const { uid, visible, ...full } = gd._fullData[i];
   if (visible !== true) return;
+  const label = changed.includes("name") && gd.querySelector(`.legendtext[data-unformatted="${full.name}"]`);
+  if (label) say(label, trace.name);
+  if (trace.type === "bar" && changed.every((name) => BAR.has(name))) return moveBars(gd, trace, { uid, ...full });
+  if (trace.type === "contour" && changed.every((name) => CONTOUR.has(name))) return moveContour(gd, trace, before, { uid, ...full }, contour);
   need(!trace.meta?.envelope); // what is drawn is not what is given
   need(trace.type === "scatter" && ["toself", "tozeroy", undefined].includes(trace.fill) && trace.line?.shape !== "spline");
   if (changed.includes("marker")) changes(before.marker, trace.marker, MARKER);
-  const label = changed.includes("name") && gd.querySelector(`.legendtext[data-unformatted="${full.name}"]`);
-  if (label) say(label, trace.name);
   if (!changed.some((name) => !HOVERED.has(name) && name !== "name")) return;
   const [xs, ys, [x, y]] = [numbers(trace.x), numbers(trace.y), [axis(gd, full.xaxis), axis(gd, full.yaxis)]];
   const pixels = (across, up) => Array.from(across, (value, k) => [x.d2p(value), y.d2p(up[k])]);
@@ -192,12 +264,14 @@ function moveSlider(gd, { active, steps, currentvalue }, i) {
   grip.setAttribute("transform", grip.getAttribute("transform").replace(/\((-?[\d.]+)/, `(${place}`));
 }
 
-// Updates a chart from the figure that it shows to another; returns false where only Plotly can.
-export function move(gd, before, { data, layout }) {
+// Updates a chart from the figure that it shows to another; returns false where only Plotly can. `contour` are the
+// functions of contour.js.
+export function move(gd, before, { data, layout }, contour) {
   const notes = [];
   try {
-    changes(before.layout, layout, LAYOUT);
-    each(before.data, data, TRACE, (...item) => moveTrace(gd, ...item));
+    changes(before.layout, layout, { has: (name) => LAYOUT.has(name) || AXIS.test(name) });
+    moveTicks(gd, before.layout, layout);
+    each(before.data, data, TRACE, (...item) => moveTrace(gd, contour, ...item));
     each(before.layout.annotations, layout.annotations, NOTE, (note, i, changed) => moveNote(gd, note, i, changed, notes));
     each(before.layout.sliders, layout.sliders, SLIDER, (...item) => moveSlider(gd, ...item));
     each(before.layout.shapes, layout.shapes, SHAPE, (...item) => moveShape(gd, ...item));
