@@ -61,7 +61,7 @@ def film_and_pressure(page: Page) -> None:
     left, right = st.columns(2)
     with left:
         page.chart(
-            lambda c: film.film_around(c.film, c.point, units), "film",
+            lambda c: film.film_around(c.film, c.point, units), "film", at_one_speed=True,
             alt="Thickness and pressure of the film once around the journal, and the load.",
             caption=cited(
                 "Film and pressure above ambient at mid-length; θ in the sense of rotation.",
@@ -70,7 +70,7 @@ def film_and_pressure(page: Page) -> None:
         )  # fmt: skip
     with right:
         page.chart(
-            lambda c: film.pressure_map(c.film, c.point, units), "pressure",
+            lambda c: film.pressure_map(c.film, c.point, units), "pressure", at_one_speed=True,
             alt="Contour map of the film's pressure over angle and axial position.",
             caption=cited(
                 remark(page.computed, "pressure", "The film unwrapped: {}.", "The film unwrapped."),

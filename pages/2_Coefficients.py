@@ -112,6 +112,7 @@ def only_cross_coupling(page: Page) -> None:
         page.chart(
             lambda c: draw.unloading(c.unloading, c.unloading_here, c.centred, units),
             "unloading",
+            at_one_speed=True,
             alt="Stiffness against eccentricity ratio: direct falls to zero, cross stays.",
             caption=cited(
                 "At the running speed, the load alone varied; dashed: minus the value.",

@@ -120,6 +120,7 @@ def follower_force(page: Page) -> None:
         page.chart(
             lambda c: figures.energy_bars(ask.energies(c), units),
             "energy_bars",
+            at_one_speed=True,
             alt="Energy fed in and dissipated in one turn of the whirl orbit, at the "
             "running speed and at the onset, where the bars meet.",
             caption="Per turn, orbit area (J/m² = N/m) and bearing. Appendix A, Eq. 5.14.",
@@ -161,6 +162,7 @@ def onset_map(page: Page) -> None:
     page.chart(
         lambda c: map_of(c, onsets),
         "onset_map",
+        at_one_speed=True,
         while_dragging=lambda c: map_of(
             c, onsets if c.machine == computed.machine else design.coarse_map(c, x, y, units)
         ),

@@ -83,6 +83,7 @@ def mode_shape(page: Page, *, bends: bool) -> None:
                 spiral=spiral,
             ),
             "shape",
+            at_one_speed=True,
             alt=words.ALTS["shape"],
             caption=words.caption("shape", computed),
         )

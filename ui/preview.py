@@ -5,7 +5,7 @@ charts, rows of results, and texts. A run of the page draws them by Streamlit; w
 dragged the same functions answer, and the browser writes over what the run drew.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, Literal, NoReturn, TypeVar
@@ -77,21 +77,25 @@ class Preview:
         self.texts[key] = not_at_once
         return st.container(key=key)
 
-    def at(self, name: str, value: str) -> dict[str, Any]:
+    def at(self, name: str, value: str, charts: Collection[str] = ()) -> dict[str, Any]:
         """Return charts and texts by key, and the texts of each row of results, at a value.
 
-        A chart or text that the machine does not give is None. Raises ValueError where there is no
-        such input, or the value makes no machine.
+        Where charts are named, those alone. A chart or text that the machine does not give is None.
+        Raises ValueError where there is no such input, or the value makes no machine.
         """
         # The other inputs are those of the page as last drawn, which its charts show beside it.
         values = self.values | {name: input_named(name, self.values).taken(value, self.units)}
         computed = computed_from(values)
         _ = computed.point  # a film may have no answer at the running speed
+        drawn = {
+            key: _given(lambda draw=draw: self._still(draw, computed))
+            for key, draw in self.charts.items()
+            if not charts or key in charts
+        }
+        if charts:
+            return {"charts": drawn}
         return {
-            "charts": {
-                key: _given(lambda draw=draw: self._still(draw, computed))
-                for key, draw in self.charts.items()
-            },
+            "charts": drawn,
             "texts": {
                 key: _given(lambda words=words: vars(words(computed) or Text("")))
                 for key, words in self.texts.items()

@@ -11,7 +11,8 @@ and how the chart shows another value
     `axis` ("x" or "y") runs over it; or, with `at` and `to`, over something that follows from it;
     `along` names a line whose `customdata` holds the value at each of its points;
     `frames` are the values at the stops of its slider;
-    `drawing` holds what a drawing needs (`machine.cross_section`).
+    `drawing` holds what a drawing needs (`machine.cross_section`);
+    `asked` names an input, and between which `ends` of it another chart is to be had.
 """
 
 from typing import Any, Literal

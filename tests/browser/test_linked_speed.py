@@ -90,27 +90,58 @@ def test_a_speed_under_the_pointer_is_marked_in_all_charts_and_drawn(app: AppPag
 
 
 @pytest.mark.parametrize(("page", "tabs"), {
-    "Equilibrium": [("Forces", "forces", 2), ("Losses and flow", "power_loss", 4)],
-    "Coefficients": [
-        ("Against speed", "stiffness_speed", 2), ("Against σ", "k_σ", 2), ("Against ε", "c_ε", 2)
+    "Equilibrium": [
+        ("Film and pressure", "", 2), ("Forces", "forces", 2), ("Losses and flow", "power_loss", 4)
     ],
-    "Stability": [("Threshold", "threshold", 3), ("Figures of the notes", "whirl_ratio", 4)],
-    "Root locus": [("Against speed", "growth", 5)],
+    "Coefficients": [
+        ("Against speed", "stiffness_speed", 2), ("Against σ", "k_σ", 2), ("Against ε", "c_ε", 2),
+        ("Why only cross-coupling", "", 1),
+    ],
+    "Stability": [
+        ("Threshold", "threshold", 3), ("Figures of the notes", "whirl_ratio", 4),
+        ("Follower force", "energy", 2), ("Map", "", 1), ("Remedies", "solution", 2),
+    ],
+    "Root locus": [("Against speed", "growth", 5), ("Mode", "", 1)],
     "Response": [
         ("Against speed", "phase", 2), ("What damping and journal mass do", "family_disk", 2)
     ],
 }.items())  # fmt: skip
-def test_every_chart_over_speed_marks_it(
+def test_every_chart_marks_a_speed_or_is_drawn_at_it(
     app: AppPage, page: str, tabs: list[tuple[str, str, int]]
 ) -> None:
+    """Under the pointer in a chart over speed; by a key where a tab has none."""
     app.open(page)
     for tab, key, charts in tabs:
         app.open_tab(tab)
-        _point_at(app, key, 0.4)
+        before = _picture(app)
+        if key:
+            _point_at(app, key, 0.4, 0.55)
+        else:
+            app.page.get_by_role("slider", name="Cursor, speed").first.press("PageDown")
         assert app.changes(lambda: len(_labels(app)) == charts, False), tab  # noqa: B023
         assert len(set(_labels(app).values())) == 1
+        if not key:
+            assert _picture(app) != before, tab
         _leave(app)
+        app.page.keyboard.press("Escape")
         assert app.changes(lambda: bool(_labels(app)), True), tab
+        app.rest()
+        for now, then in zip(_picture(app), before, strict=True):
+            assert now == pytest.approx(then, abs=2.0), tab  # as lines end at the plot's edge
+
+
+def test_a_chart_at_one_speed_is_drawn_at_the_speed_under_the_pointer(app: AppPage) -> None:
+    app.open("Stability", tab="Follower force")
+    bars = _chart(app, "energy_bars")
+    expect(bars).to_contain_text("running speed6000 rpm")
+    app.page.get_by_role("slider", name="Cursor, speed").last.press("End")
+    expect(bars).to_contain_text("running speed12000 rpm")
+    film = rc.analyse(PRESET.machine, 12000 * RPM).stiffness
+    expect(bars).to_contain_text(f"{float(film[0, 1] - film[1, 0]) / 1e6:.0f}")  # fed in
+    _leave(app)
+    app.page.keyboard.press("Escape")
+    expect(bars).to_contain_text("running speed6000 rpm")
+    app.rest()
 
 
 def test_a_speed_on_the_journals_path_is_marked_too(app: AppPage) -> None:

@@ -10,6 +10,7 @@ from typing import NamedTuple, NoReturn
 import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
 
+from rotorcalc.figures import Chart, cursor
 from rotorcalc.units import Units
 from ui import choices
 from ui.bores import Values
@@ -78,7 +79,7 @@ class Page:
     # Whether the content runs with the frame as one.
     whole: bool = False
 
-    def chart(
+    def chart(  # noqa: PLR0913 - a chart's drawing, its words, and how it answers
         self,
         draw: Draw,
         key: str,
@@ -86,20 +87,34 @@ class Page:
         alt: str,
         caption: str | Callable[[Computed], str],
         while_dragging: Draw | None = None,
+        at_one_speed: bool = False,
     ) -> None:
         """Show a chart of the live machine, the cases thin and in their colours behind it.
 
         A caption that depends on the inputs of sliders is a function of the machine's results.
         While one is dragged a chart that takes long has another function, quicker and coarser.
+        A chart at one speed is asked for at another one that is marked on the page.
         """
         if not self.views.shows(key):
             return
+        if at_one_speed:
+            draw = self._at_marked_speeds(draw)
+            while_dragging = while_dragging and self._at_marked_speeds(while_dragging)
         show_chart(compared(draw, self.cases)(self.computed), key=key, alt=alt)
         self.preview.charts[chart_key(key)] = compared(while_dragging or draw, self.cases)
         if isinstance(caption, str):
             st.caption(caption)
         else:
             self.say(f"under_{key}", lambda c: Text(caption(c), "caption"))
+
+    def _at_marked_speeds(self, draw: Draw) -> Draw:
+        """Return a chart that is asked for at other running speeds, those of the sweep."""
+
+        def drawn(c: Computed) -> Chart:
+            asked = {"input": "rpm", "ends": self.units.speed.of(c.sweep.speed[[0, -1]])}
+            return cursor.over_speed(draw(c), c.speed, self.units, asked=asked)
+
+        return drawn
 
     def tabs(self, key: str, contents: Mapping[str, Callable[["Page"], object]]) -> None:
         """Show tabs by their labels, of which only the open one's content is drawn."""

@@ -2,8 +2,8 @@
 //
 // It is the value under the pointer, at the stop of an animation's slider, or that of a play button or an arrow key. A
 // chart's `layout.meta.cursor` says how the chart shows a value: by a line across an axis, by a point on a line, by
-// the nearest frame of its animation, or by drawing its drawing anew (rotorcalc/figures/cursor.py). The server takes
-// no part.
+// the nearest frame of its animation, by drawing its drawing anew, or by another chart that is asked of the server
+// (rotorcalc/figures/cursor.py). Else the server takes no part.
 
 const STYLE = `
 .live-cursor {position: absolute; inset: 0; z-index: 2; pointer-events: none;}
@@ -205,6 +205,55 @@ class Frames {
   }
 }
 
+// Another chart, from the server.
+class Asked {
+  constructor(view) {
+    this.view = view;
+  }
+
+  get ends() {
+    return this.view.cursor.asked.ends;
+  }
+
+  show() {
+    const { view } = this;
+    const { l, t } = view.gd._fullLayout._size;
+    if (view.shown === undefined) view.unmark();
+    else view.say(view.shown, [l, Math.max(t, BELOW_BUTTONS)]);
+    ask();
+  }
+
+  // While a slider is dragged its preview is shown, and on release the page's own chart.
+  hide() {
+    const { view } = this;
+    if (view.shown === undefined) return;
+    view.shown = undefined;
+    view.gd.classList.remove("live-unknown");
+    if (!isDragging()) view.chart.settle();
+  }
+
+  leave() {} // the chart is changed by what was asked
+}
+
+const isDragging = () => document.body.classList.contains("rotorcalc-dragging");
+let asking = false;
+
+// Asks for the charts of all views that need it, of values that follow each other faster than the answers for the last.
+async function ask() {
+  if (asking) return;
+  asking = true;
+  for (let asked; marked && marked.value !== asked && !isDragging();) {
+    asked = marked.value;
+    const those = [...views.values()].filter((view) => view.cursor?.asked && view.shown !== asked);
+    const charts = those.length > 0 && await window.rotorcalcPreview?.charts(
+      those[0].cursor.asked.input, Number(asked.toPrecision(6)), those.map(({ chart }) => chart.given.key));
+    if (!charts || !marked || isDragging()) break;
+    await Promise.all(those.map((view) => view.take(asked, charts[view.chart.given.key])));
+    draw();
+  }
+  asking = false;
+}
+
 class View {
   constructor(chart) {
     this.chart = chart;
@@ -246,6 +295,8 @@ class View {
     if (cursor?.frames) this.ways.push(new Frames(this));
     else if (cursor?.along) this.ways.push(new Along(this));
     if (cursor?.drawing) this.ways.push(new tools.drawing.Drawing(this, figure, tools));
+    if (cursor?.asked) this.ways.push(new Asked(this));
+    if (figure === this.chart.given.chart) this.shown = undefined;
     this.layer.hidden = !cursor;
     this.button.hidden = !cursor || Boolean(this.gd.layout.updatemenus) || Boolean(cursor.frames);
     if (!cursor) return;
@@ -285,9 +336,16 @@ class View {
     return marked?.quantity === this.cursor.quantity ? marked.value : this.cursor.now;
   }
 
-  // Whether the chart is as Plotly has drawn it: while a slider is dragged it is moved without Plotly.
+  // Whether the chart is as Plotly has drawn it, or drawn for the cursor: while a slider is dragged it is neither.
   get isStill() {
-    return this.gd.dataset.moved === undefined && !document.body.classList.contains("rotorcalc-dragging");
+    return (this.gd.dataset.moved === undefined || this.cursor.asked) && !isDragging();
+  }
+
+  // Shows the chart that was asked for at a value; dims its own where the machine gives none.
+  async take(value, figure) {
+    this.shown = value;
+    this.gd.classList.toggle("live-unknown", !figure);
+    if (figure) await this.chart.preview(figure);
   }
 
   get isHeld() {
@@ -313,8 +371,8 @@ class View {
   // Plotly's own animation ends unheard where the chart is drawn anew.
   leave() {
     if (playing === this && this.cursor.frames) playing = null;
-    this.hide();
-    for (const way of this.ways ?? []) way.leave?.();
+    for (const way of this.ways ?? []) (way.leave ?? way.hide)?.call(way);
+    this.unmark();
   }
 
   unmark() {

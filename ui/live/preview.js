@@ -4,6 +4,7 @@
 // Streamlit. Charts are redrawn, numbers overwritten in place, and a text is shown in a copy of its element, which
 // React does not know and so does not touch. What the machine does not give is dimmed. When the page has run, on
 // release, its own content applies again. A value that makes no machine is reported in the verdict's place.
+// cursor.js asks here for charts at the running speed that is marked.
 //
 // A released slider sends its value through this component, because Streamlit then runs only the fragment that
 // contains the component, and not the sidebar; the answer has the value of every slider.
@@ -39,20 +40,9 @@ class Preview {
 
   // Resolves when the answer is drawn; false where there is none.
   async show(name, value) {
-    if (!this.available) return false;
-    const asked = new URLSearchParams({ name, value });
-    let answer;
-    try {
-      answer = await fetch(`${this.address}?${asked}`,
-        { headers: { "X-Rotorcalc-Page": this.token }, signal: AbortSignal.timeout(PATIENCE) });
-    } catch {
-      return false;
-    }
-    if (answer.status !== 200) {
-      this.available = false; // the server does not know this page: sliders send through Streamlit
-      return false;
-    }
-    const { charts, rows, texts, refused } = await answer.json();
+    const answer = await this.ask(new URLSearchParams({ name, value }));
+    if (!answer) return false;
+    const { charts, rows, texts, refused } = answer;
     // A value that makes no machine: the reason stands in the verdict's place, and the rest is dimmed.
     document.body.classList.toggle("live-refused", refused !== undefined);
     if (refused !== undefined) texts.said_verdict = { words: refused, kind: "error" };
@@ -69,6 +59,31 @@ class Preview {
     });
     await Promise.all(drawings);
     return true;
+  }
+
+  // Resolves to some charts alone, at a value of an input; undefined where there is no answer.
+  async charts(name, value, keys) {
+    const answer = await this.ask(new URLSearchParams([["name", name], ["value", value], ...keys.map((key) => ["chart", key])]));
+    return answer?.charts;
+  }
+
+  // One request at a time: the server refuses a page's second one.
+  ask(query) {
+    this.asked = (this.asked ?? Promise.resolve()).then(() => this.answered(query));
+    return this.asked;
+  }
+
+  async answered(query) {
+    if (!this.available) return undefined;
+    try {
+      const answer = await fetch(`${this.address}?${query}`,
+        { headers: { "X-Rotorcalc-Page": this.token }, signal: AbortSignal.timeout(PATIENCE) });
+      if (answer.status === 200) return await answer.json();
+      this.available = false; // the server does not know this page: sliders send through Streamlit
+    } catch {
+      // no answer in time
+    }
+    return undefined;
   }
 
   // Loads what writes texts, KaTeX only for those with equations.

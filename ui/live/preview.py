@@ -2,13 +2,14 @@
 
 While a slider is dragged the browser requests charts, numbers and texts at the slider's value from
 `path()`, with the token of the page's session, and draws the answer; Streamlit takes no part, and
-nothing is stored. The value on release comes through Streamlit, by this component: then only the
-fragment that holds it runs, and the sidebar stays as it is.
+nothing is stored. So it requests a chart at another running speed that is marked on the page, where
+it cannot draw it itself. The value on release comes through Streamlit, by this component: then only
+the fragment that holds it runs, and the sidebar stays as it is.
 """
 
 import asyncio
 import gzip
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import Any, Protocol
 from weakref import WeakValueDictionary
 
@@ -31,8 +32,10 @@ _component = component("rotorcalc.preview", js=assets.module("preview"), isolate
 class Preview(Protocol):
     """A visitor's page as last drawn."""
 
-    def at(self, name: str, value: str) -> dict[str, Any]:
+    def at(self, name: str, value: str, charts: Collection[str] = ()) -> dict[str, Any]:
         """Return {"charts": {key: chart}, "texts": {key: text}, "rows": {key: cells}} at a value.
+
+        Of all that a page shows, or of some of its charts alone.
 
         Raises ValueError, in words for the visitor, where the value gives no valid machine.
         """
@@ -80,19 +83,20 @@ async def answer(request: Request) -> Response:
         # The page's own slider never sends a second one before the first is answered.
         return Response(status_code=429)
     name, value = (request.query_params.get(key, "") for key in ("name", "value"))
+    charts = request.query_params.getlist("chart")
     _asking.add(token)
     try:
-        content = await asyncio.to_thread(_packed, token, preview, name, value)
+        content = await asyncio.to_thread(_packed, token, preview, name, value, charts)
     finally:
         _asking.discard(token)
     headers = {"Cache-Control": "no-store", "Content-Encoding": "gzip"}
     return Response(content, media_type="application/json", headers=headers)
 
 
-def _packed(token: str, preview: Preview, name: str, value: str) -> bytes:
+def _packed(token: str, preview: Preview, name: str, value: str, charts: list[str]) -> bytes:
     try:
         with one_at_a_time.PAGES.through(token):
-            shown = preview.at(name, value)
+            shown = preview.at(name, value, charts)
     except ValueError as error:
         shown = {"charts": {}, "texts": {}, "rows": {}, "refused": f"{error}"}
     # Compressed at the fastest level; Streamlit would use the smallest, ten times slower.
