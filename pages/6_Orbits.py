@@ -1,3 +1,5 @@
+from typing import TypedDict
+
 import streamlit as st
 
 from rotorcalc.figures import orbits as draw
@@ -52,7 +54,14 @@ def on_release(content):
     return dimmed
 
 
-def of_release(draw_release, page: Page, asked: ask.Ask) -> dict[str, Draw]:
+class Drawings(TypedDict):
+    """A chart's functions of the machine."""
+
+    draw: Draw
+    while_dragging: Draw
+
+
+def of_release(draw_release, page: Page, asked: ask.Ask) -> Drawings:
     """Return the functions that draw a release, and a coarser one while a slider is dragged."""
     units = page.units
     return {
