@@ -254,7 +254,7 @@ def _locus_labels(point: Sweep, at: Array, outline: Array, units: Units) -> list
     phi = text.amount(units.angle, point.attitude_angle)
     is_circle = np.allclose(np.hypot(*outline.T), 1.0, rtol=0.0, atol=1e-9)
     size = f"{style.symbols('C')} = {text.amount(units.film, C)}"
-    circle = f"clearance{' circle' if is_circle else ''}, {size}"
+    circle = f"{'circle' if is_circle else 'clearance'}, {size}"
     left: Part = {"xanchor": "right", "xshift": -6}
     yshift = 20 if at[0] < _LOW else -4
     return [
@@ -273,6 +273,7 @@ def _load_arrow(point: Sweep, reach: float, units: Units) -> list[Part]:
         return [plane.label(words, (-0.6 * reach, 0.0))]
     words = f"{style.symbols('F_o')} = {text.amount(units.force, load)}"
     return [
-        plane.label(words, (-0.75 * reach, 0.0), xshift=8, xanchor="left"),
+        # On the left: on the right large type would reach the arrow of the rotation.
+        plane.label(words, (-0.7 * reach, 0.0), xshift=-10, xanchor="right"),
         plane.arrow((-0.95 * reach, 0.0), (-0.45 * reach, 0.0), style.GREY),
     ]

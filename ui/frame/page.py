@@ -32,6 +32,7 @@ _ICON = str(Path(__file__).with_name("icon.svg"))
 _ABOUT = f"{version.label()}: rotors on fluid-film bearings, after San Andrés, Notes 5."
 # Least width of a row of results [rem] by the number of its columns; on less there are fewer.
 _COLUMNS = {5: 42, 4: 32, 3: 24, 2: 12}
+_NOT_FOUR = ":not(:has(> :nth-child(8)):not(:has(> :nth-child(9))))"
 
 
 def _pairs_in_columns(columns: int, least: int) -> str:
@@ -41,7 +42,9 @@ def _pairs_in_columns(columns: int, least: int) -> str:
         for i in range(columns)
         for part in (1, 2)
     )
-    rules = " ".join(f'[class*="st-key-results_"] > {place}' for place in places)
+    # Four in rows of three would leave one alone.
+    row = '[class*="st-key-results_"]' + (_NOT_FOUR if columns == 3 else "")
+    rules = " ".join(f"{row} > {place}" for place in places)
     return f"@container (min-width: {least}rem) {{{rules}}}"
 
 

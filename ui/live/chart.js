@@ -127,7 +127,8 @@ function times(factor, holder, names) {
 function enlarge({ data, layout }, factor) {
   const half = (1 + factor) / 2;
   times(factor, layout.font, ["size"]);
-  times(factor, layout.margin, ["l", "r", "t", "b"]);
+  times(factor, layout.margin, ["l", "r", "t"]);
+  times(layout.sliders ? half : factor, layout.margin, ["b"]); // a slider is as high as before
   times(factor, layout.legend, ["itemwidth"]);
   if (layout.legend?.entrywidthmode !== "fraction") times(factor, layout.legend, ["entrywidth"]);
   for (const note of layout.annotations ?? []) {
@@ -211,12 +212,15 @@ function unfolded(figure, whole) {
   return whole ? { ...figure, layout: { ...figure.layout, ...figure.layout.meta?.whole } } : figure;
 }
 
-// High as the window allows: in a presentation it fills what lies below its place.
+// High as the window allows: in a presentation it fills what lies below its place, but for a line of words. At a desk
+// one that begins in the upper half ends above the fold, where it keeps most of its height.
 function fitted(view, { layout: { height } }, presenting) {
-  if (!presenting) return `clamp(${0.8 * height}px, calc((100vh - 306px) * ${height / 600}), ${1.5 * height}px)`;
   const main = view.closest('[data-testid="stMain"]');
-  const top = view.getBoundingClientRect().top + (main?.scrollTop ?? 0);
-  return `max(340px, calc(100vh - ${Math.ceil(top)}px - 4rem))`;
+  const top = Math.ceil(view.getBoundingClientRect().top + (main?.scrollTop ?? 0));
+  const room = `100vh - ${top}px`;
+  if (presenting) return `max(340px, calc(${room} - 2.4rem))`;
+  const usual = `clamp(${0.8 * height}px, calc((100vh - 306px) * ${height / 600}), ${1.5 * height}px)`;
+  return top > innerHeight / 2 ? usual : `min(${usual}, max(${0.7 * height}px, ${room} - 0.5rem))`;
 }
 
 // Moves the existing SVG where possible, and lets Plotly draw the chart after a pause: hovering, zooming and

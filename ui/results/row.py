@@ -47,8 +47,8 @@ def _cells(result: Result, preview: Preview, computed: Computed) -> tuple[str, s
     first, change = preview.first, ""
     if first and (difference := result.change(computed, first.computed, preview.units)):
         change = f"{difference} vs {first.case.name}"
-    # A column is too narrow for whose calculation sheet it is.
-    source = citation.capital(result.cited(computed).removeprefix("The notes' "))
+    # A narrow column has no room for whose sheet it is, and what is done on it.
+    source = citation.capital(result.cited(computed).removeprefix("The notes' calculation "))
     # A narrow column breaks before a unit, but not within "0-p".
     number = result.shown(computed, preview.units).replace("-p", f"-{_JOINED}p")
     if result.is_doubtful(computed):
