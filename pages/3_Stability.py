@@ -140,13 +140,14 @@ def follower_force(page: Page) -> None:
 
 def onset_map(page: Page) -> None:
     computed, units = page.computed, page.units
-    left, right = st.columns(2)
-    with left:
-        x = design.choose_input(
-            computed.machine, "Across", remedy.usual_input(computed), "stability_x"
-        )
-    with right:
-        y = design.choose_input(computed.machine, "Up", "T", "stability_y", without=x)
+    with st.container(key="ask"):
+        left, right = st.columns(2)
+        with left:
+            x = design.choose_input(
+                computed.machine, "Across", remedy.usual_input(computed), "stability_x"
+            )
+        with right:
+            y = design.choose_input(computed.machine, "Up", "T", "stability_y", without=x)
 
     def map_of(c, onsets):
         axes = (design.quantity(x, c.machine, units), design.quantity(y, c.machine, units))
@@ -173,21 +174,10 @@ def onset_map(page: Page) -> None:
 
 
 def remedies(page: Page) -> None:
-    computed, units = page.computed, page.units
+    units = page.units
     page.say("cure", remedy.cure)
-    left, middle, right = st.columns([3, 3, 2])
-    with left:
-        vary = design.choose_input(
-            computed.machine, "Change", remedy.usual_input(computed), "stability_vary"
-        )
-    with middle:
-        where = remedy.choose_where(computed)
-    with right:
-        wanted = remedy.choose_wanted(computed, where, units)
-    if wanted is not None:
-        page.say("answer", lambda c: Text(remedy.answer(c, vary, wanted, units)))
-        with page.preview.dimmed("remedies"):
-            remedy.draw_buttons(computed, vary, wanted, units, session().set_value)
+    with st.container(key="ask"):
+        vary, wanted = ask_for_a_remedy(page)
     left, right = st.columns(2)
     with left:
         if wanted is not None:
@@ -201,6 +191,24 @@ def remedies(page: Page) -> None:
             alt="Change of the onset speed for ten per cent less and more of each input.",
             caption=design.TORNADO,
         )
+
+
+def ask_for_a_remedy(page: Page) -> tuple[str, remedy.Wanted | None]:
+    computed, units = page.computed, page.units
+    left, middle, right = st.columns([3, 3, 2])
+    with left:
+        vary = design.choose_input(
+            computed.machine, "Change", remedy.usual_input(computed), "stability_vary"
+        )
+    with middle:
+        where = remedy.choose_where(computed)
+    with right:
+        wanted = remedy.choose_wanted(computed, where, units)
+    if wanted is not None:
+        page.say("answer", lambda c: Text(remedy.answer(c, vary, wanted, units)))
+        with page.preview.dimmed("remedies"):
+            remedy.draw_buttons(computed, vary, wanted, units, session().set_value)
+    return vary, wanted
 
 
 def solved(page: Page, vary: str, wanted: remedy.Wanted) -> None:

@@ -85,15 +85,13 @@ def tornado(
     if share != 1.0:
         title = titled("Change of the onset", "ΔΩ_on/Ω_on", "%")
     all_of_them = share * np.array([*less, *more, 1.0])
-    reach = style.ceiling(1.1 * np.abs(all_of_them[np.isfinite(all_of_them)]))
+    # Beside the bars there is room for their changes in words.
+    reach = style.ceiling(1.5 * np.abs(all_of_them[np.isfinite(all_of_them)]))
 
     def texts(changes: Array) -> list[str]:
         return [f"{_effect(value, unit.name)}{_percent(value, onset)}" for value in changes]
 
-    rows = [
-        f"{names[one.field]}<br>{_effect(low, unit.name)} / {_effect(high, unit.name)}"
-        for one, low, high in zip(inputs, less, more, strict=True)
-    ]
+    rows = [names[one.field] for one in inputs]
     none = style.note("no input moves the onset", 0.5, 0.5)
     chart = style.chart(
         [
@@ -110,11 +108,16 @@ def tornado(
             tickfont={"size": 13},
         ),
         barmode="overlay",
-        height=120 + 42 * max(len(inputs), 4),
+        height=130 + 30 * max(len(inputs), 4),
         legend=LEGEND,
         margin={"l": 64, "r": 28, "t": 28, "b": 84},
         shapes=[_zero()],
-        annotations=[] if inputs else [none],
+        annotations=[
+            note
+            for place, low, high in zip(places, less, more, strict=True)
+            for note in _beside(place, (low, high), share, unit.name)
+        ]
+        or [none],
     )  # fmt: skip
     if not math.isfinite(onset):
         return chart
@@ -190,6 +193,24 @@ def _bars(x: Array, y: Array, name: str, texts: list[str], colour: str) -> Trace
         "marker": {"color": colour}, "customdata": texts,
         "hovertemplate": f"{name}: %{{customdata}}<extra></extra>",
     }  # fmt: skip
+
+
+def _beside(
+    place: float, changes: tuple[float, float], share: float, unit: str
+) -> list[dict[str, Any]]:
+    """Return the changes with 10 % less and more of an input, each on its side of the bars."""
+    colours = (_LESS, _MORE) if changes[0] <= changes[1] else (_MORE, _LESS)
+    return [
+        {
+            "text": _effect(change, unit), "x": share * end if math.isfinite(end) else 0.0,
+            "y": place, "xanchor": anchor, "xshift": shift, "showarrow": False,
+            "font": {"size": 12, "color": colour},
+        }
+        for change, end, anchor, shift, colour in zip(
+            sorted(changes), (min(*changes, 0.0), max(*changes, 0.0)), ("right", "left"), (-3, 3),
+            colours, strict=True,
+        )
+    ]  # fmt: skip
 
 
 def _percent(change: float, onset: float) -> str:

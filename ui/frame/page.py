@@ -32,7 +32,7 @@ _ICON = str(Path(__file__).with_name("icon.svg"))
 _ABOUT = f"{version.label()}: rotors on fluid-film bearings, after San Andrés, Notes 5."
 # Least width of a row of results [rem] by the number of its columns; on less there are fewer.
 _COLUMNS = {5: 42, 4: 32, 3: 24, 2: 12}
-_NOT_FOUR = ":not(:has(> :nth-child(8)):not(:has(> :nth-child(9))))"
+_NOT_FOUR = ":where(:not(:has(> :nth-child(8)):not(:has(> :nth-child(9)))))"
 
 
 def _pairs_in_columns(columns: int, least: int) -> str:

@@ -14,7 +14,7 @@ from ui.widgets import show_inputs
 
 # All of Streamlit's sizes are in rem. Where one chart is shown, a column without one has no place,
 # unless it has the numbers beside the drawing. The choice of the chart stands beside the title,
-# what is asked before a release, and what came of it, below its chart. Type grows with the window,
+# what is asked before it is drawn, and what came of it, below it. Type grows with the window,
 # which a projector shows at one size.
 STYLE = """<style>
 html {font-size: clamp(100%, min(1.39vw, 2.22vh), 175%);}
@@ -26,7 +26,8 @@ html {font-size: clamp(100%, min(1.39vw, 2.22vh), 175%);}
 .stMain .stHorizontalBlock:has(.live-chart):not(:has(.stMetric)) > .stColumn:not(:has(.live-chart)),
 .stMain .stHorizontalBlock:has(.stMetric):not(:has(.live-chart)):has(> .stColumn),
 .stMain .stColumn [data-testid="stPageLink"] {display: none;}
-[data-testid="stLayoutWrapper"]:has(> :is(.st-key-release, .st-key-outcome)) {order: 1;}
+[data-testid="stLayoutWrapper"]:has(> :is(
+  .st-key-release, .st-key-outcome, .st-key-ask, .st-key-said_modes)) {order: 1;}
 [class*="st-key-results_"] .stPopover {display: none;}
 </style>"""
 # The sliders shown first: the speed and what were changed from the preset, up to as many.

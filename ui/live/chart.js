@@ -127,8 +127,9 @@ function times(factor, holder, names) {
 function enlarge({ data, layout }, factor) {
   const half = (1 + factor) / 2;
   times(factor, layout.font, ["size"]);
-  times(factor, layout.margin, ["l", "r", "t"]);
-  times(layout.sliders ? half : factor, layout.margin, ["b"]); // a slider is as high as before
+  times(factor, layout.margin, ["l", "r"]);
+  times(half, layout.margin, ["t"]);
+  times(layout.sliders ? 1 : factor, layout.margin, ["b"]); // Plotly makes room for what a slider needs
   times(factor, layout.legend, ["itemwidth"]);
   if (layout.legend?.entrywidthmode !== "fraction") times(factor, layout.legend, ["entrywidth"]);
   for (const note of layout.annotations ?? []) {
@@ -137,12 +138,14 @@ function enlarge({ data, layout }, factor) {
     times(half, note, ["arrowwidth"]);
   }
   for (const control of [...(layout.sliders ?? []), ...(layout.updatemenus ?? [])]) {
-    times(factor, control.pad, ["t", "b", "l", "r"]);
+    times(factor, control.pad, ["b", "l", "r"]);
+    times(half, control.pad, ["t"]); // ticks and title of an axis
     times(factor, control.font, ["size"]);
     times(factor, control.currentvalue?.font, ["size"]);
   }
   for (const [name, axis] of Object.entries(layout)) {
     if (!name.includes("axis") || !axis.title) continue;
+    times(factor, axis.tickfont, ["size"]);
     axis.title.font = { size: layout.font.size }; // Plotly's own is larger still, and longer than a low axis
     times(factor, axis.title, ["standoff"]);
   }
@@ -214,11 +217,13 @@ function unfolded(figure, whole) {
 
 // High as the window allows: in a presentation it fills what lies below its place, but for a line of words. At a desk
 // one that begins in the upper half ends above the fold, where it keeps most of its height.
-function fitted(view, { layout: { height } }, presenting) {
+function fitted(view, { layout: { height, yaxis } }, presenting) {
   const main = view.closest('[data-testid="stMain"]');
   const top = Math.ceil(view.getBoundingClientRect().top + (main?.scrollTop ?? 0));
   const room = `100vh - ${top}px`;
-  if (presenting) return `max(340px, calc(${room} - 2.4rem))`;
+  // Of words at ticks each needs its row.
+  const rows = 28 * large() * (yaxis?.ticktext?.length ?? 0) + 150;
+  if (presenting) return `max(340px, ${rows}px, ${room} - 2.4rem)`;
   const usual = `clamp(${0.8 * height}px, calc((100vh - 306px) * ${height / 600}), ${1.5 * height}px)`;
   return top > innerHeight / 2 ? usual : `min(${usual}, max(${0.7 * height}px, ${room} - 0.5rem))`;
 }
