@@ -8,6 +8,7 @@ from ui.frame.page import Page, show
 def content(page: Page) -> None:
     page.tabs("notes_tab", {
         "Model": lambda _: st.markdown(notes.text("model")),
+        "Finite length": lambda _: st.markdown(notes.text("finite")),
         "Signs and axes": signs,
         "Equations": lambda _: st.markdown(notes.equations()),
         "Misprints": lambda _: st.markdown(notes.text("misprints")),

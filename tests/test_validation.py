@@ -13,7 +13,7 @@ from rotorcalc import analysis, modes, validation
 from rotorcalc.films import short
 from rotorcalc.films.short import force_coefficients
 from rotorcalc.onset import search
-from rotorcalc.validation import Case
+from rotorcalc.validation import Case, finite
 from ui import notes
 from ui.notes.equations import EQUATIONS
 
@@ -64,6 +64,26 @@ def test_a_broken_formula_fails_its_check(monkeypatch, module, name, factor, che
     if name == "state_matrix":  # only one of the two sides of A v = λ v must be broken
         shapes = modes.mode_shapes
         monkeypatch.setattr(modes, "mode_shapes", lambda rotor, K, C: shapes(rotor, 1.01 * K, C))
+    assert check in failed()
+
+
+@pytest.mark.parametrize(
+    ("field", "check"),
+    [
+        ("stiffness", "k_ij, elliptical, L/D = 1, S = 0.12"),
+        ("damping", "c_ij, lobes, L/D = 0.5, S = 0.637"),
+        ("position", "ε, L/D = 0.5, S = 0.319"),
+        ("stiffness", "p_s, set 1, bearing 1"),
+    ],
+)
+def test_a_wrong_film_of_finite_length_fails_its_check(monkeypatch, field, check):
+    right = finite.film_state
+
+    def wrong(bearing, sigma):
+        film = right(bearing, sigma)
+        return replace(film, **{field: 1.1 * getattr(film, field)})
+
+    monkeypatch.setattr(finite, "film_state", wrong)
     assert check in failed()
 
 

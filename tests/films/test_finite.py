@@ -29,6 +29,7 @@ from rotorcalc.films.finite.table import settled_pressures, table
 from rotorcalc.films.pads import Pad, gap, pads_of
 from rotorcalc.films.state import OperatingPoints
 from rotorcalc.geometry import Geometry
+from rotorcalc.validation.finite import SECOND_PROGRAM
 from tests.films import plain_program
 
 DEGREE = math.pi / 180
@@ -78,25 +79,10 @@ def converged(bearing, sigma, links, degrees):
 
 
 # Confirmed by a program other than the two here. k and c in units of the load, C of a pad.
-CASES = [
-    (Plain(), 1.0, 0.5, (0.5311, 56.63), [2.099, 3.187, -0.935, 2.002], [5.895, 2.103, 3.194]),
-    (PartialArc(arc=120 * DEGREE), 1.0, 0.3, (0.7054, 31.67), [4.603, 3.675, -0.105, 1.220],
-     [7.954, 1.576, 0.972]),
-    (AxialGrooves(), 0.5, 0.5, (0.4557, 52.38), [2.524, 3.750, -0.899, 1.789],
-     [7.085, 2.003, 2.598]),
-    (Elliptical(), 0.5, 0.5, (0.2150, 85.69), [9.633, 4.841, -5.214, 0.995],
-     [16.141, -4.254, 5.116]),
-    (OffsetHalves(), 0.5, 0.5, (0.2526, 1.29), [4.727, 8.238, -0.415, 6.466],
-     [10.754, 5.647, 7.435]),
-    (Lobes(), 0.5, 0.5, (0.1583, 58.68), [6.605, 5.442, -5.378, 3.217], [13.787, -0.251, 8.942]),
-]  # fmt: skip
-
-
-@pytest.mark.parametrize("case", CASES)
-def test_states_that_were_computed_elsewhere(case):
-    geometry, ratio, sigma, place, k, c = case
+@pytest.mark.parametrize("row", SECOND_PROGRAM, ids=lambda row: row.geometry.kind)
+def test_states_that_were_computed_elsewhere(row):
+    geometry, ratio, sigma, (eps, phi), k, c = row
     film = film_state(on(geometry, ratio), sigma)
-    eps, phi = place
     x, y = eps * math.cos(phi * DEGREE), eps * math.sin(phi * DEGREE)
     assert film.position == pytest.approx([x, y], abs=5e-4)
     assert error(film.k.ravel(), np.array(k)) < 5e-3

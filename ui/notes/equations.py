@@ -54,6 +54,26 @@ EQUATIONS: dict[str, tuple[Equation, ...]] = {
             ("films.short.pressure",), "Machine, Equilibrium",
         ),
     ),
+    "Film of finite length": (
+        Equation(
+            "Reynolds", "Pressure over each pad, in μΩ(R/C)²; films in C, ζ = 2z/L, τ = Ωt",
+            r"\frac{\partial}{\partial\beta}\left(h^3\frac{\partial p}{\partial\beta}\right)"
+            r"+\left(\frac DL\right)^2\frac{\partial}{\partial\zeta}\left(h^3\frac{\partial p}{\partial\zeta}\right)"
+            r"=6\,\frac{\partial h}{\partial\beta}+12\,\frac{\partial h}{\partial\tau}",
+            ("films.finite.reynolds.solved",), "all, on a film of finite length",
+        ),
+        Equation(
+            "Swift, Stieber", "Where the film breaks and forms again",
+            r"p\ge0,\qquad p=\frac{\partial p}{\partial n}=0\ \text{at the front}",
+            ("films.finite.table.settled_pressures",), "all, on a film of finite length",
+        ),
+        Equation(
+            "Lund, Thomsen", "Stiffness and damping by adjoint pressures λ, A p = r",
+            r"K_{ij}=-\lambda_i\cdot\left(\frac{\partial r}{\partial x_j}-\frac{\partial A}{\partial x_j}\,p\right),\qquad "
+            r"C_{ij}=12\,\lambda_i\cdot g_j",
+            ("films.finite.fronts.coefficients",), "Coefficients",
+        ),
+    ),
     "Power and flow": (
         Equation(
             "Beyond the notes", "Side flow, both ends together", r"Q = \Omega RLC\,\varepsilon",
