@@ -65,7 +65,7 @@ def dimensionless(page: Page, axes: Axes, against: Literal["ε", "σ"]) -> None:
     symbols: tuple[Literal["k", "c"], ...] = ("k", "c")
     for column, symbol in zip(st.columns(2), symbols, strict=True):
         with column:
-            page.chart(
+            page.figure_of_the_notes(
                 lambda c, symbol=symbol: over_film(
                     draw.dimensionless(
                         c.film_coefficients(axes), c.film_coefficients_here(axes), symbol, against

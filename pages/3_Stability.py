@@ -71,13 +71,13 @@ def figures_of_the_notes(page: Page) -> None:
 
     left, right = st.columns(2)
     with left:
-        page.chart(
+        page.figure_of_the_notes(
             over_film(figures.whirl_ratio),
             "whirl_ratio",
             alt="Whirl frequency ratio; zero where the film feeds no whirl.",
             caption=lambda c: cited(ask.ends_of_whirl(c), c, "whirl ratio", rotor="Eq. 5.46"),
         )
-        page.chart(
+        page.figure_of_the_notes(
             over_film(figures.critical_mass_number),
             "critical_mass_number",
             alt="Dimensionless critical mass of the bearing.",
@@ -86,7 +86,7 @@ def figures_of_the_notes(page: Page) -> None:
             ),
         )
     with right:
-        page.chart(
+        page.figure_of_the_notes(
             over_film(figures.threshold_speed),
             "threshold_speed",
             alt="Dimensionless threshold speed of a rigid rotor on the bearing.",
@@ -97,7 +97,7 @@ def figures_of_the_notes(page: Page) -> None:
                 rotor="Eq. 5.45",
             ),
         )
-        page.chart(
+        page.figure_of_the_notes(
             over_film(figures.flexible_threshold, ask.sags, ask.flexible_curves, ask.flexible_here),
             "flexible_threshold",
             alt="Dimensionless threshold speed of flexible rotors for several static sags.",

@@ -1,6 +1,7 @@
 """Cases: machines that a visitor has named, each in a colour of its own, beside the live one."""
 
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 from rotorcalc.figures import Chart, with_cases
@@ -10,8 +11,11 @@ from ui.bores import Values
 from ui.computed import Computed, computed_from
 
 Draw = Callable[[Computed], Chart]
+# A machine with results, and the name and colour under which a chart draws it behind another.
+Ghost = tuple[str, str, Computed]
 
 MOST = len(COLOURS)
+_SHORT_PLAIN = ("short plain bearing", figures.OF_THE_NOTES)
 _LONGEST = 24
 # In charts, tables and links a name is text and nothing else, whatever these take for markup.
 _ALLOWED = frozenset(" .,;:+-−=()/%°'")
@@ -91,18 +95,25 @@ def computed(cases: Iterable[Case]) -> tuple[tuple[Shown, ...], list[str]]:
     return tuple(shown), problems
 
 
-def compared(draw: Draw, cases: Iterable[Shown]) -> Draw:
-    """Return what draws a chart of the live machine with the same of cases behind it."""
+def compared(draw: Draw, cases: Iterable[Shown], *, with_notes: bool = False) -> Draw:
+    """Return what draws a chart of the live machine with the same of cases behind it.
+
+    With the notes it also has the machine on their own bearing, short and plain, behind.
+    """
     # Drawn once: while a slider is dragged they stay as they are.
-    behind = list(_drawn(draw, cases))
-    return lambda computed: with_cases(draw(computed), behind)
+    ghosts = [(shown.case.name, shown.case.colour, shown.computed) for shown in cases]
+    behind = list(_drawn(draw, ghosts))
+
+    def drawn(computed: Computed) -> Chart:
+        plain = computed.short_plain if with_notes else None
+        first = [] if plain is None else _drawn(draw, [(*_SHORT_PLAIN, plain)])
+        return with_cases(draw(computed), [*first, *behind])
+
+    return drawn
 
 
-def _drawn(draw: Draw, cases: Iterable[Shown]) -> Iterator[figures.Case]:
-    """Yield what a chart draws of cases, as far as their films give it."""
-    for shown in cases:
-        try:
-            chart = draw(shown.computed)
-        except ValueError:
-            continue
-        yield figures.Case(shown.case.name, shown.case.colour, chart)
+def _drawn(draw: Draw, ghosts: Iterable[Ghost]) -> Iterator[figures.Case]:
+    """Yield what a chart draws of machines, as far as their films give it."""
+    for name, colour, computed in ghosts:
+        with suppress(ValueError):
+            yield figures.Case(name, colour, draw(computed))

@@ -11,6 +11,7 @@ from rotorcalc import (
     JournalBearing,
     Machine,
     Onset,
+    Plain,
     Rotor,
     Sweep,
     analyse,
@@ -181,6 +182,15 @@ class Computed:
         if bearing.model == "finite" or "finite" not in bearing.geometry.models:
             return None
         machine = replace(self.machine, bearing=replace(bearing, film="finite"))
+        return _computed(machine, self.speed, self.top_speed)
+
+    @property
+    def short_plain(self) -> "Computed | None":
+        """The same machine on the notes' bearing, short and plain; None where it has it."""
+        bearing = replace(self.machine.bearing, geometry=Plain(), film=None)
+        if self.machine.bearing.geometry == Plain() and self.machine.bearing.model == "short":
+            return None
+        machine = replace(self.machine, bearing=bearing)
         return _computed(machine, self.speed, self.top_speed)
 
     @property

@@ -18,6 +18,9 @@ COLOURS = (
     "#8c0afa", "#aa503c", "#969678", "#c86ee6", "#825a6e", "#46a0b4", "#aa14d2", "#5a64a0",
 )  # fmt: skip
 
+# The notes' own bearing behind another.
+OF_THE_NOTES = "#9a7b62"
+
 
 @dataclass(frozen=True)
 class Case:

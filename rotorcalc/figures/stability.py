@@ -179,7 +179,13 @@ def flexible_threshold(
     sags = np.asarray(sags, dtype=float)
     known = [
         style.line(
-            x_values, _drawable(row), f"{_SAG} = {sag:g}", style.GREY, width=1.6, showlegend=False
+            x_values,
+            _drawable(row),
+            f"{_SAG} = {sag:g}",
+            style.GREY,
+            width=1.6,
+            showlegend=False,
+            **style.LIVE_ONLY,
         )
         for sag, row in zip(sags[:-1], thresholds[:-1], strict=True)
     ]

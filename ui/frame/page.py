@@ -98,13 +98,28 @@ class Page:
         While one is dragged a chart that takes long has another function, quicker and coarser.
         A chart at one speed is asked for at another one that is marked on the page.
         """
-        if not self.views.shows(key):
-            return
-        if at_one_speed:
-            draw = self._at_marked_speeds(draw)
-            while_dragging = while_dragging and self._at_marked_speeds(while_dragging)
-        show_chart(compared(draw, self.cases)(self.computed), key=key, alt=alt)
-        self.preview.charts[chart_key(key)] = compared(while_dragging or draw, self.cases)
+        if self.views.shows(key):
+            if at_one_speed:
+                draw = self._at_marked_speeds(draw)
+                while_dragging = while_dragging and self._at_marked_speeds(while_dragging)
+            shown = compared(draw, self.cases)
+            dragged = compared(while_dragging, self.cases) if while_dragging else shown
+            self._show((shown, dragged), key, alt, caption)
+
+    def figure_of_the_notes(
+        self, draw: Draw, key: str, *, alt: str, caption: str | Callable[[Computed], str]
+    ) -> None:
+        """Show a chart with that of the notes' own bearing, short and plain, behind it too."""
+        if self.views.shows(key):
+            shown = compared(draw, self.cases, with_notes=True)
+            self._show((shown, shown), key, alt, caption)
+
+    def _show(
+        self, draws: tuple[Draw, Draw], key: str, alt: str, caption: str | Callable[[Computed], str]
+    ) -> None:
+        """Show a chart; `draws` has what draws it at first and while a slider is dragged."""
+        drawn, self.preview.charts[chart_key(key)] = draws
+        show_chart(drawn(self.computed), key=key, alt=alt)
         if isinstance(caption, str):
             st.caption(caption)
         else:
