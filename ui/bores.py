@@ -27,7 +27,7 @@ NAMES = {
     "pressure-dam": "Pressure dam",
     "multi-dam": "Multi-pocket dam",
 }
-FILMS = {"short": "Short bearing", "finite": "Finite length"}
+FILMS = {"short": "Short bearing", "finite": "Finite length", "coarse": "Coarse mesh"}
 
 # The narrowest pad, and the least land beside a pocket or between grooves [°].
 _LEAST_ARC, _LAND = 10.0, 2.0

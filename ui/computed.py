@@ -38,6 +38,7 @@ from rotorcalc.coefficients import (
 from rotorcalc.figures.equilibrium import Path
 from rotorcalc.figures.machine import OtherSpeeds
 from rotorcalc.films import film_of
+from rotorcalc.films.finite import draft
 from rotorcalc.numerics.first_answer import from_first_answer
 from rotorcalc.root_locus import Locus, root_locus
 from rotorcalc.unbalance_curves import (
@@ -179,7 +180,7 @@ class Computed:
     def of_finite_length(self) -> "Computed | None":
         """The same machine on the film of finite length; None where it has it or there is none."""
         bearing = self.machine.bearing
-        if bearing.model == "finite" or "finite" not in bearing.geometry.models:
+        if bearing.model != "short" or "finite" not in bearing.geometry.models:
             return None
         machine = replace(self.machine, bearing=replace(bearing, film="finite"))
         return _computed(machine, self.speed, self.top_speed)
@@ -326,6 +327,17 @@ class Computed:
 def computed_from(values: Values) -> Computed:
     """Return the results of kept values, or raise the core's ValueError."""
     return _computed(machine_of(values), *speeds_of(values))
+
+
+def computed_while_dragging(values: Values, before: Computed) -> Computed:
+    """Return the results of kept values, on a coarse mesh where they have another bore than before.
+
+    On release a page has them as they are.
+    """
+    machine = machine_of(values)
+    if film_of(machine.bearing).curve != film_of(before.machine.bearing).curve:
+        machine = replace(machine, bearing=draft(machine.bearing))
+    return _computed(machine, *speeds_of(values))
 
 
 def speeds(top_speed: float) -> Array:

@@ -17,7 +17,7 @@ from rotorcalc.figures import Chart, themed
 from rotorcalc.units import Units
 from ui.bores import Values
 from ui.cases import Draw, Shown
-from ui.computed import Computed, computed_from
+from ui.computed import Computed, computed_while_dragging
 from ui.inputs import input_named
 
 T = TypeVar("T")
@@ -85,7 +85,7 @@ class Preview:
         """
         # The other inputs are those of the page as last drawn, which its charts show beside it.
         values = self.values | {name: input_named(name, self.values).taken(value, self.units)}
-        computed = computed_from(values)
+        computed = computed_while_dragging(values, self.computed)
         _ = computed.point  # a film may have no answer at the running speed
         drawn = {
             key: _given(lambda draw=draw: self._still(draw, computed))

@@ -13,7 +13,7 @@ from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
 from rotorcalc.films import short
 from rotorcalc.films.dynamics import FilmDynamics, reduced
-from rotorcalc.films.finite import FiniteFilm
+from rotorcalc.films.finite import CoarseFilm, FiniteFilm
 from rotorcalc.films.lobes import LobesFilm
 from rotorcalc.films.model import Film, FilmMotion, InnerMotion
 from rotorcalc.films.short import ShortFilm
@@ -56,6 +56,7 @@ MODELS: dict[tuple[str, str], Callable[[JournalBearing], Film]] = {
     ("offset-halves", "short"): LobesFilm,
     ("lobes", "short"): LobesFilm,
 }
+MODELS.update({(kind, "coarse"): CoarseFilm for kind, model in list(MODELS) if model == "finite"})
 
 
 @checked

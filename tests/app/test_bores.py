@@ -421,3 +421,59 @@ def test_a_popover_has_what_was_solved_on_which_mesh(
     assert all(word in said for word in words), said
     assert ("Mesh" in said) == ("film" not in query)
     assert faults(at) == []
+
+
+SLOW = {
+    "pressure-dam": {"bearing": "pressure-dam"},
+    "multi-dam": {"bearing": "multi-dam"},
+    "four grooves": {"bearing": "axial-grooves", "number": "4", "width": "15"},
+}
+
+
+@pytest.mark.parametrize("name", SLOW)
+def test_while_a_slow_bore_is_dragged_its_film_is_coarse_says_so_and_is_refined_on_release(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ROTORCALC_LIVE", "drag")
+    at = visit(HOME, **SLOW[name])
+    visitor = session_of(at)
+    assert visitor.preview is not None
+    item = sliders(visitor.values)[0]
+    value = item.low + 0.4 * (item.high - item.low)
+
+    def said(key: str, moved: float) -> str:
+        assert visitor.preview is not None
+        return visitor.preview.at(key, f"{moved}")["texts"]["said_verdict"]["words"]
+
+    assert "Coarse mesh" in said(item.key, value)
+    # Neither the bore as it is nor another speed asks for another table.
+    assert "Coarse mesh" not in said(item.key, float(visitor.values[item.key] or 0.0))
+    assert "Coarse mesh" not in said("rpm", 5000.0)
+    monkeypatch.setattr("ui.widgets.session", lambda: visitor)
+    _moved(item.key, visitor.units, value, dragging=False)
+    monkeypatch.undo()
+    at.run()
+    computed = visitor.preview.computed
+    assert computed.machine.bearing.model == "finite"
+    assert visitor.values[item.key] == pytest.approx(value)
+    assert not any("Coarse mesh" in one.value for one in (*at.success, *at.error, *at.warning))
+    fine = onset_speed(machine_of(visitor.values)).speed
+    assert computed.onset.speed == fine
+    draft = replace(computed.machine, bearing=replace(computed.machine.bearing, film="coarse"))
+    assert onset_speed(draft).speed == pytest.approx(fine, rel=0.05)
+
+
+@pytest.mark.parametrize("kind", ["elliptical", "lobes", "plain"])
+def test_a_quick_bore_is_dragged_as_it_is(kind: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROTORCALC_LIVE", "drag")
+    preview = session_of(visit(HOME, bearing=kind, film="finite")).preview
+    assert preview is not None
+    assert "Coarse mesh" not in preview.at("L", "47")["texts"]["said_verdict"]["words"]
+
+
+def test_a_link_may_ask_for_the_coarse_mesh() -> None:
+    at = visit(HOME, bearing="pressure-dam", film="coarse")
+    assert any("Coarse mesh" in one.value for one in (*at.success, *at.warning))
+    at.segmented_control(key="film_model").set_value("finite").run()
+    assert session_of(at).values["film"] is None
+    assert faults(at) == []

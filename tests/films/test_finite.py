@@ -182,6 +182,21 @@ def test_the_table_agrees_with_a_finer_mesh(name, ratio):
     assert np.all(deviations(name, ratio) < limits)
 
 
+@ALL
+def test_the_coarse_mesh_is_good_to_a_few_percent(name):
+    fine = on(BORES[name], 0.5)
+    coarse = replace(fine, film="coarse")
+    sigma = np.geomspace(1.2 * film_of(fine)._table.least_sommerfeld, 10.0, 30)
+    found, right = film_state(coarse, sigma), film_state(fine, sigma)
+    for here, there in ((found.stiffness, right.stiffness), (found.damping, right.damping)):
+        off = np.abs(here - there).max(axis=(1, 2)) / np.abs(there).max(axis=(1, 2))
+        assert np.quantile(off, 0.9) < 0.045
+    assert np.abs(found.position - right.position).max() < 5e-3
+    assert film_of(coarse)._table.wet.size < 0.3 * film_of(fine)._table.wet.size
+    with pytest.raises(ValueError, match="film = 'coarsest'"):
+        replace(coarse, film="coarsest")
+
+
 @pytest.mark.parametrize("name", ["plain", "elliptical", "three lobes", "pressure dam"])
 def test_the_error_that_is_told_is_of_the_size_of_the_error(name):
     film = film_of(on(BORES[name], 0.5))

@@ -93,10 +93,12 @@ def _kind() -> None:
 
 def _film() -> None:
     visitor = session()
-    models = kinds()[str(visitor.values[KIND])].models
+    now = film_model(visitor.values)
+    # A link may have one more.
+    models = {*kinds()[str(visitor.values[KIND])].models, now}
     if len(models) < 2:
         return
-    visitor.mirror("film_model", film_model(visitor.values))
+    visitor.mirror("film_model", now)
     st.segmented_control(
         "Film model", sorted(models, reverse=True), format_func=lambda model: FILMS[model],
         key="film_model", required=True, help=_FILM_HELP,

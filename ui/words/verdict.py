@@ -23,13 +23,17 @@ class Verdict:
 
 _SHOWN_AS: dict[str, Kind] = {"stable": "success", "unstable": "error", "outside": "warning"}
 
+_COARSE = ":orange-badge[Coarse mesh: K and C to some 4 %]"
+
 
 def text(computed: Computed, units: Units) -> Text:
     """Return the verdict as a page shows it, with the headline of the model's assumptions."""
     judged = verdict(computed, units)
     marked = computed.is_outside or computed.onset_is_outside
     note = " Numbers in brackets lie outside the model's range." if marked else ""
-    return Text(f"{judged.sentence}{note} {validity.badge(computed)}", _SHOWN_AS[judged.level])
+    draft = f" {_COARSE}" if computed.machine.bearing.model == "coarse" else ""
+    words = f"{judged.sentence}{note} {validity.badge(computed)}{draft}"
+    return Text(words, _SHOWN_AS[judged.level])
 
 
 def verdict(computed: Computed, units: Units) -> Verdict:

@@ -1,8 +1,9 @@
 """The film of a fixed bore of finite length as a film model (interface in `films.model`)."""
 
 from collections.abc import Hashable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,7 +13,7 @@ from rotorcalc.films.dynamics import NO_INERTIA, FilmDynamics
 from rotorcalc.films.finite.accuracy import accuracy
 from rotorcalc.films.finite.motion import SECONDS, THINNEST, FinitePadsInMotion
 from rotorcalc.films.finite.pressure import Pressures
-from rotorcalc.films.finite.table import FilmTable, table
+from rotorcalc.films.finite.table import FilmTable, table, takes_long
 from rotorcalc.films.model import Accuracy, FilmMotion, Limit, Source
 from rotorcalc.films.pads import gap, outline, pads_of, walls_of
 from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
@@ -72,15 +73,18 @@ class FiniteFilm:
     inner: int = field(default=0, init=False)
     frequency_dependent: bool = field(default=False, init=False)
     can_whirl: bool = field(default=True, init=False)
+    _coarse: ClassVar[bool] = False
 
     @cached_property
     def _table(self) -> FilmTable:
-        return table(pads_of(self.bearing), (self.bearing.diameter / self.bearing.length) ** 2)
+        ratio = self.bearing.diameter / self.bearing.length
+        return table(pads_of(self.bearing), ratio**2, coarse=self._coarse)
 
     @property
     def curve(self) -> Hashable:
-        """The bore's pads and L/D."""
-        return "finite", pads_of(self.bearing), self.bearing.diameter / self.bearing.length
+        """The mesh, the bore's pads and L/D."""
+        ratio = self.bearing.diameter / self.bearing.length
+        return "coarse" if self._coarse else "finite", pads_of(self.bearing), ratio
 
     @property
     def sommerfeld_range(self) -> tuple[float, float]:
@@ -202,3 +206,28 @@ class FiniteFilm:
     def outline(self, angle: ArrayLike) -> Array:
         """Return where the journal's centre touches the bore."""
         return outline(walls_of(self.bearing), angle)
+
+
+@dataclass(frozen=True)
+class CoarseFilm(FiniteFilm):
+    """The same on a mesh so coarse that K and C are known to some 4 % only: for drafts."""
+
+    _coarse: ClassVar[bool] = True
+
+
+def draft(bearing: JournalBearing) -> JournalBearing:
+    """Return a bearing on a coarse mesh where its own takes long; else as it is.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing.
+
+    Returns
+    -------
+    JournalBearing
+        The same bore, to draw while it changes.
+    """
+    if bearing.model != "finite" or not takes_long(pads_of(bearing)):
+        return bearing
+    return replace(bearing, film="coarse")

@@ -33,6 +33,11 @@ _HEAVY = 4.0 / _LIGHTEST
 _SCAN, _COARSE = (16, 2), (24, 2)
 _SMOOTH, _MANY_PADS = {1: (160, 3, 26), 2: (96, 3, 26)}, (80, 3, 26)
 _DAM, _DAMS = (96, 3, 30), (56, 4, 24)
+# While a bore changes: about a third of the time.
+_COARSE_ARC, _COARSE_SMOOTH = (96, 2, 16), (48, 2, 16)
+_COARSE_DAM, _COARSE_DAMS = (48, 2, 20), (32, 2, 16)
+# From so many pads on, and with pockets, a table takes longer than two pads' does.
+_MANY = 4
 # A bore with pockets has two zones along it.
 _ZONES_OF_DAMS = 2
 # Number of them up to a quarter of the way to the wall, where the film is nearly linear.
@@ -144,7 +149,7 @@ class FilmTable:
 
 
 @functools.lru_cache(maxsize=256)
-def table(pads: tuple[Pad, ...], slenderness: float) -> FilmTable:
+def table(pads: tuple[Pad, ...], slenderness: float, *, coarse: bool = False) -> FilmTable:
     """Return the film of a bore over load.
 
     Parameters
@@ -153,6 +158,8 @@ def table(pads: tuple[Pad, ...], slenderness: float) -> FilmTable:
         The pads.
     slenderness : float
         (D/L)² [-].
+    coarse : bool
+        Whether the mesh is so coarse that K and C are known to some 4 % only.
 
     Returns
     -------
@@ -164,10 +171,23 @@ def table(pads: tuple[Pad, ...], slenderness: float) -> FilmTable:
     ValueError
         Where no equilibria are found.
     """
+    return _tabulated(pads, slenderness, _resolution(pads, coarse))
+
+
+def _resolution(pads: tuple[Pad, ...], coarse: bool) -> tuple[int, int, int]:
     dams = sum(pad.depth > 0.0 for pad in pads)
+    if dams == 1:
+        return _COARSE_DAM if coarse else _DAM
     if dams:
-        return _tabulated(pads, slenderness, _DAM if dams == 1 else _DAMS)
-    return _tabulated(pads, slenderness, _SMOOTH.get(len(pads), _MANY_PADS))
+        return _COARSE_DAMS if coarse else _DAMS
+    if coarse:
+        return _COARSE_ARC if len(pads) == 1 else _COARSE_SMOOTH
+    return _SMOOTH.get(len(pads), _MANY_PADS)
+
+
+def takes_long(pads: tuple[Pad, ...]) -> bool:
+    """Return whether a table of pads takes longer than that of two smooth ones."""
+    return len(pads) >= _MANY or any(pad.depth > 0.0 for pad in pads)
 
 
 def _tabulated(pads: tuple[Pad, ...], slenderness: float, fine: tuple[int, int, int]) -> FilmTable:
