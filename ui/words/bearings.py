@@ -184,16 +184,16 @@ class _Column:
 
 
 _COLUMNS = (
-    _Column("Onset", "onset", "speed", 0, 116, "Speed at which the rotor begins to whirl; "
+    _Column("Onset", "onset", "speed", 0, 88, "Speed at which the rotor begins to whirl; "
             "without a number, no speed does.", bars=True),
-    _Column("Margin", "margin", "percent", 0, 78, "Onset over running speed, less one."),
-    _Column("Whirl ratio", "whirl_ratio", "number", 3, 78, "Of the film at the running speed."),
-    _Column("Log dec.", "log_decrement", "number", 3, 76,
+    _Column("Margin", "margin", "percent", 0, 70, "Onset over running speed, less one."),
+    _Column("Whirl", "whirl_ratio", "number", 3, 54, "Whirl ratio at the running speed."),
+    _Column("Log dec.", "log_decrement", "number", 3, 62,
             "Logarithmic decrement of the least damped mode at the running speed."),
-    _Column("h min", "minimum_film_thickness", "film", 1, 100, "Smallest film.", bars=True),
-    _Column("Power", "power_loss", "power", 2, 100, "Power loss of one bearing.", bars=True),
-    _Column("Flow", "side_flow", "flow", 2, 84, "Side flow of one bearing."),
-    _Column("Peak", "peak_response", "amplitude", 0, 106,
+    _Column("h min", "minimum_film_thickness", "film", 1, 78, "Smallest film.", bars=True),
+    _Column("Power", "power_loss", "power", 2, 80, "Power loss of one bearing.", bars=True),
+    _Column("Flow", "side_flow", "flow", 2, 78, "Side flow of one bearing."),
+    _Column("Peak", "peak_response", "amplitude", 0, 86,
             "Highest peak of the disk's imbalance response up to 1.5 times the running speed.",
             bars=True),
 )  # fmt: skip
@@ -204,21 +204,22 @@ def _table(found: Sequence[BearingResult], page: Page, *, done: bool) -> None:
     """Show the results in a table that can be sorted, some as bars, each with a button at last."""
     config = st.column_config
     bearings = [one.bearing for one in found]
+    own = f"{_OWN}: none" if found[0].refusal else _OWN
     columns: list[tuple[str, list[Any], ColumnConfig | ButtonColumnResult]] = [
         (
             "Bearing",
-            [_name(one, first=one is found[0]) for one in found],
-            config.TextColumn(width=132, pinned=True),
+            [own, *(name_of(one.geometry.kind) for one in bearings[1:])],
+            config.TextColumn(width=136, pinned=True),
         ),
-        ("Bore", [picture_address(one) for one in bearings], config.ImageColumn("", width=56)),
+        ("Bore", [picture_address(one) for one in bearings], config.ImageColumn("", width=40)),
         (
             "Use",
             ["Use" if done and one != bearings[0] else "" for one in bearings],
             config.ButtonColumn(
-                "", width=58, key=_CLICKED, on_click=_take, args=(bearings,), help=_USE
+                "", width=48, key=_CLICKED, on_click=_take, args=(bearings,), help=_USE
             )
             if done  # a key stands for one table of a run
-            else config.TextColumn("", width=58),
+            else config.TextColumn("", width=48),
         ),
         *(_numbers(column, found, page.units) for column in _COLUMNS),
     ]
@@ -231,16 +232,11 @@ def _table(found: Sequence[BearingResult], page: Page, *, done: bool) -> None:
         placeholder="–",
         alt="Bearings of every kind on this machine: onset, damping, film, losses and response.",
     )
-    own = f"{name_of(bearings[0].geometry.kind)}, {film_name(page.preview.values)}".lower()
+    first = f"{name_of(bearings[0].geometry.kind)}, {film_name(page.preview.values)}".lower()
     st.caption(
-        f"First this machine's own bearing ({own}), then each kind at its usual shape, on the film "
-        "of finite length. A click on a column's head sorts by it."
+        f"First this machine's own bearing ({first}), then each kind at its usual shape, on the "
+        "film of finite length. A click on a column's head sorts by it."
     )
-
-
-def _name(one: BearingResult, *, first: bool) -> str:
-    name = _OWN if first else name_of(one.bearing.geometry.kind)
-    return f"{name}: no answer" if one.refusal else name
 
 
 def _numbers(
