@@ -11,7 +11,7 @@ from dataclasses import MISSING, dataclass
 
 from rotorcalc import JournalBearing
 from rotorcalc.geometry import Geometry
-from rotorcalc.records import Bound, Rule, rules
+from rotorcalc.records import Bound, Choice, Rule, rules
 from rotorcalc.units import SI, Unit, Units
 from ui.bores import BORES, FILM, FILMS, KIND, Value, Values
 
@@ -64,13 +64,15 @@ class Field:
         # A link has no None; "none" is its word for it.
         if self.rule.optional and word in (None, "none"):
             return None
-        if not isinstance(self.rule.check, Bound):
-            return self.rule.check.check(self.key, word)  # type: ignore[union-attr]
+        if isinstance(self.rule.check, Choice):
+            if word not in self.rule.check.words:  # said without the word, which may be markup
+                raise ValueError(f"must be one of {', '.join(self.rule.check.words)}")
+            return str(word)
         try:
             value = float(word)  # type: ignore[arg-type]
         except (TypeError, ValueError):
             raise ValueError("is not a number") from None
-        self.rule.check.check(self.key, self.unit(SI).to_si(value))
+        self.rule.check.check(self.key, self.unit(SI).to_si(value))  # type: ignore[union-attr]
         return value
 
     def si(self, value: Value) -> Value:

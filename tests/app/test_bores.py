@@ -181,9 +181,14 @@ def test_a_moved_bore_is_in_the_link_and_in_the_file(kind: str) -> None:
 
 
 @every_bore
-def test_a_bore_without_load_has_a_page(kind: str) -> None:
-    at = visit(HOME, load="0")
+def test_a_bore_without_load_has_a_page_in_us_units_and_beside_it_as_a_case(kind: str) -> None:
+    at = visit(HOME, load="0", units="US")
     choose(at, kind)
+    assert faults(at) == []
+    at.button(key="keep").click().run()
+    assert session_of(at).cases[0].values == session_of(at).values
+    choose(at, "plain")
+    assert comparison(at)["Bearing"] == f"Plain circular | {NAMES[kind]}"
     assert faults(at) == []
 
 

@@ -6,6 +6,7 @@ import re
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import Any
 
 import pytest
@@ -15,7 +16,10 @@ from streamlit.testing.v1 import AppTest
 
 from rotorcalc import PRESETS, Machine
 from tests.app.session import HOME, OTHERS, open_part, session_of, visit
-from ui.inputs import INPUTS
+from ui.bearing import fields_of
+from ui.bores import NAMES
+from ui.inputs import INPUTS, machine_of
+from ui.sharing.address import read
 
 MARK = "zqx"  # in whatever is drawn, to find it again on the page
 MARKUP = [
@@ -98,6 +102,24 @@ def _unharmed(at: AppTest) -> None:
 def test_no_link_breaks_a_page_or_injects_markup(path: str, link: dict[str, str]) -> None:
     with WATCH:
         at = visit(path, **link)
+    _unharmed(at)
+
+
+@pytest.mark.parametrize("kind", NAMES)
+def test_no_field_of_a_bore_breaks_a_page_or_injects_markup(kind: str) -> None:
+    hostile = [*MARKUP, *NUMBERS]
+    keys = [*fields_of(kind), "film"]
+    for i, word in enumerate(hostile):
+        link = {"bearing": kind} | {
+            key: hostile[(i + place) % len(hostile)] for place, key in enumerate(keys)
+        }
+        found = read(link)
+        with suppress(ValueError):  # refused in words
+            machine_of(found.values)
+        refused = [key for key in keys if any(key in problem for problem in found.problems)]
+        assert refused or word in NUMBERS or keys == ["film"], link
+    with WATCH:
+        at = visit(HOME, bearing=kind, **dict(zip(keys, MARKUP, strict=False)))
     _unharmed(at)
 
 

@@ -23,6 +23,7 @@ from ui.bearing import (
     without_shape,
     written,
 )
+from ui.bores import FILMS
 from ui.cases import Case, added
 from ui.choices import NAMES
 from ui.format import quoted, typed_number
@@ -124,7 +125,7 @@ def checked_values(given: Mapping[str, object], preset: str, problems: list[str]
         elif key in fields:
             _take_field(values, fields[key], word, problems)
         elif key == FILM:
-            values[FILM] = None if word in (None, "none") else str(word)
+            _take_film(values, word, problems)
         elif key != KIND:
             problems.append(f"{quoted(key)} is not an input of this machine and was left out.")
     return _made(values, preset, problems)
@@ -138,6 +139,13 @@ def _take_number(values: Values, key: str, word: object, preset: str, problems: 
         )
     else:
         values[key] = value
+
+
+def _take_film(values: Values, word: object, problems: list[str]) -> None:
+    if word in (None, "none", *FILMS):
+        values[FILM] = None if word in (None, "none") else str(word)
+    else:
+        problems.append(f"{FILM} = {quoted(word)} is not one of {', '.join(FILMS)}.")
 
 
 def _take_field(values: Values, field: Field, word: object, problems: list[str]) -> None:
