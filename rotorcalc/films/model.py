@@ -168,6 +168,9 @@ class Film(Protocol):
     sommerfeld_range : (float, float)
         σ below which no rotor whirls, and σ above which the film's coefficients, in its own units,
         hardly change.
+    least_sommerfeld : float
+        σ below which the model has no answer, as the load presses the journal onto the bore; 0
+        where there is none.
     limits : tuple of Limit
         What the model assumes of the bearing.
     sources : mapping of str to Source
@@ -191,6 +194,8 @@ class Film(Protocol):
     @property
     def sommerfeld_range(self) -> tuple[float, float]: ...  # noqa: D102
     @property
+    def least_sommerfeld(self) -> float: ...  # noqa: D102
+    @property
     def limits(self) -> tuple[Limit, ...]: ...  # noqa: D102
     @property
     def sources(self) -> Mapping[str, Source]: ...  # noqa: D102
@@ -201,6 +206,10 @@ class Film(Protocol):
 
     def dynamics(self, points: OperatingPoints) -> FilmDynamics:
         """Return stiffness, damping and inertia, inner coordinates included, or an impedance."""
+        ...
+
+    def drag_and_flow(self, points: OperatingPoints) -> tuple[Array, Array]:
+        """Return `drag` and `side_flow` of `state` alone: the balance of heat asks them often."""
         ...
 
     def field(self, points: OperatingPoints, *, angle: ArrayLike, zeta: ArrayLike) -> FilmField:

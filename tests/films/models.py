@@ -88,6 +88,7 @@ class _TestFilm:
     frequency_dependent: bool = field(default=False, init=False)
     can_whirl: bool = field(default=True, init=False)
     sommerfeld_range: tuple[float, float] = field(default=(0.03, 1e3), init=False)
+    least_sommerfeld: float = field(default=0.0, init=False)
 
     @property
     def curve(self) -> Hashable:
@@ -112,6 +113,10 @@ class _TestFilm:
     def dynamics(self, points):
         state = self.state(points)
         return FilmDynamics(state.stiffness, state.damping, NO_INERTIA)
+
+    def drag_and_flow(self, points):
+        state = self.state(points)
+        return state.drag, state.side_flow
 
     def motion(self):
         return FilmMotion(self._force, self._velocity)

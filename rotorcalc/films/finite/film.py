@@ -92,6 +92,11 @@ class FiniteFilm:
         return self._table.least_sommerfeld, self._table.lightest_sommerfeld
 
     @property
+    def least_sommerfeld(self) -> float:
+        """σ of the table's heaviest load."""
+        return self._table.least_sommerfeld
+
+    @property
     def sources(self) -> Mapping[str, Source]:
         """What was solved."""
         return _SOURCES
@@ -137,6 +142,10 @@ class FiniteFilm:
         """Return stiffness and damping only."""
         K, C = self._table.coefficients(points.sommerfeld)
         return FilmDynamics(stiffness=K, damping=C, inertia=NO_INERTIA)
+
+    def drag_and_flow(self, points: OperatingPoints) -> tuple[Array, Array]:
+        """Return drag and side flow only."""
+        return self._table.drag_and_flow(points.sommerfeld)
 
     def field(self, points: OperatingPoints, *, angle: ArrayLike, zeta: ArrayLike) -> FilmField:
         """Return thickness and pressure in static equilibrium; NaN where there is no pad.

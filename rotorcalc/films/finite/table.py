@@ -118,6 +118,11 @@ class FilmTable:
             values[..., :2], values[..., 2], values[..., 3], values[..., 4], self._angle(load)
         )
 
+    def drag_and_flow(self, sommerfeld: Array) -> tuple[Array, Array]:
+        """Return drag and side flow at σ, as in `row`."""
+        values = self._rows.at(self._load(sommerfeld))
+        return values[..., 2], values[..., 3]
+
     def direction(self, position: Array) -> Array:
         """Return the direction from the bore's centre to positions, at the centre its limit."""
         x, y = position[..., 0], position[..., 1]

@@ -12,14 +12,12 @@ from rotorcalc.films.dynamics import NO_INERTIA, FilmDynamics
 from rotorcalc.films.lobes.motion import PadsInMotion
 from rotorcalc.films.lobes.static import (
     NEXT_TO_NONE,
-    Answer,
-    answer,
     coefficients,
     equilibrium,
+    friction,
     peak,
     range_of,
     refuse_heavy,
-    shear,
 )
 from rotorcalc.films.model import FilmMotion, Limit, Source
 from rotorcalc.films.pads import Pad, are_concentric, gap, outline, pads_of, walls_of
@@ -90,6 +88,11 @@ class LobesFilm:
         return 0.25 / heavy, 2.5 / light
 
     @property
+    def least_sommerfeld(self) -> float:
+        """σ of the heaviest load."""
+        return 0.25 / range_of(self._pads)[1]
+
+    @property
     def sources(self) -> Mapping[str, Source]:
         """What was integrated."""
         return _SOURCES
@@ -112,17 +115,15 @@ class LobesFilm:
             ),
         )  # fmt: skip
 
-    def _positions(self, sommerfeld: Array) -> tuple[Array, Answer]:
-        """Return positions (n, 2) at σ (n,), and what the pads do there."""
+    def _positions(self, sommerfeld: Array) -> Array:
+        """Return positions (n, 2) at σ (n,)."""
         load = 0.25 / sommerfeld
         if not are_concentric(self._pads):
-            position = equilibrium(self._pads, load)
-            return position, answer(self._pads, position)
+            return equilibrium(self._pads, load)
         # Without load there is no film: the limit is that of a very light one.
         least = NEXT_TO_NONE * range_of(self._pads)[0]
         position = equilibrium(self._pads, np.maximum(load, least))
-        found = answer(self._pads, position)
-        return position * np.minimum(load / least, 1.0)[:, None], found
+        return position * np.minimum(load / least, 1.0)[:, None]
 
     def state(self, points: OperatingPoints) -> FilmState:
         """Return the film in static equilibrium.
@@ -133,12 +134,13 @@ class LobesFilm:
             Where the load presses the journal onto a pad.
         """
         sigma = np.asarray(points.sommerfeld)
-        position, found = self._positions(sigma.ravel())
-        shape, ratio = sigma.shape, self.bearing.length / self.bearing.diameter
+        position = self._positions(sigma.ravel())
+        shape = sigma.shape
         light = np.hypot(position[:, 0], position[:, 1]) < 1e-12
         toward = np.where(light[:, None], self._limit, position)
         pressure, where = peak(self._pads, position)
         K, C = self._coefficients(points)
+        drag, flow = self.drag_and_flow(points)
         return FilmState(
             sommerfeld=points.sommerfeld,
             position=position.reshape(*shape, 2),
@@ -146,11 +148,19 @@ class LobesFilm:
             minimum_thickness=gap(self._pads, position).reshape(shape),
             stiffness=K,
             damping=C,
-            side_flow=(found.flow * (pressure > 0.0)).reshape(shape),
-            drag=(shear(self._pads, position) + ratio**2 * found.loss).reshape(shape),
+            side_flow=flow,
+            drag=drag,
             peak_pressure=pressure.reshape(shape),
             peak_angle=where.reshape(shape),
         )
+
+    def drag_and_flow(self, points: OperatingPoints) -> tuple[Array, Array]:
+        """Return drag and side flow only, from splines as stiffness and damping."""
+        load = 0.25 / np.asarray(points.sommerfeld)
+        refuse_heavy(self._pads, load)
+        values = friction(self._pads).at(load)
+        ratio = self.bearing.length / self.bearing.diameter
+        return values[..., 0] + ratio**2 * values[..., 1], values[..., 2]
 
     @cached_property
     def _limit(self) -> Array:

@@ -6,13 +6,13 @@ bore, made once.
 
 import functools
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 from rotorcalc.arrays import Array
-from rotorcalc.films.load_splines import CoefficientSplines, half_whirl
+from rotorcalc.films.load_splines import CoefficientSplines, LoadSplines, half_whirl
 from rotorcalc.films.lobes.integrals import moments
 from rotorcalc.films.pads import NO_POSITION, Pad, are_concentric, gap, resting
 from rotorcalc.films.rough_positions import crossings, net
@@ -193,19 +193,35 @@ def range_of(pads: tuple[Pad, ...]) -> tuple[float, float]:
 @functools.lru_cache(maxsize=256)
 def coefficients(pads: tuple[Pad, ...]) -> CoefficientSplines:
     """Return stiffness and damping of pads over the load, from four hundred exact equilibria."""
+    load, found, _ = _knots(pads)
+    scale = 20.0 * range_of(pads)[0]
+    return CoefficientSplines.through(load, found.stiffness, found.damping, scale=scale)
+
+
+@functools.lru_cache(maxsize=256)
+def friction(pads: tuple[Pad, ...]) -> LoadSplines:
+    """Return shear, loss and flow (as `shear` and `Answer`) over the load, from the same."""
+    load, found, shears = _knots(pads)
+    rows = np.column_stack([shears, found.loss, found.flow])
+    if are_concentric(pads):  # without load there is no wedge
+        rows[0, 1:] = 0.0
+    return LoadSplines.through(load, rows, scale=20.0 * range_of(pads)[0])
+
+
+@functools.lru_cache(maxsize=8)
+def _knots(pads: tuple[Pad, ...]) -> tuple[Array, Answer, Array]:
+    """Return loads (n,), and what pads do without load and at these, (n+1, ...), with the shear."""
     loads, places, _ = _start(pads)
     # From loads so light that what is not linear in them is below the splines' own error.
     load = np.exp(np.linspace(math.log(1e-3 * loads[1]), math.log(loads[-1]), _KNOTS))
-    exact = answer(pads, equilibrium(pads, load))
+    centre = places[:1]
     if are_concentric(pads):
-        least = NEXT_TO_NONE * loads[1:2]
-        none = answer(pads, _newton(pads, least, NEXT_TO_NONE * places[1:2]))
-        none = replace(none, stiffness=half_whirl(none.damping))
-    else:
-        none = answer(pads, places[:1])
-    K = np.concatenate([none.stiffness, exact.stiffness])
-    C = np.concatenate([none.damping, exact.damping])
-    return CoefficientSplines.through(load, K, C, scale=20.0 * loads[1])
+        centre = _newton(pads, NEXT_TO_NONE * loads[1:2], NEXT_TO_NONE * places[1:2])
+    position = np.concatenate([centre, equilibrium(pads, load)])
+    found = answer(pads, position)
+    if are_concentric(pads):
+        found.stiffness[0] = half_whirl(found.damping[0])
+    return load, found, shear(pads, position)
 
 
 @functools.lru_cache(maxsize=256)

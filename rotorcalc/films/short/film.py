@@ -94,6 +94,8 @@ class ShortFilm:
     sommerfeld_range: tuple[float, float] = field(
         default=(_WHIRLS_ABOVE, _CENTRED_ABOVE), init=False
     )
+    # Where 1 − ε, which goes as σ^½, nears a float's rounding of ε.
+    least_sommerfeld: float = field(default=1e-30, init=False)
 
     @property
     def sources(self) -> Mapping[str, Source]:
@@ -131,7 +133,7 @@ class ShortFilm:
             stiffness=xy_stiffness(eps, s2, *units),
             damping=xy_damping(eps, s2, *units),
             side_flow=side_flow(eps),
-            drag=drag(eps, length_to_radius=self.bearing.length / self.bearing.radius),
+            drag=self._drag(eps),
             peak_pressure=pressure(eps, peak),
             peak_angle=phi + np.pi + peak,  # θ = 0 lies at Θ = φ + π
         )
@@ -146,6 +148,14 @@ class ShortFilm:
             damping=xy_damping(eps, s2, *units),
             inertia=NO_INERTIA,
         )
+
+    def drag_and_flow(self, points: OperatingPoints) -> tuple[Array, Array]:
+        """Return drag and side flow only."""
+        eps = _eccentricity(points)
+        return self._drag(eps), side_flow(eps)
+
+    def _drag(self, eps: Array) -> Array:
+        return drag(eps, length_to_radius=self.bearing.length / self.bearing.radius)
 
     def field(self, points: OperatingPoints, *, angle: ArrayLike, zeta: ArrayLike) -> FilmField:
         """Return thickness and pressure in static equilibrium.
