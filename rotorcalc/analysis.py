@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotorcalc import modes
+from rotorcalc import heat, modes
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import dynamics, equilibrium
@@ -43,6 +43,12 @@ class Sweep(Result):
         The machine.
     speed : array, (n,)
         Running speed, Ω [rad/s].
+    temperature : array, (n,)
+        Of the film, T [°C].
+    outlet_temperature : array, (n,)
+        Of the oil that leaves, T_out [°C]; NaN where the film's temperature is given.
+    viscosity : array, (n,)
+        Of the oil in the film, μ [Pa·s].
     sommerfeld : array, (n,)
         Modified Sommerfeld number, σ [-] (Eq. 5.8); infinite without load.
     journal_position : array, (n, 2)
@@ -83,6 +89,9 @@ class Sweep(Result):
 
     machine: Machine
     speed: Array
+    temperature: Array
+    outlet_temperature: Array
+    viscosity: Array
     sommerfeld: Array
     journal_position: Array
     eccentricity_ratio: Array
@@ -218,6 +227,7 @@ def analyse(machine: Machine, speed: ArrayLike) -> Sweep:
     rotor = machine.rotor
     state = equilibrium(machine, speed)
     K, C, film = state.stiffness, state.damping, state.film
+    T = heat.film_temperature(machine, state.speed)
     # K and ΩC share the unit N/m, so k_eq is K_eq and p_s² is M_c Ω².
     onset = whirl_onset(K, C * state.speed[..., None, None])
     K_eq = onset.equivalent_stiffness
@@ -227,6 +237,9 @@ def analyse(machine: Machine, speed: ArrayLike) -> Sweep:
     return Sweep(
         machine=machine,
         speed=state.speed,
+        temperature=T,
+        outlet_temperature=heat.outlet_temperature(machine, state.power_loss, state.side_flow),
+        viscosity=machine.oil.viscosity(T),
         sommerfeld=film.sommerfeld,
         journal_position=film.position * machine.bearing.radial_clearance,
         eccentricity_ratio=film.eccentricity_ratio,

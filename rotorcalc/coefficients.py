@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from rotorcalc import heat
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, real_array
 from rotorcalc.display import Result
@@ -185,12 +186,13 @@ def equilibrium(machine: Machine, speed: ArrayLike) -> Equilibrium:
     Raises
     ------
     ValueError
-        Where a speed is not positive and finite.
+        Where a speed is not positive and finite, or the film has no temperature there
+        (`heat.film_temperature`).
     """
     speed = checked_speed(speed)
-    bearing = machine.bearing
-    units = FilmUnits(bearing, machine.viscosity, speed)
-    film = film_of(bearing).state(_points(machine, speed))
+    bearing, points = machine.bearing, _points(machine, speed)
+    units = FilmUnits(bearing, points.viscosity, speed)
+    film = film_of(bearing).state(points)
     drag_torque = film.drag * units.torque
     with np.errstate(divide="ignore"):  # f = ∞ without load
         friction = drag_torque / (bearing.radius * np.float64(machine.static_load))
@@ -327,7 +329,7 @@ def film_field(
         theta=theta,
         axial_position=zeta * bearing.length,
         thickness=middle.thickness * bearing.radial_clearance,
-        pressure=field.pressure * FilmUnits(bearing, machine.viscosity, points.speed).pressure,
+        pressure=field.pressure * FilmUnits(bearing, points.viscosity, points.speed).pressure,
         cavitated=middle.cavitated,
         # The load points along X, Θ = 0.
         load_theta=np.mod(-opposite, 2.0 * np.pi),
@@ -361,7 +363,7 @@ def middle_pressure(machine: Machine, speed: ArrayLike, *, angle: ArrayLike) -> 
     omega = np.atleast_1d(real_array("speed", speed))[:, None]
     points = operating_points(machine, omega)
     field = film_of(machine.bearing).field(points, angle=real_array("angle", angle), zeta=0.0)
-    unit = FilmUnits(machine.bearing, machine.viscosity, points.speed).pressure
+    unit = FilmUnits(machine.bearing, points.viscosity, points.speed).pressure
     return field.pressure * unit
 
 
@@ -388,7 +390,8 @@ def film_forces(machine: Machine, speed: ArrayLike, *, sommerfeld: ArrayLike) ->
     ValueError
         Where a speed is not positive and finite or σ is not positive.
     """
-    mu, omega = machine.viscosity, checked_speed(speed)
+    omega = checked_speed(speed)
+    mu = heat.viscosity(machine, omega)
     film = film_state(machine.bearing, sommerfeld, viscosity=mu, speed=omega)
     unit = FilmUnits(machine.bearing, mu, omega).force
     # Eq. 5.5; the unit has one value for each speed, the force two components.
@@ -430,9 +433,7 @@ def added_mass(machine: Machine, speed: ArrayLike, *, factor: float = LAMINAR) -
     state = equilibrium(machine, speed)
     bearing = machine.bearing
     # α_m ρRL³/(12C), independent of viscosity and speed.
-    unit = factor * FilmUnits(bearing, machine.viscosity, state.speed).added_mass(
-        machine.oil.density
-    )
+    unit = factor * FilmUnits(bearing, 1.0, 1.0).added_mass(machine.oil.density)
     M = unit * film_of(bearing).added_mass(operating_points(machine, speed))
     return AddedMass(
         speed=state.speed,
@@ -467,7 +468,8 @@ def unloading(machine: Machine, speed: float, *, sommerfeld: ArrayLike) -> Unloa
     ValueError
         Where the speed is not positive and finite or σ is not positive.
     """
-    mu, omega = machine.viscosity, float(checked_speed(speed))
+    omega = float(checked_speed(speed))
+    mu = heat.viscosity(machine, omega)
     film = film_state(machine.bearing, sommerfeld, viscosity=mu, speed=omega)
     units = FilmUnits(machine.bearing, mu, omega)
     return Unloading(
@@ -530,15 +532,15 @@ def checked_speed(speed: ArrayLike) -> Array:
 
 def _points(machine: Machine, speed: Array) -> OperatingPoints:
     """Return the operating points of a machine's film at checked speeds."""
-    return OperatingPoints.of(
-        machine.bearing, viscosity=machine.viscosity, speed=speed, load=machine.static_load
-    )
+    mu = heat.viscosity(machine, speed)
+    return OperatingPoints.of(machine.bearing, viscosity=mu, speed=speed, load=machine.static_load)
 
 
 def _dynamics(machine: Machine, speed: Array) -> FilmDynamics:
     """Return the film's linear forces at checked speeds."""
-    units = FilmUnits(machine.bearing, machine.viscosity, speed)
-    found = film_of(machine.bearing).dynamics(_points(machine, speed))
+    points = _points(machine, speed)
+    units = FilmUnits(machine.bearing, points.viscosity, speed)
+    found = film_of(machine.bearing).dynamics(points)
     return FilmDynamics(
         stiffness=_matrices(found.stiffness, units.stiffness),
         damping=_matrices(found.damping, units.damping),

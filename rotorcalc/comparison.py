@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rotorcalc import modes
+from rotorcalc import heat, modes
 from rotorcalc.analysis import Sweep, analyse
 from rotorcalc.arguments import checked
 from rotorcalc.coefficients import checked_speed, equilibrium
@@ -73,6 +73,8 @@ class BearingResult(Result):
         Of one bearing [W].
     side_flow : float
         Of one bearing, both ends [m³/s].
+    temperature : float
+        Temperature of the film [°C], with a supply by each bearing's own balance of heat.
     peak_response : float
         Largest peak of the disk's orbit, its semi-major axis, at speeds up to 1.5 times the running
         speed [m]; NaN where there is no peak.
@@ -91,6 +93,7 @@ class BearingResult(Result):
     eccentricity_ratio: float = math.nan
     power_loss: float = math.nan
     side_flow: float = math.nan
+    temperature: float = math.nan
     peak_response: float = math.nan
     peak_speed: float = math.nan
 
@@ -183,6 +186,7 @@ def bearing_result(machine: Machine, speed: float) -> BearingResult:
         eccentricity_ratio=float(sweep.eccentricity_ratio),
         power_loss=float(sweep.power_loss),
         side_flow=float(sweep.side_flow),
+        temperature=float(sweep.temperature),
         peak_response=peak,
         peak_speed=at,
     )
@@ -199,6 +203,8 @@ def _largest_peak(machine: Machine, speed: float) -> tuple[float, float]:
     """Return size and speed of the largest peak of the disk's orbit, NaN where there is none."""
     top = _TOP * speed
     speeds = np.linspace(top / _SPEEDS, top, _SPEEDS)
+    if machine.supply is not None:
+        speeds = speeds[heat.has_film(machine, speeds)]
     carried = from_first_answer(lambda some: equilibrium(machine, some).speed, speeds)
     found = response_peaks(machine, carried)
     if not found.amplitude.size:

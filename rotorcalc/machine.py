@@ -27,11 +27,18 @@ _PLAIN = Plain()
 # Largest C/R accepted. Bearings have 0.0005 to 0.005, and Reynolds' equation assumes a film thin
 # against the radius; a larger ratio is nearly always a clearance in the wrong unit.
 _WIDEST = 0.1
+# The range of the charts of ASTM D341 [°C]: outside it no law of an oil's viscosity means anything.
+COLDEST, HOTTEST = -70.0, 370.0
 
 
 @dataclass(frozen=True, kw_only=True)
 class Oil(Record):
-    """A lubricant whose viscosity falls exponentially with temperature.
+    """A lubricant whose viscosity falls with temperature by one of two laws.
+
+    Both laws have the viscosity μ_R and the slope α = −d ln μ/dT at the reference temperature. The
+    exponential law keeps that slope everywhere. Walther's law, log10 log10(ν + 0.7) = A − B log10 T
+    with the kinematic viscosity ν in mm²/s and T in kelvin (ASTM D341), flattens as mineral oils
+    do: the oil stays thicker when hot.
 
     Parameters
     ----------
@@ -40,15 +47,20 @@ class Oil(Record):
     reference_temperature : float
         Reference temperature, T_R [°C].
     temperature_coefficient : float
-        Viscosity-temperature coefficient, α [1/°C], zero or more.
+        Viscosity-temperature coefficient at the reference temperature, α [1/°C], zero or more.
     density : float
-        Density, ρ [kg/m³]. It enters the film's Reynolds number and its added mass, nothing
-        else; the default is that of a mineral turbine oil.
+        Density, ρ [kg/m³]. It enters the film's Reynolds number, its added mass, the heat that the
+        oil carries and ν = μ/ρ of Walther's law; the default is that of a mineral turbine oil.
+    heat_capacity : float
+        Specific heat capacity, c [J/(kg·K)]; the default is that of a mineral oil near 50 °C.
+    law : str
+        "exponential" or "walther".
 
     Raises
     ------
     ValueError
-        Naming the field, its value and its bound.
+        Naming the field, its value and its bound; also where Walther's law does not apply, at a
+        kinematic viscosity of 0.3 mm²/s or less.
     """
 
     reference_viscosity: Annotated[float, Bound("Pa·s", above=0.0)]
@@ -56,9 +68,34 @@ class Oil(Record):
     reference_temperature: Annotated[float, Bound("°C", at_least=-zero_Celsius)]
     temperature_coefficient: Annotated[float, Bound("1/°C", at_least=0.0)]
     density: Annotated[float, Bound("kg/m³", above=0.0)] = 860.0
+    heat_capacity: Annotated[float, Bound("J/(kg·K)", above=0.0)] = 2000.0
+    law: Annotated[str, Choice(("exponential", "walther"))] = "exponential"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        # log10(ν + 0.7) must have a logarithm, and T one too.
+        if self.law == "walther" and not (
+            self._shifted > 1.0 and self.reference_temperature > -zero_Celsius
+        ):
+            raise ValueError(
+                f"reference_viscosity = {self.reference_viscosity:g} Pa·s at "
+                f"{self.reference_temperature:g} °C: Walther's law needs a kinematic viscosity "
+                "above 0.3 mm²/s and a temperature above absolute zero"
+            )
+
+    @property
+    def _shifted(self) -> float:
+        """ν + 0.7 of Walther's law at the reference temperature, ν in mm²/s."""
+        return self.reference_viscosity / self.density * 1e6 + 0.7
+
+    @property
+    def _steepness(self) -> float:
+        """B of Walther's law, from α = (ν + 0.7) ln(ν + 0.7) B/(ν T)."""
+        z, T = self._shifted, self.reference_temperature + zero_Celsius
+        return self.temperature_coefficient * (z - 0.7) * T / (z * math.log(z))
 
     def viscosity(self, temperature: ArrayLike) -> Array:
-        """Return the viscosity, μ = μ_R exp(−α(T − T_R)) (calculation sheet of the notes).
+        """Return the viscosity, by default μ = μ_R exp(−α(T − T_R)) (sheet of the notes).
 
         Parameters
         ----------
@@ -90,8 +127,107 @@ class Oil(Record):
             raise ValueError(
                 f"temperature = {shown(temperature)} °C: below absolute zero, {-zero_Celsius} °C"
             )
+        if self.law == "walther":
+            ratio = (T + zero_Celsius) / (self.reference_temperature + zero_Celsius)
+            # The law over its value at T_R: ln(ν + 0.7) goes as T^−B.
+            with np.errstate(divide="ignore"):  # infinite at absolute zero
+                z = np.exp(math.log(self._shifted) * ratio**-self._steepness)
+            return np.asarray((z - 0.7) * 1e-6 * self.density)
         rise = T - self.reference_temperature
         return self.reference_viscosity * np.exp(-self.temperature_coefficient * rise)
+
+    def thinning(self, temperature: ArrayLike) -> Array:
+        """Return the relative slope of the viscosity, −d ln μ/dT.
+
+        Parameters
+        ----------
+        temperature : array_like, (...)
+            Temperature, T [°C].
+
+        Returns
+        -------
+        array, (...)
+            [1/°C]; α at the reference temperature, and everywhere by the exponential law.
+
+        Raises
+        ------
+        ValueError
+            As `viscosity` does.
+        """
+        mu = self.viscosity(temperature)
+        if self.law == "exponential":
+            return np.full(mu.shape, self.temperature_coefficient)
+        nu = mu / self.density * 1e6
+        T = real_array("temperature", temperature) + zero_Celsius
+        return (nu + 0.7) * np.log(nu + 0.7) * self._steepness / (nu * T)
+
+    def temperature(self, viscosity: ArrayLike) -> Array:
+        """Return the temperature at which the oil has a viscosity.
+
+        Parameters
+        ----------
+        viscosity : array_like, (...)
+            Viscosity, μ [Pa·s], zero or more.
+
+        Returns
+        -------
+        array, (...)
+            Temperature, T [°C]; infinite where the law never falls to that viscosity.
+        """
+        mu = real_array("viscosity", viscosity)
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            T = self._at(mu)
+        # With α = 0 any temperature gives the viscosity, or none.
+        return np.where(mu >= 0.0, np.where(np.isnan(T), np.inf, T), np.nan)
+
+    def _at(self, mu: Array) -> Array:
+        """Return the temperature of viscosities; NaN for 0/0, where α = 0."""
+        if self.law == "walther":
+            ln_z = np.log(np.maximum(mu / self.density * 1e6 + 0.7, 1.0))
+            ratio = (math.log(self._shifted) / ln_z) ** (1.0 / np.float64(self._steepness))
+            return (self.reference_temperature + zero_Celsius) * ratio - zero_Celsius
+        thinner = np.log(self.reference_viscosity / mu)
+        return self.reference_temperature + thinner / np.float64(self.temperature_coefficient)
+
+    @property
+    def volumetric_heat(self) -> float:
+        """Heat that a volume takes up, ρc [J/(m³·K)]."""
+        return self.density * self.heat_capacity
+
+
+@dataclass(frozen=True, kw_only=True)
+class Supply(Record):
+    """The oil supplied to a bearing: with the film's loss it sets the film's temperature (`heat`).
+
+    Parameters
+    ----------
+    temperature : float
+        Temperature of the oil supplied, T_in [°C].
+    flow : float
+        What passes one bearing's grooves besides the side flow of its film [m³/s], zero or more.
+    heat_share : float
+        Share of the loss that the oil carries away [-], 0 to 1; the rest leaves by shaft and
+        housing.
+
+    Raises
+    ------
+    ValueError
+        Naming the field, its value and its bound.
+    """
+
+    temperature: Annotated[float, Bound("°C", at_least=COLDEST)]
+    flow: Annotated[float, Bound("m³/s", at_least=0.0)] = 0.0
+    heat_share: Annotated[float, Bound("-", at_least=0.0)] = 1.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.temperature > HOTTEST:
+            raise ValueError(
+                f"temperature = {self.temperature:g} °C: must be at most {HOTTEST:g} °C, where "
+                "the charts of ASTM D341 for the viscosity of oils end"
+            )
+        if self.heat_share > 1.0:
+            raise ValueError(f"heat_share = {self.heat_share:g} -: must be at most 1")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -228,37 +364,66 @@ class Machine(Record):
         Either of the two bearings.
     rotor : Rotor
         The rotor.
-    temperature : float
-        Temperature of the film, T [°C].
+    temperature : float or None
+        Temperature of the film, T [°C], the same at every speed; None with a supply.
     load : float or None
         Static load per bearing, F_o [N], zero or more; None for half the rotor's weight.
+    supply : Supply or None
+        The oil supplied to each bearing, in place of the film's temperature: that then follows at
+        each speed from the balance of heat (`heat`).
 
     Raises
     ------
     ValueError
-        Naming the field, its value and its bound; also where the temperature leaves the oil with
-        no finite viscosity.
+        Naming the field, its value and its bound; also where both or neither of temperature and
+        supply are given, or the temperature leaves the oil with no finite viscosity.
     """
 
     oil: Oil
     bearing: JournalBearing
     rotor: Rotor
-    temperature: Annotated[float, Bound("°C", at_least=-zero_Celsius)]
+    temperature: Annotated[float | None, Bound("°C", at_least=-zero_Celsius)] = None
     load: Annotated[float | None, Bound("N", at_least=0.0)] = None
+    supply: Supply | None = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        if self.temperature is None and self.supply is None:
+            raise ValueError(
+                "temperature = None: must be a number in °C, or a supply be given from which the "
+                "film's temperature follows"
+            )
+        if self.temperature is not None and self.supply is not None:
+            raise ValueError(
+                f"temperature = {self.temperature:g} °C beside a supply: the film's temperature "
+                "is either given or follows from the supply; leave out one of them"
+            )
+        field = "temperature" if self.supply is None else "supply.temperature"
+        coldest = cast(
+            "float", self.temperature if self.supply is None else self.supply.temperature
+        )
         with np.errstate(over="ignore", under="ignore"):  # 0 and inf are refused in words below
-            viscosity = self.viscosity
+            viscosity = float(self.oil.viscosity(coldest))
         if not 0.0 < viscosity < math.inf:
             raise ValueError(
-                f"temperature = {self.temperature!r} °C: gives the oil a viscosity of "
+                f"{field} = {coldest!r} °C: gives the oil a viscosity of "
                 f"{viscosity} Pa·s, must be positive and finite"
             )
 
     @cached_property
     def viscosity(self) -> float:
-        """Viscosity of the oil in the film, μ [Pa·s]."""
+        """Viscosity of the oil at the film's given temperature, μ [Pa·s].
+
+        Raises
+        ------
+        ValueError
+            With a supply, where it follows at each speed: `heat.viscosity`.
+        """
+        if self.temperature is None:
+            raise ValueError(
+                "machine: its film's temperature follows from the supply at each speed, and so "
+                "does the viscosity; see heat.viscosity(machine, speed) or Sweep.viscosity"
+            )
         return float(self.oil.viscosity(self.temperature))
 
     @property

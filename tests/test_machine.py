@@ -454,7 +454,9 @@ def test_json_may_be_bytes_and_in_any_order():
 def test_a_missing_key_is_named(key):
     tree = document()
     del tree[key]
-    assert refusal(json.dumps(tree)) == f"{key}: missing"
+    message = refusal(json.dumps(tree))
+    # A supply may take the temperature's place, so what is wrong is that there is neither.
+    assert message.startswith("temperature = None" if key == "temperature" else f"{key}: missing")
 
 
 @pytest.mark.parametrize("part", ["oil", "bearing", "rotor"])
