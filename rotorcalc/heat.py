@@ -171,6 +171,32 @@ def has_film(machine: Machine, speed: ArrayLike) -> BoolArray:
 
 
 @checked
+def hottest_speed(machine: Machine) -> float:
+    """Return the highest speed at which a machine's film has a temperature.
+
+    Parameters
+    ----------
+    machine : Machine
+        A machine with a supply.
+
+    Returns
+    -------
+    float
+        Ω [rad/s], to 1e-4 of itself; infinite above 1e9, 0 where there is none.
+    """
+    speed = np.geomspace(1e-3, 1e9, 300)
+    for _ in range(3):
+        known = np.flatnonzero(has_film(machine, speed))
+        if not known.size:
+            return 0.0
+        last = int(known[-1])
+        if speed[last] >= 1e9:
+            return np.inf
+        speed = np.geomspace(speed[last], speed[min(last + 1, len(speed) - 1)], 40)
+    return float(speed[0])
+
+
+@checked
 def settled(machine: Machine, speed: float) -> Machine:
     """Return a machine with its film at the temperature of one speed.
 

@@ -13,7 +13,7 @@ from typing import Any, ParamSpec, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rotorcalc import modes
+from rotorcalc import heat, modes
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import stiffness_and_damping
 from rotorcalc.films import film_of
@@ -67,16 +67,7 @@ class ExactPolynomial:
 
     @many_digits
     def __init__(self, machine: Machine, flexible: bool) -> None:
-        bearing = machine.bearing
-        # `Decimal` takes over every bit of a float, not its rounded digits.
-        mu, D, L, C = map(
-            Decimal,
-            (machine.viscosity, bearing.diameter, bearing.length, bearing.radial_clearance),
-        )
-        R = D / 2
-        self._sommerfeld = mu * L * R / (4 * Decimal(machine.static_load)) * (L / C) ** 2
-        self._damping = mu * R * (L / C) ** 3
-        self._machine, self._is_short = machine, film_of(bearing).curve == "short"
+        self._machine, self._is_short = machine, film_of(machine.bearing).curve == "short"
         self._rotor = modes.rotor_terms(machine.rotor, flexible=flexible, number=Decimal)
 
     def margins(self, speeds: Array) -> Array:
@@ -100,28 +91,40 @@ class ExactPolynomial:
         change millions of times as fast as the speed. NaN where the film has no more digits.
         """
         before, here = Decimal(speed) * (1 + _ASIDE), Decimal(speed)
+        # At the viscosity of this speed: so near, the oil's own change is below a float's digits.
+        mu = self._viscosity(here)
         if not self._is_short:
             # A film known in floats only: more digits of its polynomial would be noise.
             return speed, math.nan
-        value = self._determinant(before)
+        value = self._determinant(before, mu)
         for _ in range(_SECANTS):
-            there = self._determinant(here)
+            there = self._determinant(here, mu)
             if there == value:  # both at rounding: a further secant would divide by zero
                 break
             before, here, value = here, here - there * (here - before) / (there - value), there
-        return float(here), float(routh.axis_frequency(self._at(here)))
+        return float(here), float(routh.axis_frequency(self._at(here, mu)))
 
     @many_digits
     def _ask(self, question: Callable[[NDArray[Any]], Array], speed: float) -> float:
         return float(question(self._at(Decimal(speed))))
 
-    def _determinant(self, speed: Decimal) -> Decimal:
-        return routh.exact_determinant(self._at(speed))
+    def _determinant(self, speed: Decimal, mu: Decimal) -> Decimal:
+        return routh.exact_determinant(self._at(speed, mu))
 
-    def _at(self, speed: Decimal) -> NDArray[np.object_]:
+    def _viscosity(self, speed: Decimal) -> Decimal:
+        # `Decimal` takes over every bit of a float, not its rounded digits.
+        return Decimal(float(heat.viscosity(self._machine, float(speed))))
+
+    def _at(self, speed: Decimal, mu: Decimal | None = None) -> NDArray[np.object_]:
+        machine = self._machine
         if not self._is_short:
-            K, C = stiffness_and_damping(self._machine, float(speed))
+            K, C = stiffness_and_damping(machine, float(speed))
             return modes.film_terms(_DECIMALS(K), _DECIMALS(C)) @ self._rotor
-        k, c = exact.coefficients(self._sommerfeld * speed)
-        film = modes.film_terms(k * (self._damping * speed), c * self._damping)
+        mu = self._viscosity(speed) if mu is None else mu
+        bearing = machine.bearing
+        D, L, C = map(Decimal, (bearing.diameter, bearing.length, bearing.radial_clearance))
+        damping = mu * D / 2 * (L / C) ** 3
+        # Eq. 5.8; the unit of damping times ΩC is that of force.
+        k, c = exact.coefficients(damping * C * speed / (4 * Decimal(machine.static_load)))
+        film = modes.film_terms(k * (damping * speed), c * damping)
         return film @ self._rotor

@@ -16,27 +16,25 @@ whole grids of machines are solved at once. For massless journals it is Eq. 5.50
 Source: San Andrés, Notes 5, Eqs. 5.8, 5.45, 5.46 and 5.50; journal mass by the same balance.
 """
 
-import functools
+import math
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 from scipy.optimize import elementwise
 
+from rotorcalc import heat
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
-from rotorcalc.films import FilmUnits, film_coefficients, film_of, film_state
-from rotorcalc.machine import JournalBearing, Machine
+from rotorcalc.films import FilmUnits, film_of, film_state
+from rotorcalc.machine import Machine
 from rotorcalc.numerics.roots import narrow_root
+from rotorcalc.onset.curves import SIGMA, curves, table
+from rotorcalc.onset.warming import warm_onset, warm_onsets
 from rotorcalc.onset.whirl import Onset, whirl_onset
 
 # The film whose two curves both rise with σ.
 _CURVE = "short"
-# k and c over σ are the same for all short bearings, so any dimensions serve.
-_ANY_BEARING = JournalBearing(diameter=1.0, length=1.0, radial_clearance=0.01)
-# Modified Sommerfeld numbers that bracket a root. Below them no film can whirl; above them it is
-# nearly centred, where both curves grow as σ². Forty per decade, refined by a root finder.
-_SIGMA = np.geomspace(1e-3, 1e3, 241)
 # Ω/σ [rad/s] up to which squares of speeds over masses and stiffnesses stay finite.
 _LARGEST = 1e140
 # Only the relative step ends the search, as σ spans many decades.
@@ -81,12 +79,22 @@ def closed_form_onset(machine: Machine, *, flexible: bool = True) -> Onset:
         raise ValueError("machine: has midspan damping or another film, so no closed form")
     if machine.static_load == 0.0:
         return Onset(speed=0.0, whirl_frequency=0.0, eccentricity_ratio=0.0, method="closed form")
+    if machine.supply is not None:
+        return _onset_at(machine, *warm_onset(machine, flexible=flexible))
     a, b, beta, speed_of = _numbers(machine, flexible)
     [low], [high] = _bracket(*(np.array([x]) for x in (a, b, beta)))
     sigma = narrow_root(lambda sigma: _excess(sigma, a, b, beta), low, high)
+    return _onset_at(machine, sigma, sigma * speed_of)
+
+
+def _onset_at(machine: Machine, sigma: float, speed: float) -> Onset:
+    if math.isinf(speed):
+        return Onset(
+            speed=speed, whirl_frequency=math.nan, eccentricity_ratio=math.nan,
+            method="closed form", searched_to=heat.hottest_speed(machine),
+        )  # fmt: skip
     # ω̄ from K and C in film units: the ratio does not depend on the unit.
     state = film_state(machine.bearing, sigma)
-    speed = sigma * speed_of
     ratio = float(whirl_onset(state.stiffness, state.damping).whirl_ratio)
     return Onset(
         speed=speed,
@@ -97,9 +105,12 @@ def closed_form_onset(machine: Machine, *, flexible: bool = True) -> Onset:
 
 
 def closed_onsets(machines: Sequence[Machine]) -> Array:
-    """Return the onsets of machines with one film model and a closed form."""
+    """Return the onsets of machines that the equation covers; NaN where `warm_onsets` leaves it."""
     speeds = np.zeros(len(machines))  # without load the onset is at speed 0
-    loaded = [i for i, machine in enumerate(machines) if machine.static_load > 0.0]
+    warm = [i for i, one in enumerate(machines) if one.supply is not None and one.static_load > 0.0]
+    if warm:
+        speeds[warm] = warm_onsets([machines[i] for i in warm])
+    loaded = [i for i, one in enumerate(machines) if one.supply is None and one.static_load > 0.0]
     if not loaded:
         return speeds
     a, b, beta, speed_of = np.array([_numbers(machines[i], True) for i in loaded]).T
@@ -133,13 +144,13 @@ def _numbers(machine: Machine, flexible: bool) -> tuple[float, float, float, flo
 
 def _bracket(a: Array, b: Array, beta: Array) -> tuple[Array, Array]:
     """Return σ below and above the root."""
-    rigid, flexible = _table()
-    table = excess_mass(a * rigid[:, None], b * flexible[:, None], beta)
-    first = np.argmax(table >= 0.0, axis=0)
-    beyond = table[-1] < 0.0  # the root lies where the film is centred and both curves grow as σ²
-    far = 2.0 * _SIGMA[-1] / np.sqrt(a * rigid[-1] + b * flexible[-1])  # A + B = 4 there
-    low = np.where(beyond, _SIGMA[-1], _SIGMA[np.maximum(first - 1, 0)])
-    return low, np.where(beyond, far, _SIGMA[first])
+    rigid, flexible = table()
+    excess = excess_mass(a * rigid[:, None], b * flexible[:, None], beta)
+    first = np.argmax(excess >= 0.0, axis=0)
+    beyond = excess[-1] < 0.0  # the root lies where the film is centred and both curves grow as σ²
+    far = 2.0 * SIGMA[-1] / np.sqrt(a * rigid[-1] + b * flexible[-1])  # A + B = 4 there
+    low = np.where(beyond, SIGMA[-1], SIGMA[np.maximum(first - 1, 0)])
+    return low, np.where(beyond, far, SIGMA[first])
 
 
 def excess_mass(A: Any, B: Any, beta: Any) -> Any:
@@ -152,16 +163,5 @@ def excess_mass(A: Any, B: Any, beta: Any) -> Any:
 
 
 def _excess(sigma: Any, a: Any, b: Any, beta: Any) -> Any:
-    rigid, flexible = _curves(sigma)
+    rigid, flexible = curves(sigma)
     return excess_mass(a * rigid, b * flexible, beta)
-
-
-@functools.cache
-def _table() -> tuple[Array, Array]:
-    return _curves(_SIGMA)
-
-
-def _curves(sigma: Array) -> tuple[Array, Array]:
-    """Return σ²/p_s² and (σω̄)²."""
-    onset = whirl_onset(*film_coefficients(_ANY_BEARING, sigma))  # p_s² in film units
-    return sigma / (4.0 * onset.critical_mass), (sigma * onset.whirl_ratio) ** 2

@@ -10,7 +10,7 @@ import itertools
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotorcalc import modes
+from rotorcalc import heat, modes
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.coefficients import checked_speed, rising_speed, stiffness_and_damping
@@ -95,13 +95,14 @@ def unstable_ranges(machine: Machine, speed: ArrayLike, *, onset: Onset | None =
     film = film_of(machine.bearing)
     if not film.can_whirl:
         return np.empty((0, 2))
-    if covers(machine):
-        # A and B rise with speed, so an undamped rotor stays unstable above its onset.
+    if covers(machine) and (machine.supply is None or machine.supply.flow == 0.0):
+        # A and B rise with speed, so an undamped rotor stays unstable above its onset. A flow
+        # through the grooves cools slow machines more: there σ may fall again as the speed rises.
         first = max((onset or closed_form_onset(machine)).speed, speeds[0])
         return np.array([[first, speeds[-1]]] if first < speeds[-1] else np.empty((0, 2)))
     searched = search_speeds(machine)
-    within = (searched > speeds[0]) & (searched < speeds[-1])
-    speeds = np.union1d(speeds, searched[within])
+    searched = searched[(searched > speeds[0]) & (searched < speeds[-1])]
+    speeds = np.union1d(speeds, searched[heat.has_film(machine, searched)])
 
     def margins(speed: Array) -> Array:
         if film.frequency_dependent:

@@ -98,7 +98,10 @@ def sure_onsets(machines: Sequence[Machine]) -> Array:
 def _curve(machine: Machine) -> Hashable:
     """Return the name of the curve over σ that a machine's film follows, None where it has none."""
     film = film_of(machine.bearing)
-    return film.curve if film.can_whirl and not film.frequency_dependent else None
+    # With a supply the film's viscosity has to be solved for at each speed of each machine.
+    if machine.supply is not None or film.frequency_dependent or not film.can_whirl:
+        return None
+    return film.curve
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,11 +14,11 @@ import numpy as np
 from numpy.polynomial.polynomial import polyval
 from scipy.optimize import brentq, minimize_scalar
 
-from rotorcalc import modes
+from rotorcalc import heat, modes
 from rotorcalc.arrays import Array
 from rotorcalc.coefficients import equilibrium, modified_sommerfeld, stiffness_and_damping
 from rotorcalc.films import film_coefficients, film_of, film_state
-from rotorcalc.machine import JournalBearing, Machine
+from rotorcalc.machine import HOTTEST, JournalBearing, Machine
 from rotorcalc.numerics import routh
 from rotorcalc.numerics.roots import narrow_root
 from rotorcalc.onset.characteristic import ExactPolynomial, polynomial
@@ -39,6 +39,8 @@ _INNER, _RISES = 10.0, 60
 _SURE = 1e-9
 # Rounding of Hurwitz's determinant, over its largest value between two speeds of the search.
 _NOISE = 1e-11
+# What counts as stable: a machine is not run where its film has no answer.
+_NO_FILM = -1.0
 # Newton's steps from an accurate first guess, and the distance from the axis at convergence.
 _REFINEMENTS, _ON_AXIS = 3, 1e-8
 
@@ -64,15 +66,38 @@ def searched_onset(machine: Machine, flexible: bool = True) -> Onset:
     speeds = search_speeds(machine, flexible)
     if film.frequency_dependent:
         found = _onset_by_growth(machine, flexible, speeds)
-        return replace(found, searched_to=float(speeds[-1]))
-    return _onset_by_polynomial(machine, flexible, speeds)
+        found = replace(found, searched_to=float(speeds[-1]))
+    else:
+        found = _onset_by_polynomial(machine, flexible, speeds)
+    if machine.supply is not None and math.isinf(found.speed):
+        # Beyond this speed the oil would be hotter than any law of its viscosity holds.
+        limit = heat.hottest_speed(machine)
+        found = replace(found, searched_to=min(found.searched_to, limit))
+    return found
+
+
+def _where_film(machine: Machine, values: Callable[[Array], Array]) -> Callable[[Array], Array]:
+    """Return a function of speeds that is `_NO_FILM` where a supply leaves the film no answer."""
+    if machine.supply is None:
+        return values
+
+    def masked(speeds: Array) -> Array:
+        there = heat.has_film(machine, speeds)
+        if there.all():
+            return values(speeds)
+        found = np.full(len(speeds), _NO_FILM)
+        if there.any():
+            found[there] = values(speeds[there])
+        return found
+
+    return masked
 
 
 def _onset_by_polynomial(machine: Machine, flexible: bool, speeds: Array) -> Onset:
     def most(speeds: Array) -> Array:
         return routh.margin_bounds(polynomial(machine, speeds, flexible))[1]
 
-    bracket = first_crossing(most, speeds)
+    bracket = first_crossing(_where_film(machine, most), speeds)
     if bracket is None:
         return _no_onset("polynomial")
     found = _in_floats(machine, flexible, *bracket)
@@ -83,7 +108,8 @@ def _onset_by_polynomial(machine: Machine, flexible: bool, speeds: Array) -> Ons
 
 def _onset_in_many_digits(machine: Machine, flexible: bool, speeds: Array) -> Onset:
     exact = ExactPolynomial(machine, flexible)
-    bracket = first_crossing(exact.margins, speeds, block=_EXACT_BLOCK)
+    margins = _where_film(machine, exact.margins)
+    bracket = first_crossing(margins, speeds, block=_EXACT_BLOCK)
     if bracket is None:
         return _no_onset("extended precision")
     found = (0.0, 0.0) if bracket[0] == 0.0 else _in_many_digits(exact, *bracket)
@@ -91,7 +117,8 @@ def _onset_in_many_digits(machine: Machine, flexible: bool, speeds: Array) -> On
 
 
 def _onset_by_growth(machine: Machine, flexible: bool, speeds: Array) -> Onset:
-    bracket = first_crossing(lambda speed: growth(machine, speed, flexible), speeds)
+    grows = _where_film(machine, lambda speed: growth(machine, speed, flexible))
+    bracket = first_crossing(grows, speeds)
     if bracket is None:
         return _no_onset("eigenvalues")
     found = (0.0, 0.0) if bracket[0] == 0.0 else growth_crossing(machine, flexible, *bracket)
@@ -261,7 +288,16 @@ def search_range(machine: Machine, flexible: bool = True) -> tuple[float, float,
     For a film with inner coordinates the upper end is not proved: it is ten times twice the bound
     on the rotor's own modes on the synchronous film (`_highest_onset`). An onset above the last of
     these speeds is not found.
+
+    With a supply the film's viscosity lies between those of the coldest oil and the hottest, and an
+    onset is one of the machine with that viscosity at every speed: both ranges together hold it.
     """
+    if machine.supply is not None:
+        cold, hot = (
+            search_range(replace(machine, temperature=T, supply=None), flexible)
+            for T in (machine.supply.temperature, HOTTEST)
+        )
+        return _range(min(cold[0], hot[0]), max(cold[1], hot[1]))
     unit = float(modified_sommerfeld(machine, 1.0))
     # σ is proportional to speed: `unit` is σ at 1 rad/s.
     lightest, centred = _whirl_range(machine.bearing)
@@ -271,6 +307,10 @@ def search_range(machine: Machine, flexible: bool = True) -> tuple[float, float,
     highest = 2.0 * _beyond_all_onsets(machine, centred, flexible)
     if film_of(machine.bearing).inner:  # modes of the film's own parts, beside the rotor's
         highest *= _INNER
+    return _range(lowest, highest)
+
+
+def _range(lowest: float, highest: float) -> tuple[float, float, int]:
     return lowest, highest, 1 + math.ceil(_POINTS_PER_DECADE * math.log10(highest / lowest))
 
 
