@@ -4,7 +4,7 @@ SI units throughout, temperature in °C. X points along the static load, Y at +9
 rotation. `analyse(machine, speed)` computes the whole chain; the modules hold its links.
 """
 
-from rotorcalc import coefficients, films, frames, modes, oils, stability, unbalance_response
+from rotorcalc import coefficients, films, frames, heat, modes, oils, stability, unbalance_response
 from rotorcalc.analysis import FilmCurves, Sweep, analyse, film_curves
 from rotorcalc.comparison import BearingResult, compare_bearings
 from rotorcalc.design import onset_map, sensitivities, solve_onset
@@ -18,7 +18,8 @@ from rotorcalc.geometry import (
     Plain,
     PressureDam,
 )
-from rotorcalc.machine import JournalBearing, Machine, Oil, Rotor
+from rotorcalc.heat import HeatBalance, heat_balance
+from rotorcalc.machine import JournalBearing, Machine, Oil, Rotor, Supply
 from rotorcalc.nonlinear import signals
 from rotorcalc.nonlinear.continuation import BifurcationError
 from rotorcalc.nonlinear.energy import EnergyBalance, energy_balance
@@ -48,6 +49,7 @@ __all__ = [
     "Elliptical",
     "EnergyBalance",
     "FilmCurves",
+    "HeatBalance",
     "Hopf",
     "JournalBearing",
     "Lobes",
@@ -64,6 +66,7 @@ __all__ = [
     "PressureDam",
     "Rotor",
     "Start",
+    "Supply",
     "Sweep",
     "Transient",
     "TransientError",
@@ -76,6 +79,8 @@ __all__ = [
     "film_curves",
     "films",
     "frames",
+    "heat",
+    "heat_balance",
     "hopf",
     "iso_oil",
     "measured_growth",

@@ -39,6 +39,8 @@ INPUTS = (
     "rotor.disk_damping",
     "rotor.journal_mass",
 )
+# In place of the film's temperature where that follows from the supply.
+SUPPLY_INPUTS = ("supply.temperature", "supply.flow", "oil.heat_capacity")
 # A share of a temperature in °C means nothing, as its zero is arbitrary: it is varied by degrees.
 TEMPERATURE_STEP = 5.0
 # A map that is not solved in one go reports its progress after each of 3 or 4 blocks of rows: fewer
@@ -157,7 +159,10 @@ def inputs_of(machine: Machine) -> tuple[str, ...]:
         "rotor.mass", …, "bearing.geometry.preload".
     """
     bore = (path for path in number_paths(machine) if path[:2] == ("bearing", "geometry"))
-    return (*INPUTS, *map(".".join, bore))
+    own = INPUTS
+    if machine.supply is not None:
+        own = (*(name for name in INPUTS if name != "temperature"), *SUPPLY_INPUTS)
+    return (*own, *map(".".join, bore))
 
 
 @checked

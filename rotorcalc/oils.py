@@ -1,16 +1,19 @@
-"""Oils: the ISO viscosity grades, and an oil law through two measured viscosities.
+"""Oils: the ISO viscosity grades, laws through two measured viscosities, density and heat.
 
-The machine's oil thins exponentially with temperature (`Oil`). Real oils follow Walther's law,
+An oil thins exponentially with temperature or by Walther's law (`Oil`). Real oils follow Walther's,
 log10 log10(ν + 0.7) = A − B log10 T with ν in mm²/s and T in kelvin (ASTM D341), so an exponential
 law fits a grade about one temperature only.
 """
 
 import math
+from typing import Literal
 
+from numpy.typing import ArrayLike
 from scipy.constants import convert_temperature
 
 from rotorcalc.arguments import checked
-from rotorcalc.machine import Oil
+from rotorcalc.arrays import Array, real_array
+from rotorcalc.machine import COLDEST, HOTTEST, Oil
 
 # Kinematic viscosity at 40 °C (ISO 3448) and at 100 °C [mm²/s], the latter of a mineral oil with a
 # viscosity index of 100 (ASTM D2270).
@@ -23,13 +26,15 @@ ISO_VG: dict[str, tuple[float, float]] = {
 # A round value for mineral oils [kg/m³]: it converts a grade's kinematic viscosity to the dynamic
 # one, and enters the film's Reynolds number.
 DENSITY = 860.0
-# The range of the charts of ASTM D341 [°C].
-_COLDEST, _HOTTEST = -70.0, 370.0
+# A usual density at 15 °C [kg/m³], with which that value holds near 50 °C.
+DENSITY_AT_15 = 880.0
 
 
 @checked
-def iso_oil(grade: str, *, temperature: float) -> Oil:
-    """Return the exponential law with a grade's viscosity and its slope at one temperature.
+def iso_oil(
+    grade: str, *, temperature: float, law: Literal["exponential", "walther"] = "exponential"
+) -> Oil:
+    """Return an oil with a grade's viscosity and its slope at one temperature.
 
     Parameters
     ----------
@@ -37,11 +42,14 @@ def iso_oil(grade: str, *, temperature: float) -> Oil:
         A key of `ISO_VG`.
     temperature : float
         Temperature at which law and grade agree, T [°C].
+    law : str
+        "exponential", or "walther", with which the oil is the grade at every temperature.
 
     Returns
     -------
     Oil
-        With this temperature as its reference; density 860 kg/m³.
+        With this temperature as its reference; density 860 kg/m³, heat capacity that at this
+        temperature.
 
     Raises
     ------
@@ -56,12 +64,13 @@ def iso_oil(grade: str, *, temperature: float) -> Oil:
     """
     if grade not in ISO_VG:
         raise ValueError(f"grade = {grade!r}: must be one of {', '.join(ISO_VG)}")
-    if not _COLDEST <= temperature <= _HOTTEST:
+    if not COLDEST <= temperature <= HOTTEST:
         raise ValueError(
-            f"temperature = {temperature} °C: must lie between {_COLDEST:g} and {_HOTTEST:g} °C, "
+            f"temperature = {temperature} °C: must lie between {COLDEST:g} and {HOTTEST:g} °C, "
             "where Walther's law holds"
         )
-    A, B = _walther(*ISO_VG[grade])
+    nu_40, nu_100 = ISO_VG[grade]
+    A, B = _walther((40.0, nu_40), (100.0, nu_100))
     T = _kelvin(temperature)
     shifted = 10.0**10.0 ** (A - B * math.log10(T))  # ν + 0.7
     nu = shifted - 0.7
@@ -71,14 +80,20 @@ def iso_oil(grade: str, *, temperature: float) -> Oil:
         # −d ln ν/dT, from d log10 log10(ν + 0.7) = −B d log10 T.
         temperature_coefficient=shifted * math.log(shifted) * B / (nu * T),
         density=DENSITY,
+        heat_capacity=float(heat_capacity(temperature)),
+        law=law,
     )
 
 
 @checked
 def fitted_oil(
-    *, temperatures: tuple[float, float], viscosities: tuple[float, float], density: float = DENSITY
+    *,
+    temperatures: tuple[float, float],
+    viscosities: tuple[float, float],
+    density: float = DENSITY,
+    law: Literal["exponential", "walther"] = "exponential",
 ) -> Oil:
-    """Return the exponential law through two viscosities, α = ln(μ_1/μ_2)/(T_2 − T_1).
+    """Return the law through two viscosities, the exponential by α = ln(μ_1/μ_2)/(T_2 − T_1).
 
     Parameters
     ----------
@@ -88,6 +103,9 @@ def fitted_oil(
         Viscosities there, μ_1 and μ_2 [Pa·s], positive, the warmer one the thinner.
     density : float
         Density, ρ [kg/m³].
+    law : str
+        "exponential" or "walther" (ASTM D341), the latter for kinematic viscosities above
+        0.3 mm²/s.
 
     Returns
     -------
@@ -111,19 +129,67 @@ def fitted_oil(
         raise ValueError(f"temperatures = {T_1} and {T_2} °C: must differ")
     if not (mu_1 > 0.0 and mu_2 > 0.0):
         raise ValueError(f"viscosities = {mu_1} and {mu_2} Pa·s: must be positive")
+    alpha = math.log(mu_1 / mu_2) / (T_2 - T_1)
+    if law == "walther":
+        nu_1, nu_2 = mu_1 / density * 1e6, mu_2 / density * 1e6
+        if min(nu_1, nu_2) <= 0.3:
+            raise ValueError(
+                f"viscosities = {mu_1:g} and {mu_2:g} Pa·s: Walther's law needs kinematic ones "
+                f"above 0.3 mm²/s, these are {nu_1:.3g} and {nu_2:.3g}"
+            )
+        _, B = _walther((T_1, nu_1), (T_2, nu_2))
+        alpha = (nu_1 + 0.7) * math.log(nu_1 + 0.7) * B / (nu_1 * _kelvin(T_1))
     return Oil(
         reference_viscosity=mu_1,
         reference_temperature=T_1,
-        temperature_coefficient=math.log(mu_1 / mu_2) / (T_2 - T_1),
+        temperature_coefficient=alpha,
         density=density,
+        law=law,
     )
 
 
-def _walther(nu_40: float, nu_100: float) -> tuple[float, float]:
-    """Return A and B of Walther's law through the viscosities at 40 and 100 °C."""
-    w_40, w_100 = (math.log10(math.log10(nu + 0.7)) for nu in (nu_40, nu_100))
-    B = (w_40 - w_100) / math.log10(_kelvin(100.0) / _kelvin(40.0))
-    return w_40 + B * math.log10(_kelvin(40.0)), B
+def density(temperature: ArrayLike, *, at_15: float = DENSITY_AT_15) -> Array:
+    """Return the density of a mineral oil, ρ = ρ_15 (1 − 65·10⁻⁵ (T − 15)).
+
+    Parameters
+    ----------
+    temperature : array_like, (...)
+        T [°C].
+    at_15 : float
+        Density at 15 °C, ρ_15 [kg/m³].
+
+    Returns
+    -------
+    array, (...)
+        ρ [kg/m³]. Source: DIN 51757, with the expansion usual for lubricating oils.
+    """
+    return at_15 * (1.0 - 65e-5 * (real_array("temperature", temperature) - 15.0))
+
+
+def heat_capacity(temperature: ArrayLike, *, at_15: float = DENSITY_AT_15) -> Array:
+    """Return the heat capacity of a mineral oil, c = (1683 + 3.39 T)/√(ρ_15/1000).
+
+    Parameters
+    ----------
+    temperature : array_like, (...)
+        T [°C].
+    at_15 : float
+        Density at 15 °C, ρ_15 [kg/m³].
+
+    Returns
+    -------
+    array, (...)
+        c [J/(kg·K)]. Source: Cragoe, Thermal Properties of Petroleum Products, Miscellaneous
+        Publication 97 of the Bureau of Standards, 1929: (0.402 + 0.00081 T)/√s cal/(g·°C).
+    """
+    return (1683.0 + 3.39 * real_array("temperature", temperature)) / math.sqrt(at_15 / 1000.0)
+
+
+def _walther(one: tuple[float, float], other: tuple[float, float]) -> tuple[float, float]:
+    """Return A and B of Walther's law through two pairs of temperature and viscosity [mm²/s]."""
+    (T_1, w_1), (T_2, w_2) = ((T, math.log10(math.log10(nu + 0.7))) for T, nu in (one, other))
+    B = (w_1 - w_2) / math.log10(_kelvin(T_2) / _kelvin(T_1))
+    return w_1 + B * math.log10(_kelvin(T_1)), B
 
 
 def _kelvin(temperature: float) -> float:

@@ -11,6 +11,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rotorcalc import heat
 from rotorcalc.analysis import Sweep
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
@@ -25,6 +26,8 @@ _LEVELS = np.array(["good", "caution", "outside"])
 ROUGHNESS = 1e-6
 # The name of the one check that depends on the imbalance.
 IMBALANCE_ORBIT = "Imbalance orbit over clearance"
+# The name of the check of heat: its value is a rise in K.
+HEAT = "Rise of the oil in the film, in K"
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +39,7 @@ class Check(Result):
     name : str
         The quantity checked, in words and by its symbol.
     value : array, (...)
-        The number compared with the limits [-].
+        The number compared with the limits [-]; of `HEAT` a rise [K].
     caution, limit : array, (...)
         Above `caution` the model is doubtful, above `limit` it fails; for a film thickness, below
         them [-].
@@ -80,14 +83,15 @@ def validity(sweep: Sweep) -> tuple[Check, ...]:
         Reynolds number of the film, ρΩRC/μ, against that at which Taylor's vortices appear,
         41.1√(R/C) (Taylor 1923), with turbulence at 2000; the smallest film against an assumed
         roughness of 1 µm, full film above 3 of it, and against the clearance; the journal's
-        imbalance orbit and the rotor's static sag against the clearance. Numbers and verdicts
-        have the shape (...).
+        imbalance orbit and the rotor's static sag against the clearance; the rise of the oil in
+        the film against that by which its viscosity halves (`HEAT`). Numbers and verdicts have the
+        shape (...).
     """
     machine = sweep.machine
     bearing = machine.bearing
     R, C = bearing.radius, bearing.radial_clearance
     film = sweep.minimum_film_thickness
-    reynolds = machine.oil.density * sweep.speed * R * C / machine.viscosity
+    reynolds = machine.oil.density * sweep.speed * R * C / sweep.viscosity
     # Taylor vortices appear at ρΩRC/μ = 41.1√(R/C), or turbulence at 2000 where that comes first.
     # The second limit governs where R/C > 2368.
     vortices = min(41.1 * math.sqrt(R / C), 2000.0)
@@ -107,7 +111,36 @@ def validity(sweep: Sweep) -> tuple[Check, ...]:
                "linear coefficients hold for small orbits; at the limit it touches the wall"),
         _above("Static sag over clearance, Γ/C", machine.static_sag / C * everywhere, 1.0, 10.0,
                "so flexible a shaft is inclined in its bearings, which the model assumes aligned"),
+        *_heat(sweep),
     )  # fmt: skip
+
+
+def _heat(sweep: Sweep) -> tuple[Check, ...]:
+    """Return the check of the oil's rise, and of the range of Walther's law where the oil has it.
+
+    One viscosity stands for the whole film: over the rise it falls by exp(α ΔT), α its slope at the
+    film's temperature. A given temperature may be right with any loss, if enough oil passes besides
+    the side flow, so it is doubtful at most.
+    """
+    machine, oil = sweep.machine, sweep.machine.oil
+    alpha = oil.thinning(sweep.temperature)
+    with np.errstate(divide="ignore"):  # a viscosity that does not fall is that of the whole film
+        half, tenth = np.log(2.0) / alpha, np.log(10.0) / alpha
+    if machine.supply is None:
+        rise = heat.lone_rise(machine, sweep.power_loss, sweep.side_flow)
+        found = _above(HEAT, rise, half, np.inf,
+                       "if the side flow alone carried the loss: the given temperature then needs "
+                       "more oil through the grooves")  # fmt: skip
+    else:
+        rise = sweep.outlet_temperature - machine.supply.temperature
+        found = _above(HEAT, rise, half, tenth,
+                       "the viscosity differs twofold and more from inlet to outlet, where the "
+                       "model takes one for the whole film")  # fmt: skip
+    if oil.law == "exponential":
+        return (found,)
+    nu = 1e6 * sweep.viscosity / oil.density
+    return found, _below("Kinematic viscosity, ν in mm²/s", nu, 2.0, 0.7,
+                         "below 2 mm²/s ASTM D341 adds terms to Walther's law")  # fmt: skip
 
 
 def _above(

@@ -100,6 +100,12 @@ def address(machine: Machine, field: str) -> tuple[str, ...]:
         Where there is no such input, or more than one of that name.
     """
     known = list(number_paths(machine))
+    if machine.supply is not None:
+        if field == "temperature":
+            raise ValueError(
+                "'temperature': the film's follows from the supply; vary 'supply.temperature'"
+            )
+        known.remove(("temperature",))
     wanted = tuple(field.split("."))
     # A full name wins over the end of another: "load" is the machine's, whatever a geometry has.
     found = [path for path in known if path == wanted]
@@ -141,5 +147,8 @@ def damping_reference(machine: Machine) -> float:
     rotor = machine.rotor
     if rotor.is_rigid:
         # The centred film's damping does not depend on speed: any speed will do.
-        return float(equilibrium(replace(machine, load=0.0), 1.0).damping[0, 0])
+        centred = replace(machine, load=0.0)
+        if machine.supply is not None:  # without load no oil may leave: the cold oil's, then
+            centred = replace(centred, temperature=machine.supply.temperature, supply=None)
+        return float(equilibrium(centred, 1.0).damping[0, 0])
     return 2.0 * math.sqrt(rotor.shaft_stiffness * rotor.disk_mass)

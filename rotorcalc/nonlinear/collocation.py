@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from rotorcalc import heat
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.films import FilmUnits, film_of, journal_motion
 from rotorcalc.machine import Machine
@@ -24,6 +25,8 @@ from rotorcalc.nonlinear.rotor_impedance import impedance
 
 # Step of a difference of the film's force, as a share of the distance to kink or wall; its bounds.
 _DIFFERENCE_SHARE, _SMALLEST_DIFFERENCE, _LARGEST_DIFFERENCE = 1e-3, 1e-11, 1e-6
+# Relative step of the difference of the film's unit by speed.
+_SPEED_STEP = 1e-4
 
 
 class Cycle(NamedTuple):
@@ -67,19 +70,18 @@ class Balance:
     def __init__(self, machine: Machine) -> None:
         bearing = machine.bearing
         self.machine, self.C = machine, bearing.radial_clearance
-        self.film_per_speed = float(FilmUnits(bearing, machine.viscosity, 1.0).force)
         self.force, self.wall = journal_motion(bearing).force, film_of(bearing).gap
 
     def residual(self, cycle: Cycle) -> tuple[Array, Array]:
         """Return the residual, (2m,), and its derivatives by `Cycle.vector()`, (2m, 2m + 2)."""
-        m, unit = len(cycle.path), self.film_per_speed * cycle.speed
+        m, unit = len(cycle.path), self.unit(cycle.speed)
         D = differentiation(m)
         velocity = cycle.ratio * (D @ cycle.path)
         film, by_place, by_velocity = self.film(cycle.path, velocity)
         # The unknowns are ln ω̄ and ln Ω, so that both stay positive.
         omega = cycle.ratio * cycle.speed
         rotor, by_log = self.rotor(omega, m)
-        scale = self.C / unit
+        scale, growth = self.C / unit, self._growth(cycle.speed)
         load = np.array([self.machine.static_load / unit, 0.0])
         # The module's balance over the film's unit of force; the load pulls along X.
         residual = film - scale * (rotor @ cycle.path) + load
@@ -93,8 +95,21 @@ class Balance:
             # By ln ω̄ velocity and rotor frequency grow; by ln Ω that frequency and the film's unit.
             stiffer = scale * (by_log @ cycle.path[:, i])
             jacobian[rows, -2] = np.sum(by_velocity[:, i] * velocity, axis=-1) - stiffer
-            jacobian[rows, -1] = scale * (rotor @ cycle.path[:, i]) - load[i] - stiffer
+            firmer = scale * (rotor @ cycle.path[:, i]) - load[i]
+            jacobian[rows, -1] = growth * firmer - stiffer
         return residual.T.ravel(), jacobian
+
+    def unit(self, speed: float) -> float:
+        """Return the film's unit of force at a speed, μΩRL³/C² [N]."""
+        mu = float(heat.viscosity(self.machine, speed))
+        return float(FilmUnits(self.machine.bearing, mu, speed).force)
+
+    def _growth(self, speed: float) -> float:
+        """Return the derivative of ln of that unit by ln Ω: 1 unless the film warms with speed."""
+        if self.machine.supply is None:
+            return 1.0
+        low, high = (self.unit(speed * (1.0 + step)) for step in (-_SPEED_STEP, _SPEED_STEP))
+        return math.log(high / low) / math.log((1.0 + _SPEED_STEP) / (1.0 - _SPEED_STEP))
 
     def rotor(self, omega: float, m: int) -> tuple[Array, Array]:
         """Return the rotor's impedance to the journal, and its derivative by ln ω, (m, m) [N/m]."""

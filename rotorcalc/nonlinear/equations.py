@@ -16,15 +16,18 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias, cast
 
 import numpy as np
+from numpy.polynomial import chebyshev
 from numpy.typing import ArrayLike
 from scipy.integrate import ODEintWarning, odeint
 
+from rotorcalc import heat
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, real_array, shown
 from rotorcalc.coefficients import operating_points
 from rotorcalc.display import Result
 from rotorcalc.films import FilmUnits, InnerMotion, film_of
 from rotorcalc.machine import Machine
+from rotorcalc.numerics.roots import clenshaw
 
 # The derivatives of a state at an angle of rotation.
 Motion: TypeAlias = Callable[[Array, float], list[float]]
@@ -33,6 +36,8 @@ Motion: TypeAlias = Callable[[Array, float], list[float]]
 _MOST_STEPS = 20_000
 # Works that `motion_and_works` adds to a state: of imbalance, film and damper.
 WORKS = 3
+# Speeds at which the film's temperature is solved for in a run-up.
+_TEMPERATURES = 24
 # The longest step [rad]: in equilibrium longer steps of high order amplify rounding errors far
 # beyond the tolerance before the error control notices.
 _LONGEST_STEP = 0.25
@@ -101,7 +106,9 @@ class Equations:
         self.mass = rotor.disk_mass if self.flexible else rotor.half_mass
         # Forces in units of M C Ω_0² with M the mass that they accelerate; the film's unit at Ω_0.
         unit = C * first**2
-        self.film_unit = float(FilmUnits(bearing, machine.viscosity, first).force)
+        mu = float(heat.viscosity(machine, first))
+        self.film_unit = float(FilmUnits(bearing, mu, first).force)
+        self.thinning = _thinning(machine, first, last)
         self.film = self.film_unit / (self.mass * unit)
         self.shaft = rotor.shaft_stiffness * C / (self.mass * unit) if self.flexible else 0.0
         self.damper = rotor.disk_damping / (self.mass * first)
@@ -114,7 +121,7 @@ class Equations:
         # The gap at which a motion ends, in C: at the wall, or where the film's force is not known.
         self.thinnest = 0.0
         if isinstance(film, InnerMotion):
-            film = self.inner = _Inner(film, model.inner, machine.viscosity)
+            film = self.inner = _Inner(film, model.inner, mu)
         else:
             self.thinnest = film.thinnest
         self.force, self.velocity = film.force, film.velocity
@@ -172,10 +179,12 @@ class Equations:
         The film takes velocities in the present CΩ, and returns derivatives by the angle.
         """
         first, drive, own, places = self.first, self._drive(), self.own_states, inner.places
+        coldest = inner.viscosity  # at the first speed
 
         def motion(state: Array, angle: float) -> list[float]:
-            _, _, nu = drive(angle)
-            inner.speed, states = first * nu, state[own:].tolist()
+            _, _, nu, strength = drive(angle)
+            inner.speed, inner.viscosity = first * nu, coldest * strength / nu
+            states = state[own:].tolist()
             inner.states = states[:places] + [velocity / nu for velocity in states[places:]]
             rates = plain(state[:own], angle)
             return [*rates, *inner.rates[:places], *(rate * nu for rate in inner.rates[places:])]
@@ -193,20 +202,21 @@ class Equations:
             return None
         return states[..., self.own_states :] * self._inner_units(self.inner)
 
-    def _drive(self) -> Callable[[float], tuple[float, float, float]]:
-        """Return imbalance force and speed ratio ν = Ω/Ω_0 over the angle."""
+    def _drive(self) -> Callable[[float], tuple[float, float, float, float]]:
+        """Return imbalance force, ν = Ω/Ω_0 and μΩ over that at Ω_0, over the angle."""
         u, twice = self.imbalance, 2.0 * self.acceleration / self.first**2
         spin = 0.5 * twice  # Ω̇/Ω_0²
-        cos, sin, sqrt = math.cos, math.sin, math.sqrt
+        cos, sin, sqrt, thinning = math.cos, math.sin, math.sqrt, self.thinning
 
-        def steady(angle: float) -> tuple[float, float, float]:
-            return u * cos(angle), u * sin(angle), 1.0
+        def steady(angle: float) -> tuple[float, float, float, float]:
+            return u * cos(angle), u * sin(angle), 1.0, 1.0
 
-        def drive(angle: float) -> tuple[float, float, float]:
+        def drive(angle: float) -> tuple[float, float, float, float]:
             # −d²(cos θ)/dt² = Ω² cos θ + Ω̇ sin θ and −d²(sin θ)/dt² = Ω² sin θ − Ω̇ cos θ.
             nu2 = 1.0 + twice * angle
-            c, s = cos(angle), sin(angle)
-            return u * (nu2 * c + spin * s), u * (nu2 * s - spin * c), sqrt(nu2)
+            c, s, nu = cos(angle), sin(angle), sqrt(nu2)
+            strength = nu if thinning is None else nu * thinning(nu)
+            return u * (nu2 * c + spin * s), u * (nu2 * s - spin * c), nu, strength
 
         return drive if twice else steady
 
@@ -218,9 +228,9 @@ class Equations:
         def motion(state: Array, angle: float) -> list[float]:
             # Plain floats: arithmetic on NumPy's scalars takes five times as long.
             x, y, vx, vy = state.tolist()
-            u_x, u_y, nu = drive(angle)
+            u_x, u_y, nu, strength = drive(angle)
             f_x, f_y = force(x, y, vx / nu, vy / nu)
-            scale = film * nu  # the film's unit of force grows with Ω
+            scale = film * strength  # the film's unit of force grows with μΩ
             # Eq. 5.1 over M C Ω_0², then over ν, as d/dθ is d/dt over Ω.
             a_x = scale * f_x - damper * vx + load + u_x
             a_y = scale * f_y - damper * vy + u_y
@@ -236,9 +246,9 @@ class Equations:
 
         def motion(state: Array, angle: float) -> list[float]:
             X, Y, vX, vY, x, y = state.tolist()
-            u_x, u_y, nu = drive(angle)
+            u_x, u_y, nu, strength = drive(angle)
             s_x, s_y = shaft * (X - x), shaft * (Y - y)
-            scale = film * nu
+            scale = film * strength
             # Film and shaft force balance; the film's velocities are already by the angle.
             vx, vy = velocity(x, y, -s_x / scale, -s_y / scale, near)
             a_x = -s_x - damper * vX + load + u_x
@@ -255,10 +265,10 @@ class Equations:
 
         def motion(state: Array, angle: float) -> list[float]:
             X, Y, vX, vY, x, y, vx, vy = state.tolist()
-            u_x, u_y, nu = drive(angle)
+            u_x, u_y, nu, strength = drive(angle)
             s_x, s_y = shaft * (X - x), shaft * (Y - y)
             f_x, f_y = force(x, y, vx / nu, vy / nu)
-            scale = film * nu
+            scale = film * strength
             a_x = -s_x - damper * vX + load + u_x
             a_y = -s_y - damper * vY + u_y
             # The journal's balance, M_j ẍ = K_rot(X − x) + F_film.
@@ -277,11 +287,11 @@ class Equations:
 
         def both(state: Array, angle: float) -> list[float]:
             rates = motion(state[:-WORKS], angle)
-            u_x, u_y, nu = drive(angle)
+            u_x, u_y, nu, strength = drive(angle)
             (dX, dY), (dx, dy) = rates[:2], rates[place : place + 2]  # velocities by the angle
             x, y = state[place : place + 2].tolist()
             f_x, f_y = force(x, y, dx, dy)
-            given, lost = u_x * dX + u_y * dY, -film * nu * (f_x * dx + f_y * dy)
+            given, lost = u_x * dX + u_y * dY, -film * strength * (f_x * dx + f_y * dy)
             return [*rates, given, lost, damper * nu * (dX * dX + dY * dY)]
 
         return both
@@ -300,6 +310,26 @@ class Equations:
         motion, nu = self.motion(), self.speed(angles) / self.first
         rates = [motion(state, angle) for state, angle in zip(states, angles, strict=True)]
         return np.array(rates)[:, 4:6] * nu[:, None] * unit
+
+
+def _thinning(machine: Machine, first: float, last: float) -> Callable[[float], float] | None:
+    """Return μ/μ_0 over ν = Ω/Ω_0, None where the viscosity stays.
+
+    The film is taken at the temperature of each moment's speed: heating takes a film turns of the
+    shaft, metal around it minutes, which is left out. A Chebyshev series over ln ν: plain floats.
+    """
+    if machine.supply is None or first == last:
+        return None
+    middle, half = 0.5 * math.log(last / first), 0.5 * math.log(last / first)
+    x = np.cos(np.pi * (np.arange(_TEMPERATURES) + 0.5) / _TEMPERATURES)
+    mu = np.log(np.asarray(heat.viscosity(machine, first * np.exp(middle + half * x))))
+    start = math.log(float(heat.viscosity(machine, first)))
+    series: list[float] = chebyshev.chebfit(x, mu - start, _TEMPERATURES - 1).tolist()
+
+    def thinning(nu: float) -> float:
+        return math.exp(clenshaw((math.log(nu) - middle) / half, series))
+
+    return thinning
 
 
 @checked

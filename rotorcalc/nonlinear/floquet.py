@@ -47,7 +47,7 @@ def _monodromy(balance: Balance, cycle: Cycle) -> Array:
     m = len(cycle.path)
     velocity = cycle.ratio * (differentiation(m) @ cycle.path)
     _, by_place, by_velocity = balance.film(cycle.path, velocity)
-    stiffness = balance.film_per_speed * cycle.speed / balance.C
+    stiffness = balance.unit(cycle.speed) / balance.C
     balanced = replace(balance.machine.rotor, imbalance=0.0)
     # K_ij = −∂F_i/∂X_j and C_ij = −∂F_i/∂Ẋ_j (Eq. 5.14), here at each point of the cycle.
     A = modes.state_matrix(balanced, -stiffness * by_place, -stiffness / cycle.speed * by_velocity)

@@ -32,6 +32,7 @@ from typing import NamedTuple, cast
 
 import numpy as np
 
+from rotorcalc import heat
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import equilibrium
@@ -218,7 +219,7 @@ def _lyapunov_terms(machine: Machine, speed: float, frequency: float, points: in
     Q = np.concatenate([q, swing * q])
     along = expansion.whirl(Q)
     # From the film's unit of force and clearances to N and m.
-    unit = float(FilmUnits(bearing, machine.viscosity, speed).stiffness)
+    unit = float(FilmUnits(bearing, heat.viscosity(machine, speed), speed).stiffness)
     steady, double = (_balance(machine, speed, harmonic * frequency) for harmonic in (0.0, 2.0))
     # Mean shift and second harmonic, the two equations of the module's docstring.
     h_0 = unit * cast("ComplexArray", np.linalg.solve(steady, along.QQ_))

@@ -49,10 +49,10 @@ def narrow_root(
     series = _TO_COEFFICIENTS @ values(middle + half * _NODES)
     if np.all(np.abs(series[-2:]) <= noise * np.abs(series).max()):
         of_series = (series.tolist(),)
-        ends = _clenshaw(-1.0, *of_series), _clenshaw(1.0, *of_series)
+        ends = clenshaw(-1.0, *of_series), clenshaw(1.0, *of_series)
         # A root within rounding of an end may lie outside the series' own signs.
         if min(ends) < 0.0 < max(ends):
-            place = brentq(_clenshaw, -1.0, 1.0, args=of_series, xtol=1e-15)
+            place = brentq(clenshaw, -1.0, 1.0, args=of_series, xtol=1e-15)
             return float(middle + half * place)
     # xtol only guards against zero: the root may be of any size, so rtol decides.
     return float(
@@ -60,7 +60,7 @@ def narrow_root(
     )
 
 
-def _clenshaw(x: float, series: list[float]) -> float:
+def clenshaw(x: float, series: list[float]) -> float:
     """Return a Chebyshev series at one point by Clenshaw's rule, ten times as fast as NumPy."""
     last = before = 0.0
     for coefficient in series[:0:-1]:
