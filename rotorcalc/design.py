@@ -49,6 +49,8 @@ _BLOCKS = 3
 # Values at which `solve_onset` scans the onset before it refines: in closed form, and without.
 # 200 machines in closed form take less time than 24 with midspan damping: 8 and 20 ms.
 _SCAN, _SLOW_SCAN = 200, 24
+# Relative differences of onsets that may be rounding.
+_ROUNDING = 1e-12
 # A root whose onset is farther from the target than this, relative, is a jump past the target.
 _HIT = 1e-6
 
@@ -401,8 +403,9 @@ def _with_extremes(
     before, here, after = onsets[:-2], onsets[1:-1], onsets[2:]
     # An infinite onset is no maximum that a search could refine.
     # ">" on one side and "≥" on the other, so that two equal values count as one extreme.
-    tops = np.flatnonzero((here > before) & (here >= after) & np.isfinite(here))
-    bottoms = np.flatnonzero((here < before) & (here <= after))
+    # Where the onset hardly depends on the input, rounding makes extremes of its own.
+    tops = np.flatnonzero((here > before * (1.0 + _ROUNDING)) & (here >= after) & np.isfinite(here))
+    bottoms = np.flatnonzero((here < before * (1.0 - _ROUNDING)) & (here <= after))
     extremes = [
         _extreme(onset, sign, float(values[i]), float(values[i + 2]))
         for sign, found in ((-1.0, tops), (1.0, bottoms))

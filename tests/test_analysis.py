@@ -73,7 +73,9 @@ def test_single_speeds_give_the_same_as_an_array():
                     np.poly(values / speed), rel=1e-9
                 )
             else:
-                assert together[name][i] == pytest.approx(values, rel=1e-11), name
+                # The outlet's temperature is not known where the film's is given.
+                same = pytest.approx(values, rel=1e-11, nan_ok=name == "outlet_temperature")
+                assert together[name][i] == same, name
 
 
 def test_integers_and_lists_are_speeds():
@@ -150,7 +152,9 @@ def test_for_a_rigid_shaft_the_flexible_fields_are_the_rigid_ones(changes):
 def test_without_load_every_field_is_a_number_or_its_limit(machine):
     sweep = analyse(replace(machine, load=0.0), np.linspace(10.0, 1500.0, 9))
     infinite = {"sommerfeld", "friction_coefficient"}
-    for name, values in arrays(sweep).items():
+    known = arrays(sweep)
+    assert np.all(np.isnan(known.pop("outlet_temperature")))  # the film's temperature is given
+    for name, values in known.items():
         assert np.all(np.isfinite(values)) == (name not in infinite), name
         assert not np.any(np.isnan(values)), name
     assert np.all(sweep.eccentricity_ratio == 0)

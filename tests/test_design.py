@@ -11,7 +11,7 @@ from scipy.optimize import minimize_scalar
 
 from rotorcalc import PRESETS, Machine, PressureDam, analyse, design, onset_speed, variation
 from rotorcalc.machine import JournalBearing, Oil, Rotor
-from rotorcalc.onset import closed_form
+from rotorcalc.onset import closed_form, curves
 from rotorcalc.onset.many import onset_speeds
 from tests.films.models import BEARINGS, Sprung
 
@@ -94,7 +94,7 @@ def test_a_machine_without_a_closed_form_raises_a_valueerror() -> None:
 
 def test_one_film_has_one_onset() -> None:
     """Both terms of the equation rise with σ, so it has one root whatever the static sag."""
-    for term in closed_form._table():
+    for term in curves.table():
         whirls = term > 0.0
         assert np.all(np.diff(term[whirls]) > 0.0)
         assert np.all(np.diff(whirls.astype(int)) >= 0)

@@ -174,6 +174,23 @@ def test_a_film_over_sigma_is_the_machines_own_at_its_speed(bearing):
 
 
 @ALL
+def test_drag_and_flow_alone_are_those_of_the_state(bearing):
+    film, at = film_of(bearing), points(bearing, SIGMA)
+    state, (drag, flow) = film.state(at), film.drag_and_flow(at)
+    assert np.array_equal(drag, state.drag, equal_nan=True)
+    assert np.array_equal(flow, state.side_flow, equal_nan=True)
+
+
+@ALL
+def test_a_film_says_below_which_load_number_it_has_no_answer(bearing):
+    film = film_of(bearing)
+    if film.least_sommerfeld > 0.0:
+        film.state(points(bearing, np.array([1.0001 * film.least_sommerfeld])))
+        with pytest.raises(ValueError, match="sommerfeld"):
+            film.state(points(bearing, np.array([0.5 * film.least_sommerfeld])))
+
+
+@ALL
 def test_without_load_position_and_coefficients_are_finite(bearing):
     sweep = analyse(machine_on(bearing, load=0.0), np.array([300.0, 600.0]))
     assert np.all(np.isfinite(sweep.journal_position))
