@@ -122,9 +122,9 @@ class ExactPolynomial:
             return modes.film_terms(_DECIMALS(K), _DECIMALS(C)) @ self._rotor
         mu = self._viscosity(speed) if mu is None else mu
         bearing = machine.bearing
-        D, L, C = map(Decimal, (bearing.diameter, bearing.length, bearing.radial_clearance))
-        damping = mu * D / 2 * (L / C) ** 3
+        D, L, gap = map(Decimal, (bearing.diameter, bearing.length, bearing.radial_clearance))
+        damping = mu * D / 2 * (L / gap) ** 3
         # Eq. 5.8; the unit of damping times ΩC is that of force.
-        k, c = exact.coefficients(damping * C * speed / (4 * Decimal(machine.static_load)))
+        k, c = exact.coefficients(damping * gap * speed / (4 * Decimal(machine.static_load)))
         film = modes.film_terms(k * (damping * speed), c * damping)
         return film @ self._rotor

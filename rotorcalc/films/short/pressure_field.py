@@ -5,7 +5,7 @@ from numpy.typing import ArrayLike
 
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, real_array
-from rotorcalc.films.short.static import below_one, checked_eccentricity, static_force
+from rotorcalc.films.short.static import below_one, checked_eccentricity
 
 
 def film_thickness(eps: ArrayLike, theta: ArrayLike) -> Array:
@@ -162,8 +162,9 @@ def drag(eps: ArrayLike, *, length_to_radius: float) -> Array:
         Where ε lies outside [0, 1).
     """
     eps, s2 = below_one(eps)
+    s = np.sqrt(s2)
     # ∫ dθ/H over the full circumference.
-    shear = 2.0 * np.pi / np.sqrt(s2)
-    # e·F_t is in CΩμRL³/C² = (L/R)² of the unit of torque.
-    couple = 0.5 * eps * static_force(eps)[..., 1]
+    shear = 2.0 * np.pi / s
+    # f_t of Eq. 5.5; e·F_t is in CΩμRL³/C² = (L/R)² of the unit of torque.
+    couple = 0.5 * eps * (np.pi * eps / (4.0 * s2 * s))
     return shear + couple * length_to_radius**2
