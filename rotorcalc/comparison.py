@@ -52,7 +52,7 @@ class BearingResult(Result):
     bearing : JournalBearing
         The bearing.
     temperature : float
-        Temperature of the film [°C].
+        Temperature of the film [°C]; with a supply by each bearing's own balance of heat.
     refusal : str
         Why its film has no answer at this speed and load; empty where it has one. Then numbers
         are NaN.
@@ -73,8 +73,6 @@ class BearingResult(Result):
         Of one bearing [W].
     side_flow : float
         Of one bearing, both ends [m³/s].
-    temperature : float
-        Temperature of the film [°C], with a supply by each bearing's own balance of heat.
     peak_response : float
         Largest peak of the disk's orbit, its semi-major axis, at speeds up to 1.5 times the running
         speed [m]; NaN where there is no peak.
@@ -93,7 +91,6 @@ class BearingResult(Result):
     eccentricity_ratio: float = math.nan
     power_loss: float = math.nan
     side_flow: float = math.nan
-    temperature: float = math.nan
     peak_response: float = math.nan
     peak_speed: float = math.nan
 
@@ -172,12 +169,13 @@ def bearing_result(machine: Machine, speed: float) -> BearingResult:
     try:
         sweep = analyse(machine, speed)
     except ValueError as error:
-        return BearingResult(machine.bearing, machine.temperature, refusal=str(error))
+        given = math.nan if machine.temperature is None else machine.temperature
+        return BearingResult(machine.bearing, given, refusal=str(error))
     onset = onset_speed(machine)
     peak, at = _largest_peak(machine, speed)
     return BearingResult(
         bearing=machine.bearing,
-        temperature=machine.temperature,
+        temperature=float(sweep.temperature),
         onset=onset.speed,
         margin=onset.speed / speed - 1.0,
         whirl_ratio=float(sweep.whirl_ratio),
@@ -186,7 +184,6 @@ def bearing_result(machine: Machine, speed: float) -> BearingResult:
         eccentricity_ratio=float(sweep.eccentricity_ratio),
         power_loss=float(sweep.power_loss),
         side_flow=float(sweep.side_flow),
-        temperature=float(sweep.temperature),
         peak_response=peak,
         peak_speed=at,
     )
