@@ -33,6 +33,16 @@ def real_array(name: str, values: ArrayLike, *, ends: tuple[int, ...] = ()) -> A
     return _numbers(name, values, "fiu", ends).astype(float, copy=False)
 
 
+def checked_speed(speed: ArrayLike) -> Array:
+    """Return speeds [rad/s] as an array, or raise ValueError unless all are positive and finite."""
+    speeds = real_array("speed", speed)
+    # A journal that does not turn draws in no film: at Ω = 0 no load is carried.
+    good = np.isfinite(speeds) & (speeds > 0.0)
+    if not good.all():
+        raise ValueError(f"speed = {speeds[~good].flat[0]} rad/s: must be positive and finite")
+    return speeds
+
+
 def complex_array(name: str, values: ArrayLike, *, ends: tuple[int, ...] = ()) -> ComplexArray:
     """Return `values` as an array of complex numbers, or raise ValueError as `real_array` does."""
     return _numbers(name, values, "fiuc", ends).astype(complex, copy=False)

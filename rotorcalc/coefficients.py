@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from rotorcalc import heat
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, real_array
+from rotorcalc.arrays import checked_speed as checked_speed  # noqa: PLC0414 - its known place
 from rotorcalc.display import Result
 from rotorcalc.films import (
     FilmDynamics,
@@ -517,16 +518,6 @@ def rising_speed(speed: ArrayLike, *, name: str = "speed") -> Array:
             f"{name}[{i + 1}] = {speeds[i + 1]:g} rad/s: must be greater than the speed before it, "
             f"{speeds[i]:g} rad/s"
         )
-    return speeds
-
-
-def checked_speed(speed: ArrayLike) -> Array:
-    """Return speeds [rad/s] as an array, or raise ValueError unless all are positive and finite."""
-    speeds = real_array("speed", speed)
-    # A journal that does not turn draws in no film: at Ω = 0 no load is carried.
-    good = np.isfinite(speeds) & (speeds > 0.0)
-    if not good.all():
-        raise ValueError(f"speed = {speeds[~good].flat[0]} rad/s: must be positive and finite")
     return speeds
 
 

@@ -26,7 +26,7 @@ from numpy.typing import ArrayLike
 from scipy.special import wrightomega
 
 from rotorcalc.arguments import checked
-from rotorcalc.arrays import Array, BoolArray, real_array
+from rotorcalc.arrays import Array, BoolArray, checked_speed, real_array
 from rotorcalc.display import Result
 from rotorcalc.films import FilmUnits, OperatingPoints, film_of
 from rotorcalc.machine import HOTTEST, Machine, Supply
@@ -113,7 +113,7 @@ def film_temperature(machine: Machine, speed: ArrayLike) -> Array:
         Where no balance exists: no oil leaves the film, the oil would be hotter than any law of its
         viscosity reaches, or so thin that the film does not carry the load.
     """
-    speeds = real_array("speed", speed)
+    speeds = checked_speed(speed)
     if machine.temperature is not None:
         return np.full(speeds.shape, machine.temperature)
     found = _temperatures(machine, speeds)
@@ -143,9 +143,10 @@ def viscosity(machine: Machine, speed: ArrayLike) -> Array | float:
     ValueError
         As `film_temperature` does.
     """
+    speeds = checked_speed(speed)
     if machine.temperature is not None:
         return machine.viscosity
-    return machine.oil.viscosity(film_temperature(machine, speed))
+    return machine.oil.viscosity(film_temperature(machine, speeds))
 
 
 @checked
@@ -164,7 +165,7 @@ def has_film(machine: Machine, speed: ArrayLike) -> BoolArray:
     boolean array, (...)
         False where `equilibrium` refuses the speed.
     """
-    speeds = real_array("speed", speed)
+    speeds = checked_speed(speed)
     if machine.temperature is not None:
         return np.asarray(machine.viscosity >= _thinnest(machine, speeds))
     return ~np.isnan(_temperatures(machine, speeds))
@@ -184,16 +185,17 @@ def hottest_speed(machine: Machine) -> float:
     float
         Ω [rad/s], to 1e-4 of itself; infinite above 1e9, 0 where there is none.
     """
-    speed: Array = np.geomspace(1e-3, 1e9, 300)
+    low, high, points = 1e-3, 1e9, 300
     for _ in range(3):
+        speed = np.geomspace(low, high, points)
         known = np.flatnonzero(has_film(machine, speed))
         if not known.size:
             return 0.0
         last = int(known[-1])
-        if speed[last] >= 1e9:
-            return np.inf
-        speed = np.geomspace(speed[last], speed[min(last + 1, len(speed) - 1)], 40)
-    return float(speed[0])
+        if last == points - 1:
+            return np.inf if high >= 1e9 else high
+        low, high, points = float(speed[last]), float(speed[last + 1]), 40
+    return low
 
 
 @checked
@@ -243,7 +245,7 @@ def heat_balance(machine: Machine, speed: ArrayLike) -> HeatBalance:
     ValueError
         As `film_temperature` does.
     """
-    speeds = real_array("speed", speed)
+    speeds = checked_speed(speed)
     T = film_temperature(machine, speeds)
     P, Q = _loss_and_flow(machine, speeds, T)
     out = outlet_temperature(machine, P, Q)
@@ -259,14 +261,14 @@ def heat_balance(machine: Machine, speed: ArrayLike) -> HeatBalance:
 
 
 @checked
-def outlet_temperature(machine: Machine, power_loss: Array, side_flow: Array) -> Array:
+def outlet_temperature(machine: Machine, power_loss: ArrayLike, side_flow: ArrayLike) -> Array:
     """Return the temperature of the oil that leaves, T_out = T_in + share·P/(ρc(Q + q)).
 
     Parameters
     ----------
     machine : Machine
         The machine.
-    power_loss, side_flow : array, (...)
+    power_loss, side_flow : array_like, (...)
         Loss P [W] and side flow Q [m³/s] of one bearing.
 
     Returns
@@ -274,10 +276,11 @@ def outlet_temperature(machine: Machine, power_loss: Array, side_flow: Array) ->
     array, (...)
         T_out [°C]; NaN where the film's temperature is given, and that of the supply unknown.
     """
+    P, Q = real_array("power_loss", power_loss), real_array("side_flow", side_flow)
     supply = machine.supply
     if supply is None:
-        return np.full(np.shape(power_loss), np.nan)
-    return supply.temperature + 2.0 * _half_rise(machine, supply, power_loss, side_flow)
+        return np.full(P.shape, np.nan)
+    return supply.temperature + 2.0 * _half_rise(machine, supply, P, Q)
 
 
 @checked
@@ -362,7 +365,7 @@ def flow_for_rise(machine: Machine, speed: ArrayLike, *, rise: float = USUAL_RIS
     """
     if not 0.0 < rise < np.inf:
         raise ValueError(f"rise = {rise} K: must be positive and finite")
-    speeds, supply = real_array("speed", speed), machine.supply
+    speeds, supply = checked_speed(speed), machine.supply
     share = 1.0 if supply is None else supply.heat_share
     T = machine.temperature if supply is None else supply.temperature + 0.5 * rise
     P, Q = _loss_and_flow(machine, speeds, np.full(speeds.shape, T))

@@ -148,6 +148,7 @@ def fitted_oil(
     )
 
 
+@checked
 def density(temperature: ArrayLike, *, at_15: float = DENSITY_AT_15) -> Array:
     """Return the density of a mineral oil, ρ = ρ_15 (1 − 65·10⁻⁵ (T − 15)).
 
@@ -166,6 +167,7 @@ def density(temperature: ArrayLike, *, at_15: float = DENSITY_AT_15) -> Array:
     return at_15 * (1.0 - 65e-5 * (real_array("temperature", temperature) - 15.0))
 
 
+@checked
 def heat_capacity(temperature: ArrayLike, *, at_15: float = DENSITY_AT_15) -> Array:
     """Return the heat capacity of a mineral oil, c = (1683 + 3.39 T)/√(ρ_15/1000).
 

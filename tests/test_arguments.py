@@ -3,6 +3,7 @@
 import inspect
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from types import ModuleType
 from typing import Any
 
@@ -16,6 +17,7 @@ from tests.machines import RPM, SHEET
 SPEEDS = np.linspace(1000, 12000, 12) * RPM
 SWEEP = rc.analyse(SHEET, SPEEDS)
 K, C = SWEEP.stiffness[5], SWEEP.damping[5]
+WARM = replace(SHEET, temperature=None, supply=rc.Supply(temperature=40.0))
 
 
 def functions_of(module: ModuleType) -> dict[str, Callable]:
@@ -55,13 +57,16 @@ GOOD: dict[str, Any] = {
     "revolutions": 5, "grade": "ISO VG 32", "temperature": 40.0, "temperatures": (40.0, 60.0),
     "viscosities": (0.02, 0.01), "values": {"load": 1e3}, "vary": "load", "target": 900.0,
     "low": 1e3, "high": 2e3, "xs": [1e3, 2e3], "ys": [0.1], "path": np.ones((300, 2)), "step": 0.1,
-    "dynamics": FilmDynamics, "frequency": 1.0,
+    "dynamics": FilmDynamics, "frequency": 1.0, "power_loss": 100.0, "side_flow": 1e-5,
 }  # fmt: skip
 # Where a name means something else.
 ITS_OWN: dict[str, dict[str, Any]] = {
     "onset_map": {"x": "load", "y": "temperature"},
     "response_peaks": {"speed": SPEEDS},
     "coefficients.rising_speed": {"speed": SPEEDS},
+    "heat.hottest_speed": {"machine": WARM},
+    "heat.heat_curves": {"machine": WARM},
+    "heat.outlet_temperature": {"machine": WARM},
     "films.reduced": {"dynamics": rc.coefficients.dynamics(SHEET, 600.0)},
 }
 # A text where a machine is meant, nothing, a bearing or a dict: what a user has at hand.
