@@ -31,6 +31,8 @@ from rotorcalc.machine import JournalBearing
 # Above ε = 0.7560 (σ = 0.066385) the film cannot sustain whirl; above σ = 10 the journal is nearly
 # centred, and the coefficients in film units equal those of the centre within 1 part in 5000.
 _WHIRLS_ABOVE, _CENTRED_ABOVE = 0.066385, 10.0
+# 1 − ε goes as σ^½ and is then 1e-15, known to some ten per cent: floats near 1 are no finer.
+_THINNEST_AT = 1e-30
 
 # As printed in the notes, with their misprints corrected.
 _SHEET = "the notes' calculation sheet"
@@ -94,8 +96,7 @@ class ShortFilm:
     sommerfeld_range: tuple[float, float] = field(
         default=(_WHIRLS_ABOVE, _CENTRED_ABOVE), init=False
     )
-    # Where 1 − ε, which goes as σ^½, nears a float's rounding of ε.
-    least_sommerfeld: float = field(default=1e-30, init=False)
+    least_sommerfeld: float = field(default=_THINNEST_AT, init=False)
 
     @property
     def sources(self) -> Mapping[str, Source]:
@@ -198,11 +199,11 @@ class ShortFilm:
 
 
 def _eccentricity(points: OperatingPoints) -> Array:
-    """Return ε, or raise ValueError where it rounds to 1."""
-    eps = eccentricity_ratio(points.sommerfeld)
-    if eps.size and eps.max() == 1.0:
+    """Return ε, or raise ValueError where the film's thickness is lost in its rounding."""
+    sigma = points.sommerfeld
+    if sigma.size and (least := np.min(sigma)) < _THINNEST_AT:
         raise ValueError(
-            f"sommerfeld = {np.min(points.sommerfeld):.3g}: too small, the film's thickness rounds "
-            "to zero"
+            f"sommerfeld = {least:.3g}: too small, below {_THINNEST_AT:g} the film's thickness is "
+            "lost in rounding"
         )
-    return eps
+    return eccentricity_ratio(sigma)
