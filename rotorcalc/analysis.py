@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 from rotorcalc import heat, modes
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, ComplexArray
-from rotorcalc.coefficients import dynamics, equilibrium
+from rotorcalc.coefficients import Equilibrium, dynamics, equilibrium
 from rotorcalc.display import Result
 from rotorcalc.films import FilmDynamics, FilmState, film_of, film_state
 from rotorcalc.films.dynamics import NO_INERTIA
@@ -227,7 +227,7 @@ def analyse(machine: Machine, speed: ArrayLike) -> Sweep:
     rotor = machine.rotor
     state = equilibrium(machine, speed)
     K, C, film = state.stiffness, state.damping, state.film
-    T = heat.film_temperature(machine, state.speed)
+    T, T_out, mu = _temperatures(machine, state)
     # K and ΩC share the unit N/m, so k_eq is K_eq and p_s² is M_c Ω².
     onset = whirl_onset(K, C * state.speed[..., None, None])
     K_eq = onset.equivalent_stiffness
@@ -238,8 +238,8 @@ def analyse(machine: Machine, speed: ArrayLike) -> Sweep:
         machine=machine,
         speed=state.speed,
         temperature=T,
-        outlet_temperature=heat.outlet_temperature(machine, state.power_loss, state.side_flow),
-        viscosity=machine.oil.viscosity(T),
+        outlet_temperature=T_out,
+        viscosity=mu,
         sommerfeld=film.sommerfeld,
         journal_position=film.position * machine.bearing.radial_clearance,
         eccentricity_ratio=film.eccentricity_ratio,
@@ -261,6 +261,17 @@ def analyse(machine: Machine, speed: ArrayLike) -> Sweep:
         disk_response=disk,
         journal_response=journal,
     )
+
+
+def _temperatures(machine: Machine, state: Equilibrium) -> tuple[Array, Array, Array]:
+    """Return the temperatures of film and outlet [°C] and the viscosity [Pa·s] at speeds."""
+    speed = state.speed
+    if machine.temperature is not None:
+        mu = np.full(speed.shape, machine.viscosity)
+        return np.full(speed.shape, machine.temperature), np.full(speed.shape, np.nan), mu
+    T = heat.film_temperature(machine, speed)
+    T_out = heat.outlet_temperature(machine, state.power_loss, state.side_flow)
+    return T, T_out, machine.oil.viscosity(T)
 
 
 @dataclass(frozen=True, eq=False)

@@ -523,7 +523,8 @@ def rising_speed(speed: ArrayLike, *, name: str = "speed") -> Array:
 
 def _points(machine: Machine, speed: Array) -> OperatingPoints:
     """Return the operating points of a machine's film at checked speeds."""
-    mu = heat.viscosity(machine, speed)
+    # Asked again only where it depends on speed: a given one is the machine's own.
+    mu = machine.viscosity if machine.supply is None else heat.viscosity(machine, speed)
     return OperatingPoints.of(machine.bearing, viscosity=mu, speed=speed, load=machine.static_load)
 
 

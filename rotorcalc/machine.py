@@ -398,15 +398,17 @@ class Machine(Record):
                 f"temperature = {self.temperature:g} °C beside a supply: the film's temperature "
                 "is either given or follows from the supply; leave out one of them"
             )
-        field = "temperature" if self.supply is None else "supply.temperature"
-        coldest = cast(
-            "float", self.temperature if self.supply is None else self.supply.temperature
-        )
+        name, supply = "temperature", self.supply
         with np.errstate(over="ignore", under="ignore"):  # 0 and inf are refused in words below
-            viscosity = float(self.oil.viscosity(coldest))
+            if supply is None:
+                viscosity = self.viscosity
+            else:
+                name = "supply.temperature"
+                viscosity = float(self.oil.viscosity(supply.temperature))
         if not 0.0 < viscosity < math.inf:
+            given = self.temperature if supply is None else supply.temperature
             raise ValueError(
-                f"{field} = {coldest!r} °C: gives the oil a viscosity of "
+                f"{name} = {given!r} °C: gives the oil a viscosity of "
                 f"{viscosity} Pa·s, must be positive and finite"
             )
 

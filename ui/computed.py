@@ -16,6 +16,7 @@ from rotorcalc import (
     Sweep,
     analyse,
     film_curves,
+    heat,
     modes,
     onset_speed,
     thresholds,
@@ -117,7 +118,12 @@ class Computed:
         decades = _decades(float(self.point.sommerfeld))
         if film_of(self.machine.bearing).curve is not None:  # of σ alone
             return _curves(self.machine.bearing, *decades)
-        return _curves(self.machine.bearing, *decades, self.machine.viscosity, self.speed)
+        return _curves(self.machine.bearing, *decades, self.viscosity, self.speed)
+
+    @property
+    def viscosity(self) -> float:
+        """Viscosity of the oil in the film at the running speed, μ [Pa·s]."""
+        return float(self.point.viscosity)
 
     @property
     def curves_here(self) -> FilmCurves:
@@ -125,7 +131,7 @@ class Computed:
         return film_curves(
             self.machine.bearing,
             self.point.sommerfeld,
-            viscosity=self.machine.viscosity,
+            viscosity=self.viscosity,
             speed=self.speed,
         )
 
@@ -135,7 +141,8 @@ class Computed:
         # The allowance is for rounding: a top speed of 10000 rpm has its own mark.
         number = np.searchsorted(_ROUND_SPEEDS, self.top_speed * (1 + 1e-9), side="right")
         return from_first_answer(
-            lambda speed: equilibrium(self.machine, speed), _ROUND_SPEEDS[:number]
+            lambda speed: equilibrium(self.machine, speed),
+            _with_film(self.machine, _ROUND_SPEEDS[:number]),
         )
 
     @cached_property
@@ -346,6 +353,14 @@ def speeds(top_speed: float) -> Array:
     return np.linspace(top_speed / POINTS, top_speed, POINTS)
 
 
+def _with_film(machine: Machine, speeds: Array) -> Array:
+    """Return the speeds at which a film has a temperature, where that follows from the supply."""
+    if machine.supply is None:
+        return speeds
+    known = speeds[heat.has_film(machine, speeds)]
+    return known if known.size else speeds  # whose refusal says why
+
+
 @lru_cache(maxsize=64)
 def _computed(machine: Machine, speed: float, top_speed: float) -> Computed:
     return Computed(machine, speed, top_speed)
@@ -353,7 +368,8 @@ def _computed(machine: Machine, speed: float, top_speed: float) -> Computed:
 
 @lru_cache(maxsize=64)
 def _sweep(machine: Machine, top_speed: float) -> Sweep:
-    return from_first_answer(lambda speed: analyse(machine, speed), speeds(top_speed))
+    carried = _with_film(machine, speeds(top_speed))
+    return from_first_answer(lambda speed: analyse(machine, speed), carried)
 
 
 @lru_cache(maxsize=64)

@@ -2,6 +2,7 @@
 
 import math
 
+from rotorcalc.films.model import Source
 from ui.computed import Computed
 from ui.format import tex
 from ui.notes.equations import equation
@@ -9,10 +10,16 @@ from ui.results.record import Result
 
 
 def _viscosity(computed: Computed) -> str:
-    oil, T = computed.machine.oil, computed.machine.temperature
+    oil, T = computed.machine.oil, float(computed.point.temperature)
     power = rf"-{tex(oil.temperature_coefficient)}({tex(T)}-{tex(oil.reference_temperature)})"
-    viscosity = tex(computed.machine.viscosity, "Pa s")
-    return rf"{tex(oil.reference_viscosity)}\,e^{{{power}}} = {viscosity}"
+    return rf"{tex(oil.reference_viscosity)}\,e^{{{power}}} = {tex(computed.viscosity, 'Pa s')}"
+
+
+def _law(computed: Computed) -> Source:
+    """Return the law of the oil's viscosity."""
+    if computed.machine.oil.law == "exponential":
+        return Source(_SHEET, _EXPONENTIAL)
+    return Source("ASTM D341", r"\lg\lg(\nu + 0.7) = A - B\,\lg T,\quad \mu = \rho\nu")
 
 
 def _load(computed: Computed) -> str:
@@ -30,7 +37,7 @@ def _sag(computed: Computed) -> str:
 
 def _sommerfeld(computed: Computed) -> str:
     machine, b = computed.machine, computed.machine.bearing
-    top = r"\cdot ".join(map(tex, (machine.viscosity, computed.speed, b.length, b.radius)))
+    top = r"\cdot ".join(map(tex, (computed.viscosity, computed.speed, b.length, b.radius)))
     squared = rf"\left(\frac{{{tex(b.length)}}}{{{tex(b.radial_clearance)}}}\right)^2"
     sigma = tex(float(computed.point.sommerfeld))
     return rf"\frac{{{top}}}{{4\cdot {tex(machine.static_load)}}}{squared} = {sigma}"
@@ -73,10 +80,11 @@ def _flow(computed: Computed) -> str:
 
 
 _SHEET = "the notes' calculation sheet"
+_EXPONENTIAL = r"\mu = \mu_R\, e^{-\alpha(T-T_R)}"
 EQUILIBRIUM: tuple[Result, ...] = (
     Result(
-        "viscosity", "Viscosity μ", "viscosity", lambda c: c.machine.viscosity, _SHEET,
-        r"\mu = \mu_R\, e^{-\alpha(T-T_R)}", _viscosity, modelled=False,
+        "viscosity", "Viscosity μ", "viscosity", lambda c: c.viscosity, _SHEET, _EXPONENTIAL,
+        _viscosity, modelled=False, solved=_law,
     ),
     Result(
         "static_load", "Load per bearing Fₒ", "force", lambda c: c.machine.static_load,
