@@ -123,6 +123,8 @@ def _heat(sweep: Sweep) -> tuple[Check, ...]:
     the side flow, so it is doubtful at most.
     """
     machine, oil = sweep.machine, sweep.machine.oil
+    if np.all(np.isnan(sweep.power_loss)):  # a film's model may not know its loss
+        return ()
     alpha = oil.thinning(sweep.temperature)
     with np.errstate(divide="ignore"):  # a viscosity that does not fall is that of the whole film
         half, tenth = np.log(2.0) / alpha, np.log(10.0) / alpha

@@ -240,7 +240,7 @@ def _validity(computed: Computed) -> str:
     rows = (
         _row([
             (check.name, ""),
-            *((digits(float(n)), "n") for n in (check.value, check.caution, check.limit)),
+            *((validity_words.number(n), "n") for n in (check.value, check.caution, check.limit)),
             (validity_words.WORDS[check.worst], check.worst),
             ("" if check.worst == "good" else f"{check.reason}.", ""),
         ])

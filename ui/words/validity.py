@@ -3,7 +3,9 @@
 import math
 from collections.abc import Callable
 
+import numpy as np
 import streamlit as st
+from numpy.typing import ArrayLike
 
 from rotorcalc.validity import Check
 from ui.computed import Computed
@@ -92,6 +94,16 @@ def _by(ratio: float, more: str, less: str) -> str:
 
 def _line(check: Check) -> str:
     badge = f":{_BADGES[check.worst]}-badge[{WORDS[check.worst]}]"
-    limits = f"limits {digits(float(check.caution))} and {digits(float(check.limit))}"
-    text = f"{badge} {check.name}: **{digits(float(check.value))}** ({limits})"
+    text = f"{badge} {check.name}: **{number(check.value)}** ({limits(check)})"
     return text if check.worst == "good" else f"{text}: {check.reason}."
+
+
+def limits(check: Check) -> str:
+    """Return in words from which numbers on an assumption is strained, and fails."""
+    some = [f"{digits(float(one))}" for one in (check.caution, check.limit) if np.isfinite(one)]
+    return f"limit{'s' if len(some) > 1 else ''} {' and '.join(some)}" if some else "no limit"
+
+
+def number(value: ArrayLike) -> str:
+    """Return a number of an assumption, a dash where it is infinite."""
+    return digits(float(value)) if np.isfinite(value) else "–"
