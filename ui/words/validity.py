@@ -5,8 +5,8 @@ from collections.abc import Callable
 
 import numpy as np
 import streamlit as st
-from numpy.typing import ArrayLike
 
+from rotorcalc.arrays import Array
 from rotorcalc.validity import Check
 from ui.computed import Computed
 from ui.format import digits
@@ -104,6 +104,6 @@ def limits(check: Check) -> str:
     return f"limit{'s' if len(some) > 1 else ''} {' and '.join(some)}" if some else "no limit"
 
 
-def number(value: ArrayLike) -> str:
+def number(value: Array) -> str:
     """Return a number of an assumption, a dash where it is infinite."""
     return digits(float(value)) if np.isfinite(value) else "–"
