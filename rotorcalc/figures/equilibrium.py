@@ -274,6 +274,6 @@ def _load_arrow(point: Sweep, reach: float, units: Units) -> list[Part]:
     words = f"{style.symbols('F_o')} = {text.amount(units.force, load)}"
     return [
         # On the left: on the right large type would reach the arrow of the rotation.
-        plane.label(words, (-0.7 * reach, 0.0), xshift=-10, xanchor="right"),
+        plane.label(words, (-0.55 * reach, 0.0), xshift=-10, xanchor="right"),
         plane.arrow((-0.95 * reach, 0.0), (-0.45 * reach, 0.0), style.GREY),
     ]

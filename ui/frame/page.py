@@ -32,7 +32,6 @@ _ICON = str(Path(__file__).with_name("icon.svg"))
 _ABOUT = f"{version.label()}: rotors on fluid-film bearings, after San Andrés, Notes 5."
 # Least width of a row of results [rem] by the number of its columns; on less there are fewer.
 _COLUMNS = {5: 42, 4: 32, 3: 24, 2: 12}
-_NOT_FOUR = ":where(:not(:has(> :nth-child(8)):not(:has(> :nth-child(9)))))"
 
 
 def _pairs_in_columns(columns: int, least: int) -> str:
@@ -42,8 +41,9 @@ def _pairs_in_columns(columns: int, least: int) -> str:
         for i in range(columns)
         for part in (1, 2)
     )
-    # Four in rows of three would leave one alone.
-    row = '[class*="st-key-results_"]' + (_NOT_FOUR if columns == 3 else "")
+    # Four in rows of three, or five in rows of four, would leave one alone.
+    alone = f":has(> :nth-child({2 * columns + 2})):not(:has(> :nth-child({2 * columns + 3})))"
+    row = '[class*="st-key-results_"]' + (f":where(:not({alone}))" if columns in (3, 4) else "")
     rules = " ".join(f"{row} > {place}" for place in places)
     return f"@container (min-width: {least}rem) {{{rules}}}"
 

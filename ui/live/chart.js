@@ -18,7 +18,7 @@ const STYLE = `
 .live-view:fullscreen {padding: 1rem 1.5rem;}
 .live-view:fullscreen .live-chart {height: calc(100vh - 2rem) !important;}
 .live-view .modebar {right: 2rem !important;}
-.live-view .annotation-text {paint-order: stroke; stroke: var(--st-background-color); stroke-width: 4px;
+.live-view :is(.annotation-text, .textpoint text) {paint-order: stroke; stroke: var(--st-background-color); stroke-width: 4px;
   stroke-linejoin: round;}
 `;
 const CORNERS = `<svg viewBox="0 0 16 16" width="16" height="16" fill="none" stroke="currentColor" stroke-width="1.6">

@@ -43,7 +43,7 @@ _CYCLES = (
     "From the onset on, whirl of a constant size is possible at each speed: a limit cycle. The "
     "chart will show the size of these cycles over speed, without imbalance: stable cycles, on "
     "which a machine stays, unstable ones, beyond which a disturbance grows, and the fold where "
-    "both end. It takes about {} s."
+    "both end. It takes about {}\u00a0s."
 )
 _THREE = (
     "The onset comes three ways: by the notes' equations, by eigenvalues, and measured on the "

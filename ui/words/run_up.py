@@ -89,7 +89,7 @@ def ask_run(page: Page, asked: AskRun) -> RunUp | None:
         f"The speed rises from {ends} within {digits(asked.time)} s, by {rate} each second, "
         "and falls again as slowly, in as many revolutions. The charts will show the "
         "journal's amplitude over speed both ways, and its spectra. A slower run takes longer to "
-        f"compute; this one takes about {seconds} s.",
+        f"compute; this one takes about {seconds}\u00a0s.",
     )  # fmt: skip
     request = (asked.machine, asked.lowest, asked.highest, asked.revolutions)
     return on_demand(
