@@ -76,7 +76,7 @@ def test_long_work_starts_on_demand_and_is_kept_until_the_machine_changes() -> N
 def test_a_run_up_says_what_comes_what_was_seen_and_why_whirl_is_late() -> None:
     at = visit(ORBITS, tab="Run-up")
     before = " ".join(text.value for text in at.markdown)
-    assert re.search(r"rises from 8027 rpm to 9633 rpm within .* about 3 s", before), before
+    assert re.search(r"rises from 8027 rpm to 9633 rpm within .* about 3\ss", before), before
     assert re.search(r"grows at 1\.\d+ 1/s.*hundredfold.*above the onset", before), before
     press(at, "orbits_run_up")
     expected = re.search(r"reaches C/10 at (\d+) rpm", before)
