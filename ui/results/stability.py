@@ -227,7 +227,7 @@ STABILITY: tuple[Result, ...] = (
         "For the oscillating mode that decays slowest, or grows fastest, at the running speed.",
     ),
     Result(
-        "natural_frequency", "Mode's frequency |Im λ|", "speed",
+        "natural_frequency", "Mode's frequency |Im\u00a0λ|", "speed",
         lambda c: abs(leading(c).imag), "Im λ", r"\omega_d = |\mathrm{Im}\,\lambda|",
         lambda c: tex(abs(leading(c).imag), "rad/s"),
         "For the oscillating mode that decays slowest, or grows fastest, at the running speed.",
