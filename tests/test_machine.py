@@ -206,7 +206,7 @@ def test_a_component_of_the_wrong_type_is_refused(name, value):
 @pytest.mark.parametrize("film", ["Short", "", 1, ["short"], {}])
 def test_an_unknown_film_model_is_refused(film):
     message = error(JournalBearing, film=film)
-    assert message == f"film = {film!r}: must be one of ('short', 'finite')"
+    assert message == f"film = {film!r}: must be one of ('short', 'finite', 'coarse')"
 
 
 @pytest.mark.parametrize("journal_mass", [100.0, 100.1, 1e300])
