@@ -12,6 +12,7 @@ from urllib.parse import parse_qs, urlencode, urlsplit
 from google.protobuf.message import DecodeError
 from playwright.sync_api import (
     ConsoleMessage,
+    Error,
     Locator,
     Page,
     Request,
@@ -80,7 +81,7 @@ class AppPage:
         self._finished = 0
         page.set_default_timeout(TIMEOUT)
         page.on("console", self._heard)
-        page.on("pageerror", lambda error: self.faults.append(f"page error: {error}"))
+        page.on("pageerror", self._failed)
         page.on("request", self._requested)
         page.on("websocket", self._connected)
 
@@ -110,7 +111,7 @@ class AppPage:
         # A page keeps its state when it is left; a listener of its own event comes after it.
         self.page.evaluate("() => addEventListener('pagehide', () => sessionStorage.clear())")
         self.page.mouse.move(0, 0)
-        self.page.emulate_media(color_scheme="light")
+        self.page.emulate_media(color_scheme="light", reduced_motion="no-preference")
         self.page.set_viewport_size(size)
 
     def go(self, name: str) -> None:
@@ -228,6 +229,11 @@ class AppPage:
     def _heard(self, message: ConsoleMessage) -> None:
         if message.type == "error" and not _is_streamlits_search(message):
             self.faults.append(f"console: {message.text} ({message.location.get('url')})")
+
+    def _failed(self, error: Error) -> None:
+        # Plotly's own: an animation that is stopped rejects its promise, with nothing, at any time.
+        if str(error) != "undefined":
+            self.faults.append(f"page error: {error}")
 
     def _requested(self, request: Request) -> None:
         parts = urlsplit(request.url)
