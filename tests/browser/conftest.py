@@ -5,7 +5,7 @@ import shutil
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack
+from contextlib import AbstractContextManager, ExitStack, contextmanager
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -22,6 +22,8 @@ from playwright.sync_api import (
 
 from tests.browser.app_page import TIMEOUT, AppPage
 from tests.load.replicas import Replica
+
+Lend = Callable[[], AbstractContextManager[AppPage]]
 
 DESK: ViewportSize = {"width": 1440, "height": 900}
 
@@ -113,30 +115,49 @@ def desk(
 
 @pytest.fixture(scope="session")
 def free_tabs() -> list[AppPage]:
-    """Tabs that no test is using: at most one."""
+    """Tabs that no test is using."""
     return []
 
 
 @pytest.fixture
-def app(
+def lend(
     request: pytest.FixtureRequest, desk: BrowserContext, server: Replica, free_tabs: list[AppPage]
-) -> Iterator[AppPage]:
-    """A tab for the app; the test fails where the console or the network shows a fault.
+) -> Lend:
+    """Tabs for the app; the test fails where the console or the network shows a fault.
 
     A tab is used again, unless a test has failed in it: its process has the scripts compiled, and
     a page opens in half the processor time.
     """
-    tab = free_tabs.pop() if free_tabs else AppPage(desk.new_page(), server.address)
-    tab.url = server.address
-    failed = request.session.testsfailed
-    yield tab
-    faults = tab.faults
-    if faults or request.session.testsfailed > failed:
-        tab.page.close()
-    else:
-        tab.leave(DESK)
-        free_tabs.append(tab)
-    assert faults == []
+
+    @contextmanager
+    def lent() -> Iterator[AppPage]:
+        tab = free_tabs.pop() if free_tabs else AppPage(desk.new_page(), server.address)
+        tab.url = server.address
+        failed = request.session.testsfailed
+        yield tab
+        faults = tab.faults
+        if faults or request.session.testsfailed > failed:
+            tab.page.close()
+        else:
+            tab.leave(DESK)
+            free_tabs.append(tab)
+        assert faults == []
+
+    return lent
+
+
+@pytest.fixture
+def app(lend: Lend) -> Iterator[AppPage]:
+    """A tab for the app."""
+    with lend() as tab:
+        yield tab
+
+
+@pytest.fixture
+def elsewhere(lend: Lend) -> Iterator[AppPage]:
+    """A tab for another visitor."""
+    with lend() as tab:
+        yield tab
 
 
 @pytest.fixture

@@ -27,7 +27,7 @@ def _use_grade(app: AppPage) -> None:
 
 
 def test_cases_survive_a_reload_and_another_page(app: AppPage) -> None:
-    app.open("Stability")
+    app.open("Root locus")
     _press(app, "Keep as A")
     app.press("Radial clearance", "PageUp")
     _press(app, "Keep as B")
@@ -46,7 +46,8 @@ def test_cases_survive_a_reload_and_another_page(app: AppPage) -> None:
 
 
 def test_each_kind_of_change_is_undone(app: AppPage) -> None:
-    app.open("Orbits", C="70")
+    # Here no run draws an animation, which takes most of a run of this page.
+    app.open("Orbits", C="70", tab="Spectrum")
     changes = {
         "slider": lambda: app.press("Film temperature", "ArrowRight"),
         "case": lambda: _press(app, "Keep as A"),
@@ -109,18 +110,18 @@ def test_undo_stays_in_sight_and_leaves_typing_alone(app: AppPage) -> None:
     ],
 )
 def test_a_link_reproduces_tab_choice_and_cases(
-    app: AppPage, stranger: AppPage, name: str, query: dict[str, str]
+    app: AppPage, elsewhere: AppPage, name: str, query: dict[str, str]
 ) -> None:
     app.open(name, **query)
     assert app.query() == query
     assert app.page.locator("[role=tab][aria-selected=true]").inner_text() == query["tab"]
     app.open_popover("Share and keep")
     link = app.page.get_by_test_id("stPopoverBody").get_by_test_id("stCode").inner_text().strip()
-    stranger.page.goto(link)
-    stranger.rest()
-    assert stranger.query() == query
-    assert stranger.traces() == app.traces()
-    assert stranger.page.locator("table.cases").inner_text() == (
+    elsewhere.page.goto(link)
+    elsewhere.rest()
+    assert elsewhere.query() == query
+    assert elsewhere.traces() == app.traces()
+    assert elsewhere.page.locator("table.cases").inner_text() == (
         app.page.locator("table.cases").inner_text()
     )
 

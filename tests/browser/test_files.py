@@ -16,27 +16,30 @@ from tests.browser.app_page import AppPage
 LINK = {"preset": "sheet-1e7", "C": "81.3", "rpm": "3000", "load": "1234.5"}
 
 
-@pytest.fixture
-def shared(app: AppPage) -> AppPage:
-    """The app with the machine of the link, its files at hand."""
+def test_each_file_holds_the_machine_of_the_link(
+    app: AppPage, elsewhere: AppPage, desk: BrowserContext, tmp_path: Path
+) -> None:
     app.open("Machine", **LINK)
     app.open_popover("Share and keep")
-    return app
-
-
-def test_machine_file_loads_back(shared: AppPage, stranger: AppPage, tmp_path: Path) -> None:
-    saved = shared.save("Machine (JSON)", tmp_path)
+    saved = app.save("Machine (JSON)", tmp_path)
     machine = Machine.from_json(saved.read_text(encoding="utf-8"))
     assert machine.bearing.radial_clearance == pytest.approx(81.3e-6, rel=1e-14)
     assert machine.load == 1234.5
+    _sweep_is_a_table_with_units(app.save("Sweep over speed", tmp_path), machine)
+    _ross_table_has_its_axes(app.save("K and C for ROSS", tmp_path), machine)
+    _report_opens_by_itself(app.save("Report (HTML)", tmp_path), AppPage(desk.new_page(), app.url))
+    _refuses_a_file_without_a_machine(app, tmp_path / "broken.json")
+    _takes_the_file(elsewhere, saved, machine, tmp_path)
 
-    stranger.open("Machine")
-    body = stranger.open_popover("Share and keep")
-    with stranger.run():
+
+def _takes_the_file(elsewhere: AppPage, saved: Path, machine: Machine, folder: Path) -> None:
+    elsewhere.open("Notes")
+    body = elsewhere.open_popover("Share and keep")
+    with elsewhere.run():
         body.locator("input[type=file]").set_input_files(saved)
-    expect(stranger.page.get_by_test_id("stMain").get_by_test_id("stAlert")).to_have_count(1)
+    expect(elsewhere.page.get_by_test_id("stMain").get_by_test_id("stAlert")).to_have_count(1)
     again = Machine.from_json(
-        stranger.save("Machine (JSON)", _below(tmp_path)).read_text(encoding="utf-8")
+        elsewhere.save("Machine (JSON)", _below(folder)).read_text(encoding="utf-8")
     )
     assert again == machine
 
@@ -47,20 +50,15 @@ def _below(folder: Path) -> Path:
     return below
 
 
-def test_a_file_without_a_machine_gets_a_message(shared: AppPage, tmp_path: Path) -> None:
-    broken = tmp_path / "broken.json"
+def _refuses_a_file_without_a_machine(app: AppPage, broken: Path) -> None:
     broken.write_text(json.dumps({"version": 1, "oil": "olive"}))
-    with shared.run():
-        shared.page.get_by_test_id("stPopoverBody").locator("input[type=file]").set_input_files(
-            broken
-        )
-    expect(shared.page.get_by_text("broken.json").first).to_be_visible()
-    assert shared.query() == LINK
+    with app.run():
+        app.page.get_by_test_id("stPopoverBody").locator("input[type=file]").set_input_files(broken)
+    expect(app.page.get_by_text("broken.json").first).to_be_visible()
+    assert app.query() == LINK
 
 
-def test_sweep_is_a_table_with_units(shared: AppPage, tmp_path: Path) -> None:
-    saved = shared.save("Sweep over speed", tmp_path)
-    machine = Machine.from_json(shared.save("Machine (JSON)", tmp_path).read_text("utf-8"))
+def _sweep_is_a_table_with_units(saved: Path, machine: Machine) -> None:
     with saved.open(encoding="utf-8-sig", newline="") as file:
         lines = list(csv.reader(file))
     given = dict(line for line in lines if line[0].startswith("# "))
@@ -80,9 +78,8 @@ def test_sweep_is_a_table_with_units(shared: AppPage, tmp_path: Path) -> None:
     )
 
 
-def test_ross_table_has_stiffness_and_damping_in_its_axes(shared: AppPage, tmp_path: Path) -> None:
-    machine = Machine.from_json(shared.save("Machine (JSON)", tmp_path).read_text("utf-8"))
-    rows = _sheet(shared.save("K and C for ROSS", tmp_path))
+def _ross_table_has_its_axes(saved: Path, machine: Machine) -> None:
+    rows = _sheet(saved)
     start = next(i for i, row in enumerate(rows) if "kxx" in [str(cell).lower() for cell in row])
     head = [str(cell).lower() for cell in rows[start]]
     table = np.array(
@@ -111,9 +108,7 @@ def _sheet(path: Path) -> list[list[str | float]]:
     ]
 
 
-def test_report_opens_by_itself(shared: AppPage, desk: BrowserContext, tmp_path: Path) -> None:
-    saved = shared.save("Report (HTML)", tmp_path)
-    tab = AppPage(desk.new_page(), shared.url)
+def _report_opens_by_itself(saved: Path, tab: AppPage) -> None:
     requests: list[str] = []
     tab.page.on("request", lambda request: requests.append(request.url))
     tab.page.goto(saved.as_uri())
@@ -121,11 +116,11 @@ def test_report_opens_by_itself(shared: AppPage, desk: BrowserContext, tmp_path:
     text = tab.page.locator("body").inner_text()
     drawn = tab.drawn()
     tab.page.emulate_media(media="print")
-    tab.page.pdf(path=tmp_path / "report.pdf")
+    printed = tab.page.pdf()
     tab.page.close()
     assert tab.faults == []
     assert [url for url in requests if not url.startswith(("file:", "data:", "blob:"))] == []
     for words in ("81.3", "3000 rpm", "1234", "Eq. 5.", "rotorcalc", "C=81.3"):
         assert words in text, words
     assert drawn
-    assert (tmp_path / "report.pdf").read_bytes().startswith(b"%PDF")
+    assert printed.startswith(b"%PDF")

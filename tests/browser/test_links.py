@@ -46,7 +46,7 @@ def _shown(app: AppPage) -> Shown:
 
 
 def test_link_survives_pages_and_reproduces_the_machine_elsewhere(
-    app: AppPage, stranger: AppPage
+    app: AppPage, elsewhere: AppPage
 ) -> None:
     app.open("Equilibrium", **LINK)
     first = _shown(app)
@@ -56,10 +56,10 @@ def test_link_survives_pages_and_reproduces_the_machine_elsewhere(
     app.open_popover("Share and keep")
     link = app.page.get_by_test_id("stPopoverBody").get_by_test_id("stCode").inner_text().strip()
     assert link.startswith(f"{app.url}/Equilibrium?")
-    stranger.page.goto(link)
-    stranger.rest()
-    assert stranger.query() == LINK
-    assert _shown(stranger) == first
+    elsewhere.page.goto(link)
+    elsewhere.rest()
+    assert elsewhere.query() == LINK
+    assert _shown(elsewhere) == first
 
 
 def test_moved_value_goes_into_the_address_bar_and_to_every_page(app: AppPage) -> None:
