@@ -16,13 +16,6 @@ FOCUS = """() => {
 LIVE = [name for name in PATHS if name not in ("Bearings", "Notes")]
 
 
-# Streamlit's own charts and sliders: on all other pages in tests/app, without a browser.
-@pytest.mark.parametrize("server", ["off"], indirect=True)
-def test_streamlits_own_slider_moves_a_number_a_chart_and_the_address_bar(app: AppPage) -> None:
-    app.open("Machine")
-    _move(app)
-
-
 def _move(app: AppPage) -> None:
     """Move a slider, and see that everything follows."""
     link, numbers, drawn = app.query(), app.metrics(), app.drawn()
@@ -72,7 +65,7 @@ def test_units_switch_leaves_the_machine(app: AppPage) -> None:
 
 
 def test_one_switch_reads_amplitudes_peak_to_peak_in_numbers_charts_and_link(
-    app: AppPage, stranger: AppPage
+    app: AppPage, elsewhere: AppPage
 ) -> None:
     app.open("Response")
     before = app.metrics()["Disk orbit"]
@@ -87,8 +80,8 @@ def test_one_switch_reads_amplitudes_peak_to_peak_in_numbers_charts_and_link(
     expect(app.charts().first).to_contain_text("[µm p-p]")
     app.go("Orbits")
     assert app.query() == {"amplitude": "p-p"}
-    stranger.open("Response", **app.query())
-    assert stranger.metrics()["Disk orbit"] == after
+    elsewhere.open("Response", **app.query())
+    assert elsewhere.metrics()["Disk orbit"] == after
 
 
 def _choose_units(app: AppPage, units: str) -> None:
@@ -96,19 +89,6 @@ def _choose_units(app: AppPage, units: str) -> None:
     with app.run():
         body.get_by_role("radio", name=units, exact=True).click()
     app.close_popover()
-
-
-def test_values_can_be_typed(app: AppPage) -> None:
-    app.open("Machine")
-    body = app.open_popover("Units and settings")
-    with app.run():
-        body.get_by_text("Type values instead of sliding").click()
-    app.close_popover()
-    field = app.page.get_by_role("textbox", name=re.compile("^Radial clearance"))
-    field.fill("83.5")
-    with app.run():
-        field.press("Enter")
-    assert app.query() == {"C": "83.5"}
 
 
 def test_preset_brings_its_machine(app: AppPage) -> None:
@@ -120,9 +100,21 @@ def test_preset_brings_its_machine(app: AppPage) -> None:
     expect(app.page.get_by_test_id("stMain").get_by_text("4627 rpm").first).to_be_visible()
 
 
-@pytest.mark.parametrize("server", ["drag", "off"], indirect=True)
+# Streamlit's own charts and sliders: on all other pages in tests/app, without a browser.
+@pytest.mark.parametrize("server", ["off"], indirect=True)
+def test_streamlits_own_sliders_and_charts_can_be_used_too(app: AppPage) -> None:
+    app.open("Equilibrium")
+    _by_keyboard(app)
+    _move(app)
+
+
 def test_keyboard_alone_reaches_sliders_and_opens_a_popover(app: AppPage) -> None:
     app.open("Equilibrium")
+    _by_keyboard(app)
+
+
+def _by_keyboard(app: AppPage) -> None:
+    """Walk from the page's beginning through slider and button to an explanation, and open it."""
     keyboard = app.page.keyboard
     reached: list[str] = []
     while not (reached and reached[-1].startswith("BUTTON: Eq. 5.8")):
