@@ -214,11 +214,17 @@ BREAKS = {
 }
 
 
-@pytest.mark.parametrize("how", BREAKS)
+# A tab stays open for the next test: those who slide come first, then who types, then a release.
+@pytest.mark.parametrize("how", ["kill", "silent", "forgotten"])
 def test_two_seconds_after_a_break_all_is_there_and_the_next_action_works(
     how: str, place: Place, tabs: Tabs
 ) -> None:
-    """A crash, a restart, a network that fails or falls silent, and a session long forgotten."""
+    """A crash, a network that falls silent, and a session long forgotten."""
+    break_and_mend(how, place, tabs)
+
+
+def break_and_mend(how: str, place: Place, tabs: Tabs) -> None:
+    """Let a tab lose its connection and get another; see what it has kept, and act in it."""
     (tab,) = tabs(BREAKS[how].who)
     BREAKS[how].last(tab)
     before, session = tab.shown(), tab.session
@@ -269,6 +275,14 @@ def test_a_value_being_sent_is_not_lost(place: Place, tabs: Tabs) -> None:
     assert [float(tab.query()["C"]) for tab in (sliding, typing)] == wanted
     field = typing.page.get_by_role("textbox", name=CLEARANCE)
     assert field.input_value() == f"{wanted[1]:g}"
+
+
+@pytest.mark.parametrize("how", ["cut", "stop"])
+def test_a_typed_value_and_a_release_are_there_after_a_break(
+    how: str, place: Place, tabs: Tabs
+) -> None:
+    """A network that fails, and a restart."""
+    break_and_mend(how, place, tabs)
 
 
 def test_a_running_computation_restarts_and_the_page_says_so(place: Place, tabs: Tabs) -> None:
