@@ -117,7 +117,7 @@ def _ends(at: AppTest, kind: str) -> Iterator[object]:
             for end in slider(at, key)[1:]:
                 slider(at, key)[0].set_value(end).run()
                 yield key, end
-            slider(at, key)[0].set_value(was).run()
+            slider(at, key)[0].set_value(was)  # with the next run
     for item in picks(of_kind(kind)):
         for option in item.options:
             at.segmented_control(key=f"pick_{item.key}").set_value(option).run()

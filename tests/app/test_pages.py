@@ -151,44 +151,34 @@ def _try_out(at: AppTest, kind: str, key: str, label: str) -> None:
 
 @every_drawn_page
 @pytest.mark.parametrize("units", ["SI", "US"])
-def test_every_chart_names_its_axes_and_fixes_their_ranges(path: str, units: str) -> None:
+def test_every_chart_has_named_axes_a_text_alternative_and_the_running_speed(
+    path: str, units: str
+) -> None:
     at, seen = visit(path, units=units), 0
     for label in tours(at):
-        for key, figure in charts(at).items():
+        for chart in at.get("plotly_chart"):
             seen += 1
-            for name, axis in _axes(figure):
-                place = (label, key, name)
-                assert len(axis.get("range", ())) == 2, place
-                assert all(math.isfinite(end) for end in axis["range"]), place
-                if axis.get("visible", True) and not axis.get("ticktext"):
-                    title = re.sub("<[^>]+>", "", axis["title"]["text"])
-                    assert NAMED.search(title), place
+            assert len(chart.proto.alt) > 20, (label, chart.key)
+        for key, figure in charts(at).items():
+            _see_axes_named_with_fixed_ranges(figure, (label, key))
+            if key.removeprefix("chart_") not in UNMARKED:
+                assert HERE in json.dumps(figure["data"]), (label, key)
     assert seen
+
+
+def _see_axes_named_with_fixed_ranges(figure: dict, place: tuple[str, str]) -> None:
+    for name, axis in _axes(figure):
+        assert len(axis.get("range", ())) == 2, (*place, name)
+        assert all(math.isfinite(end) for end in axis["range"]), (*place, name)
+        if axis.get("visible", True) and not axis.get("ticktext"):
+            title = re.sub("<[^>]+>", "", axis["title"]["text"])
+            assert NAMED.search(title), (*place, name)
 
 
 def _axes(figure: dict) -> Iterator[tuple[str, dict]]:
     for name, axis in figure["layout"].items():
         if re.fullmatch(r"[xy]axis\d*", name):
             yield name, axis
-
-
-@every_drawn_page
-def test_every_chart_has_a_text_alternative(path: str) -> None:
-    at, seen = visit(path), 0
-    for label in tours(at):
-        for chart in at.get("plotly_chart"):
-            seen += 1
-            assert len(chart.proto.alt) > 20, (label, chart.key)
-    assert seen
-
-
-@every_page
-def test_every_chart_marks_the_running_speed(path: str) -> None:
-    at = visit(path)
-    for label in tours(at):
-        for key, figure in charts(at).items():
-            if key.removeprefix("chart_") not in UNMARKED:
-                assert HERE in json.dumps(figure["data"]), (label, key)
 
 
 @every_drawn_page

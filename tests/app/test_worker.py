@@ -22,8 +22,17 @@ from ui.serving.log import described
 LONG = (SHEET, 600.0, 0.3, 600)
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def worker() -> Iterator[Worker]:
+    """A process for all tests that leave it idle."""
+    made = Worker()
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def doomed() -> Iterator[Worker]:
+    """A process for a test that ends or stops it."""
     made = Worker()
     yield made
     made.close()
@@ -74,24 +83,24 @@ def test_a_motion_that_ends_early_is_returned_up_to_its_end(worker: Worker) -> N
     assert len(caught.value.partial.time) == 5
 
 
-def test_the_death_of_a_process_is_reported(worker: Worker) -> None:
+def test_the_death_of_a_process_is_reported(doomed: Worker) -> None:
     with pytest.raises(WorkerError, match="ended"):
-        worker.run(os.kill, (worker._process.pid, signal.SIGKILL), None)
-    assert not worker.idle
+        doomed.run(os.kill, (doomed._process.pid, signal.SIGKILL), None)
+    assert not doomed.idle
     with pytest.raises(WorkerError, match="ended"):
-        worker.run(np.zeros, (3,), None)
+        doomed.run(np.zeros, (3,), None)
 
 
 def test_a_hanging_process_is_reported_as_giving_no_sign(
-    worker: Worker, monkeypatch: pytest.MonkeyPatch
+    doomed: Worker, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert worker.answers()
+    assert doomed.answers()
     monkeypatch.setattr(process, "_LOOK", 0.1)
     with pytest.raises(WorkerError, match="no sign of life"):
-        worker.run(os.kill, (worker._process.pid, signal.SIGSTOP), None)
-    assert worker.silent
-    assert not worker.idle
-    assert not worker.answers()
+        doomed.run(os.kill, (doomed._process.pid, signal.SIGSTOP), None)
+    assert doomed.silent
+    assert not doomed.idle
+    assert not doomed.answers()
 
 
 def test_a_process_in_a_long_computation_gives_signs_of_life(worker: Worker) -> None:
