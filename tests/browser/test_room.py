@@ -6,6 +6,7 @@ import pytest
 from playwright.sync_api import expect
 
 from tests.browser.app_page import PATHS, AppPage
+from tests.browser.test_access import violations
 
 WIDTHS = (800, 1024, 1152, 1280, 1440, 1680, 1920)
 # A browser's zoom makes the window smaller in CSS pixels by so much.
@@ -53,8 +54,20 @@ _EDGES = """() => {
 
 
 @pytest.mark.parametrize("name", PATHS)
-def test_nothing_is_cut_at_any_width_and_zoom(app: AppPage, name: str) -> None:
+def test_a_page_fits_every_screen(app: AppPage, name: str) -> None:
+    """A desk, a presentation there and on a projector, any width and zoom."""
     app.open(name)
+    assert violations(app) == []
+    if name in CHARTS:
+        _see_answer_chart_and_controls_above_the_fold(app)
+    _see_nothing_cut_at_any_width_and_zoom(app)
+    if name in CHARTS:
+        app.page.set_viewport_size({"width": 1024, "height": 768})
+        app.open(name, present="1")
+        _see_a_chart_on_a_projector(app)
+
+
+def _see_nothing_cut_at_any_width_and_zoom(app: AppPage) -> None:
     # Texts stand where they stood without the charts, which would be drawn anew at each width.
     hidden = app.page.add_style_tag(content=".live-view {display: none}")
     sizes = sorted(
@@ -74,16 +87,17 @@ def test_nothing_is_cut_at_any_width_and_zoom(app: AppPage, name: str) -> None:
     assert found == {}
 
 
-@pytest.mark.parametrize("name", CHARTS)
-def test_answer_chart_and_controls_stand_above_the_fold(app: AppPage, name: str) -> None:
-    app.open(name)
+def _see_answer_chart_and_controls_above_the_fold(app: AppPage) -> None:
+    """On a desk and in a presentation."""
     assert _below_the_fold(app, HEIGHT, chart=380) == {}
-    # In a presentation, and on a small projector.
     with app.run():
         app.page.keyboard.press("p")
     assert _below_the_fold(app, HEIGHT, chart=540) == {}
-    app.page.set_viewport_size({"width": 1024, "height": 768})
-    app.open(name, present="1")
+    with app.run():
+        app.page.keyboard.press("p")
+
+
+def _see_a_chart_on_a_projector(app: AppPage) -> None:
     assert _below_the_fold(app, 768) == {}
     plot = app.page.locator(".js-plotly-plot .bglayer, .js-plotly-plot .cartesianlayer").first
     assert plot.evaluate("plot => plot.getBoundingClientRect().height") > 120
