@@ -87,3 +87,25 @@ def test_a_long_reason_is_not_cut() -> None:
     with pytest.raises(ValueError, match="octagonal") as refused:
         Machine.from_json(json.dumps(document))
     assert any(str(refused.value).replace("`", "'") in box.value for box in at.warning)
+
+
+@pytest.mark.parametrize(
+    ("place", "word", "fields"),
+    [
+        ("oil", "oil.law", {"law": "walther"}),
+        ("oil", "oil.heat_capacity", {"heat_capacity": 1900.0}),
+        ("", "supply", {"supply": {"temperature": 40.0}, "temperature": None}),
+    ],
+)
+def test_what_no_slider_shows_is_refused_and_not_lost(
+    place: str, word: str, fields: dict[str, object]
+) -> None:
+    tree = json.loads(machine_of(PRESET_VALUES["sheet-1e8"]).to_json())
+    (tree[place] if place else tree).update(fields)
+    if tree["temperature"] is None:
+        del tree["temperature"]
+    text = json.dumps(tree)
+    Machine.from_json(text)  # the core takes it
+    at = _loaded(text.encode(), C="70")
+    assert any(word in box.value and "Python package" in box.value for box in at.warning)
+    assert session_of(at).values["C"] == 70.0
