@@ -27,7 +27,7 @@ ROUGHNESS = 1e-6
 # The name of the one check that depends on the imbalance.
 IMBALANCE_ORBIT = "Imbalance orbit over clearance"
 # The name of the check of heat: its value is a rise in K.
-HEAT = "Rise of the oil in the film, in K"
+HEAT = "Heat: rise of the oil in the film, in K"
 
 
 @dataclass(frozen=True, eq=False)

@@ -52,7 +52,7 @@ def test_outside_the_models_range_there_is_no_verdict_and_numbers_are_in_bracket
     assert not at.error
     (verdict,) = at.warning
     assert verdict.value.startswith("No verdict: the model does not hold for this machine.")
-    assert ":red-badge[The model is outside its range: Imbalance orbit" in verdict.value
+    assert ":red-badge[The model is outside its range: imbalance orbit" in verdict.value
     assert all(re.fullmatch(r"\(.+\)", metric.value) for metric in at.metric)
     assert all("(" not in metric.value for metric in visit(HOME).metric)
 

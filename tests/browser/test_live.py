@@ -122,7 +122,7 @@ def test_the_validity_panel_judges_a_moved_value_and_the_sidebar_keeps_it_when_t
     verdict = app.page.locator(".st-key-said_verdict")
     panel = app.page.locator(".st-key-said_assumptions")
     # The example's given temperature leaves 11 kW to a side flow of 0.7 l/min.
-    expect(verdict).to_contain_text("The model is strained: Rise of the oil")
+    expect(verdict).to_contain_text("Model strained: heat")
     expect(panel).not_to_contain_text("outside")
     app.press("Radial clearance", "End")
     expect(verdict).to_contain_text("The model is outside")

@@ -167,5 +167,5 @@ def test_a_run_up_and_down_shows_the_hysteresis_before_the_limit_cycles(app: App
 def test_every_tab_says_what_will_come(app: AppPage) -> None:
     app.open("Orbits", tab="Limit cycles")
     expect(
-        app.page.get_by_text(re.compile("The chart will show the size of these cycles.*15 s"))
+        app.page.get_by_text(re.compile(r"The chart will show the size of these cycles.*15\s+s"))
     ).to_be_visible()

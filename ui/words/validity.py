@@ -9,7 +9,7 @@ import streamlit as st
 from rotorcalc.arrays import Array
 from rotorcalc.validity import Check
 from ui.computed import Computed
-from ui.format import digits
+from ui.format import digits, lower
 from ui.preview import Preview, Text
 from ui.words import citation
 
@@ -28,8 +28,10 @@ def headline(computed: Computed) -> str:
     check = worst(computed)
     if check.worst == "good":
         return "The model holds"
-    state = "strained" if check.worst == "caution" else "outside its range"
-    return f"The model is {state}: {check.name}"
+    # Short where it can be: on the line of the verdict it takes no height.
+    name = lower(check.name.partition(":")[0])
+    state = "Model strained" if check.worst == "caution" else "The model is outside its range"
+    return f"{state}: {name}"
 
 
 def badge(computed: Computed) -> str:
