@@ -133,6 +133,7 @@ def lend(
     def lent() -> Iterator[AppPage]:
         tab = free_tabs.pop() if free_tabs else AppPage(desk.new_page(), server.address)
         tab.url = server.address
+        tab.page.bring_to_front()  # behind another it hears of no pointer that leaves it
         failed = request.session.testsfailed
         yield tab
         faults = tab.faults

@@ -453,6 +453,6 @@ export function removed(chart) {
   const view = views.get(chart);
   for (const way of view?.ways ?? []) way.leave?.();
   if (playing === view) playing = null;
-  if (marked?.view === view) marked = null;
   views.delete(chart);
+  if (marked?.view === view) clear(); // on the other charts too
 }
