@@ -119,8 +119,8 @@ _JUDGEMENTS = {
 def compare(page: Page) -> list[BearingResult]:
     """Return this machine's own bearing and every kind, and show their table as they come.
 
-    Most are computed before a table of the first would be drawn: then it is drawn once. Where it
-    takes longer the page runs whole, which a visitor can end, and what is found is kept.
+    Where all come at once the table is drawn once. Where they take longer the page runs whole,
+    which a visitor can end, and what is found is kept.
     """
     machine, speed = page.computed.machine, page.computed.speed
     asked = _asked(machine, speed)
