@@ -204,6 +204,11 @@ def are_concentric(pads: tuple[Pad, ...]) -> bool:
     return all(pad.a_x == pad.a_y == 0.0 for pad in pads)
 
 
+def have_pockets(pads: tuple[Pad, ...]) -> bool:
+    """Return whether any pad has a pocket."""
+    return any(pad.depth > 0.0 for pad in pads)
+
+
 def gap(pads: tuple[Pad, ...], position: ArrayLike) -> Array:
     """Return the smallest film thickness over pads, outside their pockets.
 

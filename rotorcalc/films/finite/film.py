@@ -15,7 +15,7 @@ from rotorcalc.films.finite.motion import SECONDS, THINNEST, FinitePadsInMotion
 from rotorcalc.films.finite.pressure import Pressures
 from rotorcalc.films.finite.table import FilmTable, table, takes_long
 from rotorcalc.films.model import Accuracy, FilmMotion, Limit, Source
-from rotorcalc.films.pads import gap, outline, pads_of, walls_of
+from rotorcalc.films.pads import gap, have_pockets, outline, pads_of, walls_of
 from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
 from rotorcalc.machine import JournalBearing
 
@@ -190,7 +190,7 @@ class FiniteFilm:
         ValueError
             Where a pad has a pocket.
         """
-        if any(pad.depth > 0.0 for pad in pads_of(self.bearing)):
+        if have_pockets(pads_of(self.bearing)):
             raise ValueError(
                 f"bearing = {self.bearing.geometry.kind}: nonlinear motion is not computed where "
                 "pads have pockets, whose film depends on more than the direction of the motion"

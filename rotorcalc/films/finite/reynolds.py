@@ -23,7 +23,7 @@ from scipy.linalg import lapack
 
 from rotorcalc.arrays import Array, BoolArray, IntArray
 from rotorcalc.films.finite.axial import Axial, axial
-from rotorcalc.films.pads import Pad
+from rotorcalc.films.pads import Pad, have_pockets
 
 _TURN = 2.0 * math.pi
 # Share of the journal's eccentricity by which the mesh is refined at the thinnest film.
@@ -123,7 +123,7 @@ def mesh(pads: tuple[Pad, ...], slenderness: float, links: int, degrees: int) ->
     Mesh
         The mesh.
     """
-    zones = 2 if any(pad.depth > 0.0 for pad in pads) else 1
+    zones = 2 if have_pockets(pads) else 1
     return Mesh(pads, slenderness, links, tuple(axial(pad, degrees, zones) for pad in pads))
 
 

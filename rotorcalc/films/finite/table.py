@@ -18,7 +18,7 @@ from rotorcalc.films.finite.fronts import coefficients
 from rotorcalc.films.finite.results import drag, peak, side_flow
 from rotorcalc.films.finite.reynolds import Films, Mesh, Solution, films, mesh, solved
 from rotorcalc.films.load_splines import CoefficientSplines, LoadSplines, half_whirl
-from rotorcalc.films.pads import NO_POSITION, Pad, are_concentric, gap, resting
+from rotorcalc.films.pads import NO_POSITION, Pad, are_concentric, gap, have_pockets, resting
 
 # The thinnest film that the table reaches, in C.
 THINNEST = 0.03
@@ -192,11 +192,11 @@ def _resolution(pads: tuple[Pad, ...], coarse: bool) -> tuple[int, int, int]:
 
 def takes_long(pads: tuple[Pad, ...]) -> bool:
     """Return whether a table of pads takes longer than that of two smooth ones."""
-    return len(pads) >= _MANY or any(pad.depth > 0.0 for pad in pads)
+    return len(pads) >= _MANY or have_pockets(pads)
 
 
 def _tabulated(pads: tuple[Pad, ...], slenderness: float, fine: tuple[int, int, int]) -> FilmTable:
-    zones = _ZONES_OF_DAMS if any(pad.depth > 0.0 for pad in pads) else 1
+    zones = _ZONES_OF_DAMS if have_pockets(pads) else 1
     *last, count = fine
     grids = [mesh(pads, slenderness, n, zones * m) for n, m in (_SCAN, _COARSE, last)]
     concentric = zones == 1 and are_concentric(pads)
