@@ -198,6 +198,7 @@ async function redrawn(Plotly, chart, { chart: figure, config, presenting }) {
   const seen = visible(chart, copy.layout);
   if (seen) for (const trace of copy.data) envelop(trace, seen, chart.element.clientWidth, chart.tools);
   keepZoom(chart, copy);
+  fit(chart); // what stands above has its fonts by now
   await Plotly.react(chart.element, { ...copy, config });
   if (!chart.listens) chart.element.on("plotly_relayout", (changed) => zoomed(chart, changed));
   chart.listens = true;
@@ -226,6 +227,10 @@ function fitted(view, { layout: { height, yaxis } }, presenting) {
   if (presenting) return `max(340px, ${rows}px, ${room} - 2.4rem)`;
   const usual = `clamp(${0.8 * height}px, calc((100vh - 306px) * ${height / 600}), ${1.5 * height}px)`;
   return top > innerHeight / 2 ? usual : `min(${usual}, max(${0.7 * height}px, ${room} - 0.5rem))`;
+}
+
+function fit({ element, view, given: { chart, presenting } }) {
+  element.style.height = fitted(view, chart, presenting);
 }
 
 // Moves the existing SVG where possible, and lets Plotly draw the chart after a pause: hovering, zooming and
@@ -287,11 +292,10 @@ export default function ({ data, parentElement }) {
   const chart = charts.get(parentElement) ?? made(parentElement);
   chart.given = JSON.parse(new TextDecoder().decode(data));
   const { key, alt, presenting } = chart.given;
-  const figure = unfolded(chart.given.chart, presenting);
-  chart.given.chart = figure;
+  chart.given.chart = unfolded(chart.given.chart, presenting);
   window.rotorcalcCharts.set(key, chart);
   chart.element.setAttribute("aria-label", alt);
-  chart.element.style.height = fitted(chart.view, figure, presenting);
+  fit(chart);
   draw(chart, chart.given);
   return () => {
     clearTimeout(chart.due);
