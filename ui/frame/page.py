@@ -41,14 +41,15 @@ def _pairs_in_columns(columns: int, least: int) -> str:
         for i in range(columns)
         for part in (1, 2)
     )
-    # Four in rows of three, or five in rows of four, would leave one alone.
-    alone = f":has(> :nth-child({2 * columns + 2})):not(:has(> :nth-child({2 * columns + 3})))"
-    row = '[class*="st-key-results_"]' + (f":where(:not({alone}))" if columns in (3, 4) else "")
+    # Four in rows of three, or five in rows of four, would leave one alone. To count a row's
+    # children by :has() would style the whole page anew whenever anything is put into it.
+    alone = f'[class*="st-key-results_{columns + 1}_"]' if columns in (3, 4) else "none"
+    row = f'[class*="st-key-results_"]:where(:not({alone}))'
     rules = " ".join(f"{row} > {place}" for place in places)
     return f"@container (min-width: {least}rem) {{{rules}}}"
 
 
-_STYLE = "\n".join([
+STYLE = "\n".join([
     "<style>",
     Path(__file__).with_name("page.css").read_text(encoding="utf-8"),
     *(_pairs_in_columns(*rule) for rule in sorted(_COLUMNS.items())),
@@ -213,7 +214,7 @@ def _frame(title: str, sentence: str) -> Places:
         initial_sidebar_state=sidebar.WIDTH,
         menu_items={"About": _ABOUT},
     )
-    st.html(_STYLE)
+    st.html(STYLE)
     visitor = session()
     show_connection()
     _run_when_reconnected()

@@ -17,8 +17,8 @@ _JOINED = "\u2060"
 
 
 def row_key(keys: tuple[str, ...]) -> str:
-    """Return the key of a row of results."""
-    return f"results_{keys[0]}"
+    """Return the key of a row of results, by which the page's style knows how many they are."""
+    return f"results_{len(keys)}_{keys[0]}"
 
 
 def show_results(preview: Preview, *keys: str) -> None:
