@@ -60,7 +60,9 @@ class Units:
     viscosity: Unit
     temperature: Unit
     per_temperature: Unit
+    rise: Unit
     density: Unit
+    heat_capacity: Unit
     shaft_stiffness: Unit
     shaft_damping: Unit
     stiffness: Unit
@@ -87,7 +89,9 @@ SI = Units(
     viscosity=Unit("mPa·s", 1e3),
     temperature=Unit("°C"),
     per_temperature=Unit("1/°C"),
+    rise=Unit("K"),
     density=Unit("kg/m³"),
+    heat_capacity=Unit("J/(kg·K)"),
     shaft_stiffness=Unit("N/m"),
     shaft_damping=Unit("N·s/m"),
     stiffness=Unit("MN/m", 1e-6),
@@ -110,7 +114,9 @@ US = Units(
     # A difference of 1 °C is 1.8 °F, so a coefficient takes the factor without the offset.
     temperature=Unit("°F", 1.8, 32.0),
     per_temperature=Unit("1/°F", 1 / 1.8),
+    rise=Unit("°F", 1.8),
     density=Unit("lb/ft³", constants.foot**3 / lb),
+    heat_capacity=Unit("Btu/(lb·°F)", lb / (1.8 * constants.Btu)),
     # scipy's lbf and inch are in N and m: one N/m is inch/lbf of a lbf/in.
     shaft_stiffness=Unit("lbf/in", inch / lbf),
     shaft_damping=Unit("lbf·s/in", inch / lbf),

@@ -15,10 +15,12 @@ from ui.bores import KIND, Values, name_of
 from ui.cases import Shown
 from ui.computed import Computed
 from ui.format import minus
-from ui.inputs import INPUTS, number, values_of
+from ui.inputs import INPUTS, LAW, LAWS, number, values_of
 from ui.results.table import RESULTS
 
 LIVE = "Now"
+# What stands for a value that is not given; of a machine without a supply, nothing.
+_FOLLOWS = {"load": "half the weight", "T": "from the supply"}
 MAIN = (
     "onset_speed", "margin", "whirl_frequency", "damping_ratio", "eccentricity_ratio",
     "minimum_film_thickness", "power_loss", "disk_amplitude",
@@ -39,6 +41,8 @@ def inputs(machines: Sequence[Values], units: Units) -> Iterator[Row]:
     for key, item in INPUTS.items():
         if _differ(machines, key):
             yield Row(item.name(units), tuple(shown(key, values, units) for values in machines))
+    if _differ(machines, LAW):
+        yield Row("Viscosity law", tuple(LAWS[str(values[LAW])] for values in machines))
     if _differ(machines, KIND):
         yield Row("Bearing", tuple(name_of(values[KIND]) for values in machines))
     films = tuple(film_name(values) for values in machines)
@@ -67,7 +71,7 @@ def results(machines: Sequence[Computed], units: Units) -> Iterator[Row]:
 def shown(key: str, values: Values, units: Units) -> str:
     """Return an input's value as text."""
     if values[key] is None:
-        return "half the weight"
+        return _FOLLOWS.get(key, "–")
     item, value = INPUTS[key], number(values, key)
     return item.infinite if math.isinf(value) else minus(f"{item.shown(value, units):.6g}")
 

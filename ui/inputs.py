@@ -6,13 +6,12 @@ its key there. `INPUTS` has those of every machine, `ui.bores` those of each kin
 value becomes a machine, a bore's by `ui.bearing.shape_of`.
 """
 
-import functools
 import math
 from typing import Any
 
 from scipy.constants import g
 
-from rotorcalc import PRESETS, JournalBearing, Machine, Oil, Preset, Rotor
+from rotorcalc import PRESETS, JournalBearing, Machine, Oil, Preset, Rotor, Supply
 from rotorcalc.figures import style
 from rotorcalc.units import SI
 from ui.bearing import KIND, Values, bearing_values, defaults_of, shape_of, without_shape
@@ -41,7 +40,24 @@ INPUTS: dict[str, Input] = {
         Input(
             "T", "temperature",
             "Film temperature", "T", "temperature", 0, 150, "Speed and whirl",
-            "μ = μᵣ exp(−α(T − Tᵣ))", step=1,
+            "Gives the oil's viscosity, at every speed the same.", step=1,
+        ),
+        Input(
+            "T_in", "supply.temperature",
+            "Supply temperature", "Tᵢₙ", "temperature", 0, 150, "Speed and whirl",
+            "Temperature of the oil that comes to the bearing; the film is warmer by half the "
+            "oil's rise.", step=1,
+        ),
+        Input(
+            "flow", "supply.flow",
+            "Groove flow", "q", "flow", 0, 5000, "Speed and whirl",
+            "What passes one bearing's grooves besides the side flow of its film.", least=0.001,
+        ),
+        Input(
+            "share", "supply.heat_share",
+            "Heat carried by the oil", "s", "number", 0, 1, "Speed and whirl",
+            "Share of the loss that leaves with the oil; the rest leaves by shaft and housing.",
+            step=0.01,
         ),
         Input(
             "C", "bearing.radial_clearance",
@@ -82,7 +98,12 @@ INPUTS: dict[str, Input] = {
         Input(
             "rho", "oil.density",
             "Oil density", "ρ", "density", 500, 1500, "Oil",
-            "Affects the film's Reynolds number and added mass only.",
+            "Affects the film's Reynolds number, its added mass and the heat that oil carries.",
+        ),
+        Input(
+            "cp", "oil.heat_capacity",
+            "Heat capacity", "c", "heat_capacity", 500, 5000, "Oil",
+            "Heat that warms a mass of the oil by a degree.",
         ),
         Input(
             "mass", "rotor.mass",
@@ -113,7 +134,14 @@ INPUTS: dict[str, Input] = {
 }  # fmt: skip
 
 DEFAULT_PRESET = "sheet-1e8"
-
+# The law of the oil's viscosity among the kept values, and its words.
+LAW = "law"
+LAWS = {"exponential": "Exponential", "walther": "Walther (ASTM D341)"}
+# Inputs of a supply of oil, and what they are in a link that does not name them. With a supply
+# there is no given film temperature; without one these are None.
+SUPPLY: Values = {"T_in": None, "flow": 0.0, "share": 1.0}
+# Inputs that may be None: a value that follows from others, or one of what the machine has not.
+OPTIONAL = frozenset(("load", "T", *SUPPLY))
 
 # Inputs that are not part of a machine: the speeds at which it is analysed.
 _SPEEDS = ("speed", "top_speed")
@@ -134,12 +162,13 @@ def values_of(machine: Machine, speed: float, top_speed: float) -> Values:
     for key, item in INPUTS.items():
         value = speeds[item.field] if item.field in speeds else _at(machine, item.field)
         values[key] = None if value is None else tidy(float(item.unit(SI).of(value)))
-    return values | bearing_values(machine.bearing)
+    return values | {LAW: machine.oil.law} | bearing_values(machine.bearing)
 
 
 def _at(machine: Machine, field: str) -> float | None:
     """Return the value of a record's field; a load that follows the weight has none."""
-    return functools.reduce(getattr, field.split("."), machine)  # type: ignore[return-value]
+    record, _, name = field.rpartition(".")
+    return getattr(getattr(machine, record) if record else machine, name, None)
 
 
 def preset_values(preset: Preset) -> Values:
@@ -150,10 +179,28 @@ def preset_values(preset: Preset) -> Values:
 PRESET_VALUES: dict[str, Values] = {key: preset_values(preset) for key, preset in PRESETS.items()}
 
 
-def usual_values(preset: str, kind: object) -> Values:
-    """Return a preset's values, with a bearing of another kind as it is by itself."""
+def usual_values(preset: str, like: Values) -> Values:
+    """Return a preset's values, with a bearing of another kind as it is by itself.
+
+    Where other values have a supply of oil, so has the preset, by itself.
+    """
     values = PRESET_VALUES[preset]
-    return values if values[KIND] == kind else without_shape(values) | defaults_of(str(kind))
+    kind = like[KIND]
+    if values[KIND] != kind:
+        values = without_shape(values) | defaults_of(str(kind))
+    return values | {"T": None} | SUPPLY if has_supply(like) else values
+
+
+def has_supply(values: Values) -> bool:
+    """Return whether the film's temperature follows from a supply of oil."""
+    return values.get("T_in") is not None
+
+
+def applies(key: str, values: Values) -> bool:
+    """Return whether a machine has an input of every machine: a film temperature, or a supply."""
+    if key == "T":
+        return not has_supply(values)
+    return key not in SUPPLY or has_supply(values)
 
 
 def machine_of(values: Values) -> Machine:
@@ -161,38 +208,46 @@ def machine_of(values: Values) -> Machine:
     try:
         return _machine_of(values)
     except ValueError as error:
-        raise ValueError(_in_words(f"{error}", values)) from error
+        raise ValueError(in_words(f"{error}", values)) from error
 
 
-def _in_words(message: str, values: Values) -> str:
+def in_words(message: str, values: Values) -> str:
     """Return a message of the core with a field's name as the sidebar has it."""
     field, _, _ = message.partition(" = ")
     for item in inputs_of(values).values():
-        if field == item.field.rpartition(".")[2]:
+        if field in (item.field, item.field.rpartition(".")[2]):
             return f"{item.words}{message.removeprefix(field)}"
     return message
 
 
 def _machine_of(values: Values) -> Machine:
-    records: dict[str, dict[str, Any]] = {"oil": {}, "bearing": {}, "rotor": {}, "": {}}
+    records: dict[str, dict[str, Any]] = {
+        "oil": {},
+        "bearing": {},
+        "rotor": {},
+        "supply": {},
+        "": {},
+    }
     for key, item in INPUTS.items():
         record, _, name = item.field.rpartition(".")
         if item.field not in _SPEEDS:
-            # None is a load that follows the rotor's weight; no other input may be missing.
-            load = name == "load" and values[key] is None
-            records[record][name] = None if load else item.unit(SI).to_si(number(values, key))
+            left_out = key in OPTIONAL and values[key] is None
+            records[record][name] = None if left_out else item.unit(SI).to_si(number(values, key))
     geometry, film = shape_of(values)
+    supply = records["supply"]
     return Machine(
-        oil=Oil(**records["oil"]),
+        oil=Oil(**records["oil"], law=str(values[LAW])),
         bearing=JournalBearing(**records["bearing"], geometry=geometry, film=film),
         rotor=Rotor(**records["rotor"]),
+        supply=None if supply["temperature"] is None else Supply(**supply),
         **records[""],
     )
 
 
 def inputs_of(values: Values) -> dict[str, Input]:
     """Return the inputs of a machine's sliders by their keys, its bore's among them."""
-    return INPUTS | {item.key: item for item in bore_inputs(values) if not isinstance(item, Pick)}
+    own = {key: item for key, item in INPUTS.items() if applies(key, values)}
+    return own | {item.key: item for item in bore_inputs(values) if not isinstance(item, Pick)}
 
 
 def usual(key: str, values: Values) -> float:
@@ -226,7 +281,7 @@ def speeds_of(values: Values) -> tuple[float, float]:
 
 def input_named(name: str, values: Values) -> Input:
     """Return a machine's input by its key, or raise ValueError."""
-    found = INPUTS.get(name) or inputs_of(values).get(name)
+    found = inputs_of(values).get(name)
     if found is None:
         raise ValueError(f"{quoted(name)} is not an input")
     return found

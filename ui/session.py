@@ -23,7 +23,7 @@ from ui.cases import Case
 from ui.choices import Value as Choice
 from ui.choices import choices, release_of, words_of
 from ui.history import MOST_NEAR, History
-from ui.inputs import PRESET_VALUES, usual_values
+from ui.inputs import LAW, PRESET_VALUES, has_supply, usual_values
 from ui.preview import Preview
 from ui.sharing import address, labels
 
@@ -118,6 +118,14 @@ class Session:
         self._set(without_shape(self.values) | bearing_values(bearing))
         self.set_film(bearing.model)
 
+    def set_supply(self, heat: Values) -> None:
+        """Take over film temperature and supply of oil, of which one is None (`ui.supply`)."""
+        self._set(self.values | heat)
+
+    def set_law(self, law: str) -> None:
+        """Take over a law of the oil's viscosity."""
+        self.set_value(LAW, law)
+
     def set_film(self, film: str) -> None:
         """Take over a film model; that of a bearing that names none needs no name."""
         usual = film_model(self.values | {FILM: None})
@@ -184,8 +192,8 @@ class Session:
             for item in inputs
         ]
         return (
-            self.preset, self.values["load"] is None, self.values[KIND], self.values[FILM],
-            inputs, picked, self.units_name,
+            self.preset, self.values["load"] is None, has_supply(self.values), self.values[LAW],
+            self.values[KIND], self.values[FILM], inputs, picked, self.units_name,
         )  # fmt: skip
 
     def view(self, chart: str) -> None:
@@ -279,7 +287,7 @@ def changed(preset: str, values: Values) -> list[str]:
     Of another kind of bearing than the preset's these are the kind, and its fields that are not at
     their default.
     """
-    usual = usual_values(preset, values[KIND]) | {KIND: PRESET_VALUES[preset][KIND]}
+    usual = usual_values(preset, values) | {KIND: PRESET_VALUES[preset][KIND]}
     return [key for key, value in values.items() if key not in usual or value != usual[key]]
 
 

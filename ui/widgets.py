@@ -15,7 +15,7 @@ from plotly.basedatatypes import BaseFigure
 
 from rotorcalc.figures import Chart, themed
 from rotorcalc.units import Units
-from ui.bores import KIND, Values
+from ui.bores import Values
 from ui.format import short
 from ui.input_record import Input
 from ui.inputs import input_named, inputs_of, number, usual, usual_values
@@ -176,7 +176,7 @@ def _live_sliders(group: str, items: Sequence[Input], visitor: Session) -> None:
 
 def _start(visitor: Session) -> Values:
     """Return the values from which a visitor began."""
-    return usual_values(visitor.preset, visitor.values[KIND])
+    return usual_values(visitor.preset, visitor.values)
 
 
 def _sent(item: Input, values: Values, units: Units) -> float | str:

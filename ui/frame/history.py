@@ -5,7 +5,7 @@ import streamlit as st
 from ui.bearing import fields_of, film_name
 from ui.bores import FILM, KIND, Values, name_of
 from ui.format import lower
-from ui.inputs import INPUTS
+from ui.inputs import INPUTS, LAW, LAWS
 from ui.session import Session, changed
 
 # Key of the place of the inputs changed.
@@ -42,6 +42,8 @@ def _symbol(key: str, values: Values) -> str:
         return INPUTS[key].symbol
     if key == KIND:
         return f"bearing: {lower(name_of(values[KIND]))}"
+    if key == LAW:
+        return f"viscosity by {LAWS[str(values[LAW])]}"
     if key == FILM:
         return f"film: {lower(film_name(values))}"
     fields = fields_of(values[KIND])

@@ -1,15 +1,31 @@
 """The sidebar: presets, inputs in groups, the oil library, and display settings."""
 
+from collections.abc import Callable
+from contextlib import suppress
+from typing import Literal
+
 import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
 
-from rotorcalc import PRESETS, Oil
+from rotorcalc import PRESETS, Oil, oils
 from rotorcalc.oils import ISO_VG, fitted_oil, iso_oil
 from rotorcalc.units import AMPLITUDES, SI, SYSTEMS, Unit, Units
+from ui import supply
 from ui.format import amount
 from ui.frame import bore
-from ui.inputs import GROUPS, INPUTS, OPEN_GROUPS, machine_of, number
-from ui.session import session
+from ui.input_record import Input
+from ui.inputs import (
+    GROUPS,
+    INPUTS,
+    LAW,
+    LAWS,
+    OPEN_GROUPS,
+    applies,
+    has_supply,
+    machine_of,
+    number,
+)
+from ui.session import Session, session
 from ui.widgets import show_inputs
 
 # Pixels: its sliders are then so long that one pixel changes no input by more than 0.5 %.
@@ -40,17 +56,11 @@ def draw_inputs() -> DeltaGenerator | None:
     bearing = None
     for group in GROUPS:
         with st.expander(group, expanded=group in OPEN_GROUPS):
-            items = [item for item in INPUTS.values() if item.group == group]
-            if _LOAD in items:
-                place = items.index(_LOAD)
-                show_inputs(f"{group}, above the load", items[:place])
-                _load()
-                show_inputs(group, items[place + 1 :])
-            else:
-                if group == "Bearing":
-                    bearing = bore.draw()
-                show_inputs(group, items)
+            if group == "Bearing":
+                bearing = bore.draw()
+            _group(group)
             if group == "Oil":
+                _law()
                 _oil_library()
     _settings()
     return bearing
@@ -68,6 +78,26 @@ def draw_presets() -> None:
         help=PRESETS[visitor.preset].note,
         on_change=lambda: visitor.set_preset(st.session_state["preset"]),
     )
+
+
+def _group(group: str) -> None:
+    """Draw a group's sliders, those of one stretch together, with the switches before some."""
+    values, together, place = session().values, list[Input](), group
+    for key, item in INPUTS.items():
+        if item.group != group:
+            continue
+        if key in _SWITCHES:
+            _sliders(place, together)
+            place, together = f"{group}, after {key}", []
+            _SWITCHES[key]()
+        if applies(key, values) and key not in _ALONE:
+            together.append(item)
+    _sliders(place, together)
+
+
+def _sliders(group: str, items: list[Input]) -> None:
+    if items:
+        show_inputs(group, items)
 
 
 def _load() -> None:
@@ -89,6 +119,43 @@ def _toggle_load() -> None:
         visitor.set_value("load", float(f"{weight:.5g}"))
 
 
+def _supply() -> None:
+    """Draw the switch between a given film temperature and a supply of oil."""
+    visitor = session()
+    visitor.mirror("oil_supply", has_supply(visitor.values))
+    st.toggle(
+        "Film temperature follows from the oil supply", key="oil_supply", on_change=_toggle_supply,
+        help="The film's loss warms the oil that passes; at each speed the film is at the mean of "
+        "inlet and outlet temperature (ISO 7902-1).",
+    )  # fmt: skip
+
+
+def _toggle_supply() -> None:
+    visitor = session()
+    try:
+        visitor.set_supply(supply.other(visitor.values))
+    except ValueError as error:
+        visitor.problems[:] = [f"{error}."]
+
+
+# Switches that stand before an input, and inputs that their switch draws.
+_SWITCHES: dict[str, Callable[[], None]] = {"load": _load, "T": _supply}
+_ALONE = frozenset(("load",))
+
+
+def _law() -> None:
+    """Draw the choice of the viscosity's law."""
+    visitor = session()
+    visitor.mirror("oil_law", visitor.values[LAW])
+    st.segmented_control(
+        "Viscosity law", list(LAWS), format_func=LAWS.__getitem__, key="oil_law", required=True,
+        help="Both have the reference viscosity and its slope α at the reference temperature. The "
+        "exponential law, the notes', keeps that slope; by Walther's law it flattens, as that of "
+        "mineral oils does.",
+        on_change=lambda: visitor.set_law(st.session_state["oil_law"]),
+    )  # fmt: skip
+
+
 def _oil_library() -> None:
     # Its content is drawn only while it is open, as every run of the page would pay for it.
     library = st.popover("Oil library", width="stretch", key="oil_library", on_change="rerun")
@@ -101,24 +168,48 @@ def _oil_library() -> None:
 
 def _grades() -> None:
     visitor = session()
-    temperature = number(visitor.values, "T")
+    try:
+        temperature = supply.film_temperature(visitor.values)
+    except ValueError as error:
+        st.error(f"{error}.")
+        return
+    law = _law_of(visitor)
     grade = st.selectbox("ISO viscosity grade", list(ISO_VG), key="grade", persist_state="session")
     shown = amount(visitor.units.temperature, temperature)
+    agrees = (
+        f"The exponential law used here has the same viscosity and slope at the film temperature, "
+        f"{shown}."
+        if law == "exponential"
+        else "Walther's law, used here, is the grade's at every temperature."
+    )
+    density, heat = (
+        amount(unit, float(of(temperature)))
+        for unit, of in (
+            (visitor.units.density, oils.density),
+            (visitor.units.heat_capacity, oils.heat_capacity),
+        )
+    )
     st.caption(
-        "Mineral oil of viscosity index 100, by Walther's equation (ASTM D341). The exponential "
-        f"law used here has the same viscosity and slope at the film temperature, {shown}."
+        "Mineral oil of viscosity index 100, by Walther's equation (ASTM D341). "
+        f"{agrees} Such oils have a density of {density} (DIN 51757) and a heat capacity of {heat} "
+        f"(Cragoe) at {shown}."
     )
     st.button(
         "Use this grade",
         key="use_grade",
-        on_click=lambda: _take_over(iso_oil(grade, temperature=temperature)),
+        on_click=lambda: _take_over(iso_oil(grade, temperature=temperature, law=law), _GRADE),
     )
+
+
+def _law_of(visitor: Session) -> Literal["exponential", "walther"]:
+    return "walther" if visitor.values[LAW] == "walther" else "exponential"
 
 
 def _fit() -> None:
     st.markdown("Fit α from two viscosities")
     columns = st.columns(2)
-    units = session().units
+    visitor = session()
+    units, law = visitor.units, _law_of(visitor)
     readings: list[tuple[float, float]] = []
     for column, place, T, mu in zip(columns, "12", (40.0, 80.0), (30e-3, 9e-3), strict=True):
         with column:
@@ -131,10 +222,31 @@ def _fit() -> None:
             "The two temperatures must differ, and the viscosity must be lower at the higher one."
         )
         return
-    oil = fitted_oil(temperatures=(T_1, T_2), viscosities=(mu_1, mu_2))
+    density = number(visitor.values, "rho")
+    try:
+        oil = fitted_oil(
+            temperatures=(T_1, T_2), viscosities=(mu_1, mu_2), density=density, law=law
+        )
+    except ValueError as error:
+        st.error(f"{error}.")
+        return
     slope = amount(units.per_temperature, oil.temperature_coefficient)
-    st.caption(f"α = ln(μ1/μ2)/(T2 − T1) = {slope}")
-    st.button("Use this fit", key="use_fit", on_click=lambda: _take_over(oil))
+    rule = "ln(μ1/μ2)/(T2 − T1)" if law == "exponential" else "−d ln μ/dT at T1, by Walther's law"
+    st.caption(f"α = {rule} = {slope}.{_beyond((T_1, T_2), visitor)}")
+    st.button("Use this fit", key="use_fit", on_click=lambda: _take_over(oil, _FIT))
+
+
+def _beyond(fitted: tuple[float, float], visitor: Session) -> str:
+    """Return in words that the film lies outside the temperatures of a fit, where it does."""
+    with suppress(ValueError):
+        T = supply.film_temperature(visitor.values)
+        if not fitted[0] <= T <= fitted[1]:
+            shown = amount(visitor.units.temperature, T)
+            return (
+                f" The film, at {shown}, lies outside these temperatures: its viscosity is "
+                "extrapolated."
+            )
+    return ""
 
 
 def _reading(name: str, unit: Unit, usual: float, ends: tuple[float, float], units: Units) -> float:
@@ -145,17 +257,20 @@ def _reading(name: str, unit: Unit, usual: float, ends: tuple[float, float], uni
     return unit.to_si(st.number_input(f"{name} [{unit.name}]", low, high, start, key=key))
 
 
-def _take_over(oil: Oil) -> None:
-    """Set the inputs to an oil's values, and report those outside their ranges."""
+# What a fit gives, and what a grade gives besides.
+_FIT = ("mu", "TR", "alpha")
+_GRADE = (*_FIT, "rho", "cp")
+
+
+def _take_over(oil: Oil, keys: tuple[str, ...]) -> None:
+    """Set inputs to an oil's values, and report those outside their ranges."""
     visitor = session()
     units = visitor.units
     visitor.problems.clear()
-    for key, item in INPUTS.items():
-        record, _, name = item.field.rpartition(".")
-        if record != "oil" or name == "density":  # the library has no density
-            continue
+    for key in keys:
+        item = INPUTS[key]
         # Six digits are more than a grade is known to, and short in a link.
-        value = float(f"{float(item.unit(SI).of(getattr(oil, name))):.6g}")
+        value = float(f"{float(item.unit(SI).of(getattr(oil, item.field.rpartition('.')[2]))):.6g}")
         if problem := item.problem(value, units):
             visitor.problems.append(
                 f"{item.name(units)} = {item.text(value, units)} {problem}; it was left as it is."

@@ -1,7 +1,8 @@
 """The address bar: kept values to query parameters and back.
 
 A link holds the preset and every value that differs from it, always in SI as engineers write it, so
-it means the same whatever units are shown. A bearing of another kind than the preset's is named,
+it means the same whatever units are shown. A supply of oil stands in place of a film temperature.
+A bearing of another kind than the preset's is named,
 with those of its fields that are not at their default. Cases follow in one parameter, each as its
 name, the number of its colour, and what differs from the preset, with ~ between and ~~ between
 cases: letters and ~ stay as they are in an address.
@@ -28,7 +29,18 @@ from ui.cases import Case, added
 from ui.choices import NAMES
 from ui.format import quoted, typed_number
 from ui.input_record import tidy
-from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, machine_of, usual_values
+from ui.inputs import (
+    DEFAULT_PRESET,
+    INPUTS,
+    LAW,
+    LAWS,
+    OPTIONAL,
+    PRESET_VALUES,
+    SUPPLY,
+    has_supply,
+    machine_of,
+    usual_values,
+)
 
 CASES = "cases"
 # Parameters that are no value of the machine.
@@ -100,7 +112,7 @@ def _read_cases(text: str, preset: str, problems: list[str]) -> tuple[Case, ...]
 def _differing(preset: str, values: Values) -> dict[str, str]:
     """Return the preset, and the values that differ from it, as a link has them."""
     params = {} if preset == DEFAULT_PRESET else {"preset": preset}
-    usual = usual_values(preset, values[KIND])
+    usual = usual_values(preset, values)
     for key, value in values.items():
         if key not in usual or value != usual[key]:
             params[key] = "weight" if key == "load" and value is None else written(value)
@@ -117,8 +129,8 @@ def checked_values(given: Mapping[str, object], preset: str, problems: list[str]
             f"{KIND} = {quoted(kind)} is not one of {', '.join(kinds())}; {_kept(KIND, preset)}"
         )
         kind = PRESET_VALUES[preset][KIND]
-    values, fields = usual_values(preset, kind), fields_of(kind)
-    values = dict(values)
+    fields = fields_of(kind)
+    values = dict(usual_values(preset, {KIND: str(kind)}))
     for key, word in given.items():
         if key in INPUTS:
             _take_number(values, key, word, preset, problems)
@@ -126,9 +138,34 @@ def checked_values(given: Mapping[str, object], preset: str, problems: list[str]
             _take_field(values, fields[key], word, problems)
         elif key == FILM:
             _take_film(values, word, problems)
+        elif key == LAW:
+            values[LAW] = _word({LAW: f"{word}"}, LAW, str(values[LAW]), LAWS, problems)
         elif key != KIND:
             problems.append(f"{quoted(key)} is not an input of this machine and was left out.")
+    _settle_supply(values, given, preset, problems)
     return _made(values, preset, problems)
+
+
+def _settle_supply(
+    values: Values, given: Mapping[str, object], preset: str, problems: list[str]
+) -> None:
+    """Give values a film temperature or a supply of oil, and not both, by what a link has."""
+    for key, usual in SUPPLY.items():
+        if not has_supply(values) and values[key] is not None:
+            problems.append(
+                f"{INPUTS[key].label} ({key}) belongs to a supply of oil, whose temperature T_in "
+                "is missing; it was left out."
+            )
+            values[key] = None
+        elif has_supply(values) and values[key] is None:
+            values[key] = usual
+    if has_supply(values):
+        if given.get("T") not in (None, "none"):
+            problems.append("Film temperature (T) follows from the supply (T_in); it was left out.")
+        values["T"] = None
+    elif values["T"] is None:
+        problems.append(f"Film temperature (T) is missing; {_kept('T', preset)}")
+        values["T"] = PRESET_VALUES[preset]["T"]
 
 
 def _take_number(values: Values, key: str, word: object, preset: str, problems: list[str]) -> None:
@@ -194,7 +231,7 @@ def _shape(values: Values) -> Values:
 
 
 def _value(key: str, word: object) -> tuple[float | None, str]:
-    if key == "load" and word in ("weight", None):
+    if word in (None, "weight" if key == "load" else "none") and key in OPTIONAL:
         return None, ""
     try:
         value = typed_number(word)

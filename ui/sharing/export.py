@@ -18,7 +18,7 @@ from ui import comparison
 from ui.bearing import fields_of, film_name
 from ui.bores import KIND, name_of
 from ui.computed import Computed
-from ui.inputs import INPUTS, values_of
+from ui.inputs import INPUTS, LAWS, applies, values_of
 from ui.sharing import xlsx
 
 # Words, unit and SI values of a column.
@@ -88,7 +88,10 @@ def _head(computed: Computed, units: Units) -> Iterator[tuple[str, str]]:
     """Yield the lines before the table: inputs and onset."""
     values = values_of(computed.machine, computed.speed, computed.top_speed)
     for key, item in INPUTS.items():
+        if not applies(key, values):
+            continue
         yield f"# {item.name(units)}", comparison.shown(key, values, units).replace("−", "-")
+    yield "# Viscosity law", LAWS[computed.machine.oil.law]
     yield "# Bearing", name_of(values[KIND])
     yield "# Film", film_name(values)
     for field in fields_of(values[KIND]).values():
@@ -104,6 +107,10 @@ def _head(computed: Computed, units: Units) -> Iterator[tuple[str, str]]:
 def _columns(computed: Computed, units: Units) -> Iterator[Column]:
     sweep = computed.sweep
     yield "Running speed Ω", units.speed, sweep.speed
+    yield "Film temperature T", units.temperature, sweep.temperature
+    if computed.machine.supply is not None:
+        yield "Outlet temperature T_out", units.temperature, sweep.outlet_temperature
+    yield "Viscosity μ", units.viscosity, sweep.viscosity
     yield "Modified Sommerfeld number σ", units.number, sweep.sommerfeld
     yield "Eccentricity ratio ε", units.number, sweep.eccentricity_ratio
     yield "Attitude angle φ", units.angle, sweep.attitude_angle

@@ -26,7 +26,7 @@ from ui.bores import KIND, Values, name_of
 from ui.cases import Shown
 from ui.computed import Computed
 from ui.format import amount, digits, minus
-from ui.inputs import GROUPS, INPUTS, values_of
+from ui.inputs import GROUPS, INPUTS, LAW, LAWS, applies, values_of
 from ui.results.table import RESULTS
 from ui.sharing import report_charts
 from ui.sharing.labels import Labels
@@ -114,7 +114,15 @@ def _inputs(computed: Computed, units: Units) -> str:
     rows: list[str] = []
     for group in GROUPS:
         rows.append(f'<tr class="group"><th colspan="4">{escape(group)}</th></tr>')
-        rows += (_input(key, live, units) for key, item in INPUTS.items() if item.group == group)
+        rows += (
+            _input(key, live, units)
+            for key, item in INPUTS.items()
+            if item.group == group and applies(key, live)
+        )
+        if group == "Oil":
+            rows.append(
+                _row([("Viscosity law", ""), ("", ""), (LAWS[str(live[LAW])], "n"), ("", "")])
+            )
         if group == "Bearing":
             rows += _bearing(live, units)
     head = _head("Input", "Symbol", ("Value", "n"), "Unit")

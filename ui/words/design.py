@@ -23,10 +23,8 @@ from ui.inputs import INPUTS, usual, values_of
 from ui.jobs import cache, work
 from ui.words.citation import without_load
 
-# The core's names for the inputs that move the onset of any machine.
-FIELDS = {key: item.field for key, item in INPUTS.items() if item.field in design.INPUTS}
 # Whose effect goes by ratios: drawn and searched over a logarithmic axis.
-_BY_RATIO = {"mass", "load", "mu", "C", "D", "L", "k"}
+_BY_RATIO = {"mass", "load", "mu", "C", "D", "L", "k", "flow", "cp"}
 # How far an axis reaches from the machine's value, as a factor; of a bore's field the first that
 # makes a bore.
 _REACH = 10.0
@@ -50,10 +48,12 @@ TORNADO = (
 
 def fields_of(machine: Machine) -> dict[str, str]:
     """Return the core's names of the inputs that move a machine's onset, by their keys."""
-    geometry = machine.bearing.geometry
-    named = {field.name: key for key, field in bore_fields(geometry.kind).items()}
-    own = (field for field in design.inputs_of(machine) if field not in FIELDS.values())
-    return FIELDS | {named[field.rpartition(".")[2]]: field for field in own}
+    named = {key: item.field for key, item in INPUTS.items()} | {
+        key: f"bearing.geometry.{field.name}"
+        for key, field in bore_fields(machine.bearing.geometry.kind).items()
+    }
+    moving = design.inputs_of(machine)
+    return {key: field for key, field in named.items() if field in moving}
 
 
 def bore_field(machine: Machine, key: str) -> Field:
@@ -149,8 +149,9 @@ def value_of(machine: Machine, key: str) -> float:
 def names(machine: Machine, units: Units) -> dict[str, str]:
     """Return the names of the core's inputs for the tornado chart."""
     step = f"{design.TEMPERATURE_STEP * units.temperature.per_si:g} {units.temperature.name}"
-    return {field: name(machine, key) for key, field in fields_of(machine).items()} | {
-        "temperature": f"{name(machine, 'T')} ±{step}"
+    return {
+        field: f"{name(machine, key)} ±{step}" if key in ("T", "T_in") else name(machine, key)
+        for key, field in fields_of(machine).items()
     }
 
 
