@@ -6,6 +6,7 @@ law fits a grade about one temperature only.
 """
 
 import math
+from dataclasses import replace
 from typing import Literal
 
 from numpy.typing import ArrayLike
@@ -146,6 +147,26 @@ def fitted_oil(
         density=density,
         law=law,
     )
+
+
+@checked
+def by_other_law(oil: Oil) -> Oil | None:
+    """Return an oil by the other law with the same viscosity and slope at its reference.
+
+    Parameters
+    ----------
+    oil : Oil
+        The oil.
+
+    Returns
+    -------
+    Oil or None
+        None where it is too thin for Walther's law.
+    """
+    try:
+        return replace(oil, law="walther" if oil.law == "exponential" else "exponential")
+    except ValueError:
+        return None
 
 
 @checked

@@ -8,7 +8,7 @@ from rotorcalc.figures import Chart, with_cases
 from rotorcalc.figures import cases as figures
 from rotorcalc.figures.cases import COLOURS
 from ui.bores import Values
-from ui.computed import Computed, computed_from
+from ui.computed import Computed, answered_from
 
 Draw = Callable[[Computed], Chart]
 # A machine with results, and the name and colour under which a chart draws it behind another.
@@ -86,8 +86,7 @@ def computed(cases: Iterable[Case]) -> tuple[tuple[Shown, ...], list[str]]:
     problems: list[str] = []
     for case in cases:
         try:
-            found = computed_from(case.values)
-            _ = found.point  # a film may have no answer at the running speed
+            found = answered_from(case.values)
         except ValueError as error:
             problems.append(f"Case {case.name} is not shown: {error}.")
         else:

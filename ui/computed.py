@@ -10,6 +10,7 @@ import numpy as np
 from rotorcalc import (
     JournalBearing,
     Machine,
+    Oil,
     Onset,
     Plain,
     Rotor,
@@ -41,6 +42,7 @@ from rotorcalc.figures.machine import OtherSpeeds
 from rotorcalc.films import film_of
 from rotorcalc.films.finite import draft
 from rotorcalc.numerics.first_answer import from_first_answer
+from rotorcalc.oils import by_other_law
 from rotorcalc.root_locus import Locus, root_locus
 from rotorcalc.unbalance_curves import (
     ClearanceOrbit,
@@ -55,7 +57,7 @@ from rotorcalc.unbalance_curves import (
 from rotorcalc.unbalance_peaks import ResponsePeaks, both_peaks
 from rotorcalc.validity import IMBALANCE_ORBIT, Check, validity
 from ui.bores import Values
-from ui.inputs import machine_of, speeds_of
+from ui.inputs import in_words, machine_of, speeds_of
 
 # Points of a sweep: enough for a smooth line across a projector.
 POINTS = 240
@@ -134,6 +136,47 @@ class Computed:
             viscosity=self.viscosity,
             speed=self.speed,
         )
+
+    @cached_property
+    def heat_curves(self) -> heat.HeatCurves:
+        """Heat made and heat carried over the film's temperature, at the running speed."""
+        machine, T = self.machine, float(self.point.temperature)
+        if machine.supply is None:
+            raise ValueError("the film's temperature is given")
+        # To as far above the balance as the supply is below it, and some degrees at least.
+        rise = max(2.0 * (T - machine.supply.temperature), 10.0)
+        inlet = machine.supply.temperature
+        return heat.heat_curves(machine, self.speed, np.linspace(inlet, inlet + rise, POINTS // 2))
+
+    @property
+    def unwarmed(self) -> "Computed":
+        """The same machine with its film at the supply's temperature at every speed."""
+        supply = self.machine.supply
+        if supply is None:
+            raise ValueError("the film's temperature is given")
+        machine = replace(self.machine, temperature=supply.temperature, supply=None)
+        return _computed(machine, self.speed, self.top_speed)
+
+    @property
+    def settled(self) -> "Computed":
+        """The same machine with its film at the running speed's temperature at every speed."""
+        return _computed(heat.settled(self.machine, self.speed), self.speed, self.top_speed)
+
+    @property
+    def other_oil(self) -> Oil | None:
+        """The oil by the other law of viscosity, None where it has none."""
+        return by_other_law(self.machine.oil)
+
+    @cached_property
+    def flow_needed(self) -> float:
+        """Groove flow that holds the oil's rise at the running speed at 20 K [m³/s]; NaN if none.
+
+        With a supply the film is then at another temperature.
+        """
+        try:
+            return float(heat.flow_for_rise(self.machine, self.speed))
+        except ValueError:  # so warm a film does not carry its load
+            return math.nan
 
     @cached_property
     def at_round_speeds(self) -> Equilibrium:
@@ -345,6 +388,19 @@ def computed_while_dragging(values: Values, before: Computed) -> Computed:
     if film_of(machine.bearing).curve != film_of(before.machine.bearing).curve:
         machine = replace(machine, bearing=draft(machine.bearing))
     return _computed(machine, *speeds_of(values))
+
+
+def answered_from(values: Values) -> Computed:
+    """Return the results of kept values, or raise ValueError in the sidebar's words.
+
+    Also where the film has no answer at the running speed, or no temperature.
+    """
+    computed = computed_from(values)
+    try:
+        _ = computed.point
+    except ValueError as error:
+        raise ValueError(in_words(f"{error}", values)) from error
+    return computed
 
 
 def speeds(top_speed: float) -> Array:

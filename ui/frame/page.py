@@ -19,6 +19,7 @@ from ui.cases import computed as computed_cases
 from ui.choices import choice
 from ui.computed import Computed, computed_from
 from ui.frame import bore, cases, history, presentation, sidebar
+from ui.inputs import in_words
 from ui.preview import Preview, Text, Words
 from ui.results.row import show_results
 from ui.serving import one_at_a_time, version
@@ -61,6 +62,7 @@ HOME = "app.py"
 PAGES = {
     HOME: "Machine",
     "pages/1_Equilibrium.py": "Equilibrium",
+    "pages/9_Heat.py": "Heat",
     "pages/2_Coefficients.py": "Coefficients",
     "pages/3_Stability.py": "Stability",
     "pages/4_Root_locus.py": "Root locus",
@@ -341,7 +343,7 @@ def _answered(
     except ValueError as error:
         with places.foot:
             show_preview(None)
-        unanswered(f"{error}")
+        unanswered(in_words(f"{error}", visitor.values))
         return page.alone()
     visitor.preview = page.preview
     page.say("verdict", lambda c: verdict.text(c, page.units))

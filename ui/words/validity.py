@@ -7,11 +7,13 @@ import numpy as np
 import streamlit as st
 
 from rotorcalc.arrays import Array
-from rotorcalc.validity import Check
+from rotorcalc.units import Units
+from rotorcalc.validity import HEAT, Check
 from ui.computed import Computed
 from ui.format import digits, lower
 from ui.preview import Preview, Text
 from ui.words import citation
+from ui.words.heat import needed
 
 _BADGES = {"good": "green", "caution": "orange", "outside": "red"}
 _FILM = ":small[Film: {}; laminar, isoviscous, aligned, rigid walls. Orbits: small.]"
@@ -39,9 +41,9 @@ def badge(computed: Computed) -> str:
     return f":{_BADGES[worst(computed).worst]}-badge[{headline(computed)}]"
 
 
-def panel(computed: Computed) -> Text:
+def panel(computed: Computed, units: Units) -> Text:
     """Return each assumption with its number and limits."""
-    lines = map(_line, computed.checks)
+    lines = (_line(check, computed, units) for check in computed.checks)
     return Text("\n\n".join([*lines, _FILM.format(citation.film(computed))]))
 
 
@@ -52,7 +54,7 @@ def draw(preview: Preview, set_film: Callable[[str], None]) -> None:
     """
     opened = st.expander("Where the model holds", key="validity", on_change="rerun")
     with opened:
-        preview.say("assumptions", panel)
+        preview.say("assumptions", lambda c: panel(c, preview.units))
         # A bore that nobody asked before takes a tenth of a second: only where somebody reads it.
         if opened.open and preview.computed.of_finite_length is not None:
             preview.say("short_error", short_error)
@@ -94,10 +96,13 @@ def _by(ratio: float, more: str, less: str) -> str:
     return f"{abs(100.0 * (ratio - 1.0)):.2g} % too {more if ratio > 1.0 else less}"
 
 
-def _line(check: Check) -> str:
+def _line(check: Check, computed: Computed, units: Units) -> str:
     badge = f":{_BADGES[check.worst]}-badge[{WORDS[check.worst]}]"
     text = f"{badge} {check.name}: **{number(check.value)}** ({limits(check)})"
-    return text if check.worst == "good" else f"{text}: {check.reason}."
+    if check.worst == "good":
+        return text
+    remedy = f" {needed(computed, units)}" if check.name == HEAT else ""
+    return f"{text}: {check.reason}.{remedy}"
 
 
 def limits(check: Check) -> str:

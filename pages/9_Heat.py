@@ -1,0 +1,86 @@
+import streamlit as st
+
+from rotorcalc.figures import equilibrium, heat
+from ui.frame.page import Page, show
+from ui.words import equilibrium as film
+from ui.words import heat as words
+from ui.words.citation import cited
+
+
+def content(page: Page) -> None:
+    page.results("film_temperature", "outlet_temperature", "oil_rise", "viscosity", "power_loss")
+    if not film.known("Loss, flow and their heat", page.computed.point.power_loss):
+        return
+    page.say("heat", lambda c: words.carried(c, page.units))
+    page.tabs("heat_tab", {
+        "Over speed": over_speed,
+        "Balance": balance,
+        "What warming does": warming,
+        "Oil": oil,
+    })  # fmt: skip
+
+
+def over_speed(page: Page) -> None:
+    units = page.units
+    given = page.computed.machine.supply is None
+    side = "What the side flow alone would warm by, if it carried all the loss."
+    charts = (
+        (heat.temperatures, "temperatures", "Given, the same at every speed."
+         if given else "The film is at the mean of inlet and outlet. ISO 7902-1."),
+        (heat.rise, "rise", side if given else "From inlet to outlet."),
+        (equilibrium.power_loss, "heat_loss",
+         cited("Drag torque times speed, all dissipated as heat.", page.computed, "drag")),
+        (heat.flows, "flows", cited("Oil that passes one bearing.", page.computed, "flow")),
+    )  # fmt: skip
+    for row in (charts[:2], charts[2:]):
+        for column, (draw, key, caption) in zip(st.columns(2), row, strict=True):
+            with column:
+                page.chart(
+                    lambda c, draw=draw: draw(c.sweep, c.point, units), key,
+                    alt=f"{key.replace('_', ' ').capitalize()} over running speed.",
+                    caption=caption,
+                )  # fmt: skip
+
+
+def balance(page: Page) -> None:
+    if page.computed.machine.supply is None:
+        words.offer_supply()
+        return
+    page.chart(
+        lambda c: heat.balance(c.heat_curves, c.point, page.units), "heat_balance",
+        alt="Heat made and heat carried over the film's temperature, which cross at the balance.",
+        caption=lambda c: words.curves(c, page.units),
+    )  # fmt: skip
+
+
+def warming(page: Page) -> None:
+    if page.computed.machine.supply is None:
+        words.offer_supply()
+        return
+    page.say("warming", lambda c: words.table(c, page.units))
+    left, right = st.columns(2)
+    for column, draw, key in (
+        (left, heat.eccentricity, "warm_eps"),
+        (right, heat.film, "warm_film"),
+    ):
+        with column:
+            page.chart(
+                lambda c, draw=draw: draw(words.warmed(c, page.units), c.point, page.units), key,
+                alt="With the balance of heat and with the film at the supply's temperature.",
+                caption="Dashed: the film at the supply's temperature at every speed.",
+            )  # fmt: skip
+
+
+def oil(page: Page) -> None:
+    page.chart(
+        lambda c: heat.viscosity(c.sweep, c.point, c.other_oil, page.units), "oil_viscosity",
+        alt="Viscosity of the oil over temperature by both laws, the film's range shaded.",
+        caption=lambda c: words.law(c, page.units),
+    )  # fmt: skip
+
+
+show(
+    "Heat",
+    "Where the loss goes: the oil that carries it, the temperature that follows, what it changes.",
+    content,
+)

@@ -1,0 +1,76 @@
+"""Results of the balance of heat: temperatures of film and outlet, and the oil's rise."""
+
+from rotorcalc.figures.heat import oil_rise
+from rotorcalc.films.model import Source
+from ui.computed import Computed
+from ui.format import tex
+from ui.results.record import Result
+
+_ISO = "ISO 7902-1"
+_FILM = r"T = \tfrac12\,(T_{in} + T_{out})"
+_RISE = r"T_{out} - T_{in} = \frac{s\,P}{\rho c\,(Q + q)}"
+
+
+def _film_solved(computed: Computed) -> Source:
+    if computed.machine.supply is None:
+        return Source("Given", r"T\quad\text{given}")
+    return Source(_ISO, _FILM)
+
+
+def _outlet_solved(computed: Computed) -> Source:
+    if computed.machine.supply is None:
+        return Source("No supply given")
+    return Source(_ISO, r"T_{out} = T_{in} + \Delta T")
+
+
+def _rise_solved(computed: Computed) -> Source:
+    if computed.machine.supply is None:
+        return Source("Side flow alone", r"\Delta T = \frac{P}{\rho c\,Q}")
+    return Source(_ISO, _RISE)
+
+
+def _film(computed: Computed) -> str:
+    supply, point = computed.machine.supply, computed.point
+    inlet = tex(supply.temperature) if supply else ""
+    out, T = float(point.outlet_temperature), float(point.temperature)
+    return rf"\tfrac12\,({inlet} + {tex(out)}) = {tex(T)}"
+
+
+def _outlet(computed: Computed) -> str:
+    supply, point = computed.machine.supply, computed.point
+    inlet = tex(supply.temperature) if supply else ""
+    return rf"{inlet} + {tex(_rise(computed))} = {tex(float(point.outlet_temperature))}"
+
+
+def _rise(computed: Computed) -> float:
+    return float(oil_rise(computed.point))
+
+
+def _rise_filled(computed: Computed) -> str:
+    supply, point, oil = computed.machine.supply, computed.point, computed.machine.oil
+    share, flow = (supply.heat_share, supply.flow) if supply else (1.0, 0.0)
+    top = rf"{tex(share)}\cdot {tex(float(point.power_loss))}"
+    passing = tex(float(point.side_flow) + flow)
+    below = rf"{tex(oil.density)}\cdot {tex(oil.heat_capacity)}\cdot {passing}"
+    return rf"\frac{{{top}}}{{{below}}} = {tex(_rise(computed), 'K')}"
+
+
+HEAT: tuple[Result, ...] = (
+    Result(
+        "film_temperature", "Film temperature T", "temperature",
+        lambda c: float(c.point.temperature), _ISO, _FILM, _film,
+        "One temperature stands for the whole film, the mean of inlet and outlet.",
+        modelled=False, solved=_film_solved,
+    ),
+    Result(
+        "outlet_temperature", "Outlet temperature", "temperature",
+        lambda c: float(c.point.outlet_temperature), _ISO,
+        r"T_{out} = T_{in} + \Delta T", _outlet, "Of the oil that leaves.",
+        unknown="not known", modelled=False, solved=_outlet_solved,
+    ),
+    Result(
+        "oil_rise", "Rise of the oil ΔT", "rise", _rise, _ISO, _RISE, _rise_filled,
+        "With the share s of the loss, side flow Q and groove flow q.",
+        unknown="not known", modelled=False, solved=_rise_solved,
+    ),
+)  # fmt: skip
