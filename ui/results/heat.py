@@ -8,6 +8,7 @@ from ui.results.record import Result
 
 _ISO = "ISO 7902-1"
 _FILM = r"T = \tfrac12\,(T_{in} + T_{out})"
+_OUTLET = r"T_{out} = T_{in} + \Delta T"
 _RISE = r"T_{out} - T_{in} = \frac{s\,P}{\rho c\,(Q + q)}"
 
 
@@ -19,8 +20,8 @@ def _film_solved(computed: Computed) -> Source:
 
 def _outlet_solved(computed: Computed) -> Source:
     if computed.machine.supply is None:
-        return Source("No supply given")
-    return Source(_ISO, r"T_{out} = T_{in} + \Delta T")
+        return Source("No supply given", _OUTLET)
+    return Source(_ISO, _OUTLET)
 
 
 def _rise_solved(computed: Computed) -> Source:
@@ -65,7 +66,7 @@ HEAT: tuple[Result, ...] = (
     Result(
         "outlet_temperature", "Outlet temperature", "temperature",
         lambda c: float(c.point.outlet_temperature), _ISO,
-        r"T_{out} = T_{in} + \Delta T", _outlet, "Of the oil that leaves.",
+        _OUTLET, _outlet, "Of the oil that leaves.",
         unknown="not known", modelled=False, solved=_outlet_solved,
     ),
     Result(

@@ -1,0 +1,53 @@
+"""The page Heat, and every other page with the film's temperature from a supply of oil."""
+
+import pytest
+
+from rotorcalc import PRESETS
+from tests.app.session import faults, session_of, texts, tours, visit
+from ui.bores import NAMES
+from ui.frame.page import PAGES
+
+HEAT = next(path for path, name in PAGES.items() if name == "Heat")
+SUPPLY = {"T_in": "45", "flow": "10", "share": "0.9"}
+# Pages and bores go round: each page with some bore, each bore on some page.
+KINDS = list(NAMES)
+ROUND = [(path, KINDS[place % len(KINDS)]) for place, path in enumerate(PAGES)]
+
+
+@pytest.mark.parametrize(("path", "kind"), ROUND)
+def test_every_page_works_with_a_supply(path, kind):
+    at = visit(path, bearing=kind, **SUPPLY)
+    for tab in tours(at):
+        assert not faults(at), tab
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_heat_of_every_preset(preset):
+    at = visit(HEAT, preset=preset, T_in="45", flow="10", law="walther")
+    for tab in tours(at):
+        assert not faults(at), tab
+
+
+def test_a_given_temperature_says_what_rise_and_what_flow_it_means():
+    at = visit(HEAT)
+    [said] = [text for text in texts(at) if "alone the side flow" in text]
+    # 11.1735 kW, 0.67957 l/min, 860 kg/m³ and 2000 J/(kg·K)
+    assert "573.6 K" in said
+    assert "18.81 l/min" in said
+    [line] = [text for text in texts(at) if "Rise of the oil in the film" in text and "L/D" in text]
+    assert "573.6" in line
+    assert "18.81 l/min" in line
+    assert not faults(at)
+
+
+def test_a_supply_can_be_had_on_the_page():
+    at = visit(HEAT, tab="Balance")
+    at.button(key="use_supply").click().run()
+    assert session_of(at).values["T_in"] is not None
+    assert not faults(at)
+    assert not [button for button in at.button if button.key == "use_supply"]
+
+
+def test_us_units_have_rises_in_degrees_fahrenheit():
+    at = visit(HEAT, units="US")
+    assert any("holds the rise at 36 °F" in text for text in texts(at))
