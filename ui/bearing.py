@@ -17,9 +17,9 @@ from ui.bores import BORES, FILM, FILMS, KIND, Value, Values
 
 # Keys of the address bar that mean something else: a bore's field "load" is "bearing_load" there.
 _TAKEN = frozenset((
-    "mass", "load", "T", "mu", "TR", "alpha", "rho", "C", "D", "L", "k", "u", "cs", "mj", "rpm",
-    "rpm_max", "bearing", "film", "T_in", "flow", "share", "preset", "units", "tab", "present",
-    "amplitude",
+    "mass", "load", "T", "T_in", "flow", "share", "mu", "TR", "alpha", "rho", "cp", "law", "C", "D",
+    "L", "k", "u", "cs", "mj", "rpm", "rpm_max", "bearing", "film", "preset", "units", "tab",
+    "present", "amplitude",
 ))  # fmt: skip
 _UNITS = {"rad": "angle", "m": "length", "Pa": "pressure", "m³/s": "flow", "kg": "mass"}
 

@@ -33,7 +33,7 @@ from ui.bearing import _TAKEN, bearing_values, fields_of, shape_of
 from ui.bores import name_of
 from ui.cases import Case, Shown
 from ui.computed import Computed
-from ui.inputs import INPUTS, machine_of, values_of
+from ui.inputs import INPUTS, LAW, machine_of, values_of
 from ui.sharing import address, export, popover, report
 from ui.sharing.labels import Labels
 
@@ -48,7 +48,7 @@ VISITS = [(HOME, name) for name in _REST] + list(
     zip(itertools.cycle(path for path in PAGES if path != HOME), _REST, strict=False)
 )
 # Keys of the address bar that are not inputs yet.
-_LATER = ("T_in", "flow", "share", "tab", "present")
+_LATER = ("tab", "present")
 SPEED, TOP = 6000 * RPM, 12000 * RPM
 SHEETS = Shown(Case("Sheet", values_of(SHEET, SPEED, TOP), COLOURS[0]), Computed(SHEET, SPEED, TOP))
 
@@ -122,7 +122,7 @@ def test_a_link_leaves_out_what_is_at_its_default(name: str) -> None:
 
 def test_no_field_of_a_bore_takes_the_key_of_an_input() -> None:
     assert set(INPUTS) < _TAKEN
-    assert {"bearing", "film", "preset", "units", *_LATER} < _TAKEN
+    assert {"bearing", "film", "preset", "units", LAW, *_LATER} < _TAKEN
 
 
 @pytest.mark.parametrize(

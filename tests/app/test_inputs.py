@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotorcalc import PRESETS
+from rotorcalc import PRESETS, heat
 from rotorcalc.units import SI, SYSTEMS, US
 from ui.bearing import Values
 from ui.computed import computed_from
@@ -16,6 +16,8 @@ from ui.inputs import (
     GROUPS,
     INPUTS,
     PRESET_VALUES,
+    SUPPLY,
+    inputs_of,
     machine_of,
     speeds_of,
     usual,
@@ -51,8 +53,9 @@ def test_values_come_back_from_their_machine_exactly(preset: str) -> None:
 
 @pytest.mark.parametrize("preset", PRESETS)
 def test_a_preset_lies_within_the_sliders(preset: str) -> None:
-    for key, item in INPUTS.items():
-        assert item.problem(PRESET_VALUES[preset][key]) == "", key
+    values = PRESET_VALUES[preset]
+    for key, item in inputs_of(values).items():
+        assert item.problem(values[key]) == "", key
 
 
 @pytest.mark.parametrize("key", INPUTS)
@@ -97,7 +100,8 @@ def test_every_input_has_a_group_a_name_and_an_explanation() -> None:
         assert item.help.endswith((".", ")"))
         for units in SYSTEMS.values():
             assert item.label in item.name(units)
-            assert item.unit(units).name in item.name(units)
+            unit = item.unit(units).name
+            assert item.name(units) == (item.words if unit == "-" else f"{item.words} [{unit}]")
 
 
 @pytest.mark.parametrize("word", ["1e999", "9" * 400, "-1e999"])
@@ -137,17 +141,24 @@ def test_small_and_large_machines_lie_within_the_sliders(machine: dict[str, floa
 
 @pytest.mark.parametrize("seed", range(60))
 def test_any_machine_of_the_whole_ranges_is_analysed(seed: int) -> None:
-    values = _drawn(np.random.default_rng(seed))
+    values = _drawn(np.random.default_rng(seed), supplied=seed % 3 == 0)
     computed = computed_from(values)
+    if not heat.has_film(computed.machine, computed.speed):  # too hot: no balance
+        with pytest.raises(ValueError, match="supply"):
+            _ = computed.point
+        assert computed.onset.speed >= 0.0
+        return
     assert isinstance(computed.is_stable, bool | np.bool_)
     assert computed.onset.speed >= 0.0
     assert not np.any(np.isnan(computed.point.flexible_eigenvalues))
 
 
-def _drawn(random: np.random.Generator) -> Values:
+def _drawn(random: np.random.Generator, *, supplied: bool) -> Values:
     """Draw values of the sliders, their ends and zeros included, that make a machine."""
+    absent = dict.fromkeys(("T",) if supplied else SUPPLY)
     while True:
-        values = PRESET_VALUES["sheet-1e8"] | {k: _place(i, random) for k, i in INPUTS.items()}
+        drawn = {k: _place(i, random) for k, i in INPUTS.items()}
+        values = PRESET_VALUES["sheet-1e8"] | drawn | absent
         try:
             machine_of(values)
         except ValueError:  # no disk, or too wide a clearance
@@ -166,5 +177,6 @@ def _place(item: Input, random: np.random.Generator) -> float:
 
 @pytest.mark.parametrize("preset", PRESETS)
 def test_a_slider_at_a_stop_lies_about_a_value_of_its_range(preset: str) -> None:
-    for key, item in INPUTS.items():
-        assert (item.least or item.low) <= usual(key, PRESET_VALUES[preset]) <= item.high
+    values = PRESET_VALUES[preset]
+    for key, item in inputs_of(values).items():
+        assert (item.least or item.low) <= usual(key, values) <= item.high

@@ -13,7 +13,17 @@ from rotorcalc.units import SYSTEMS, US
 from tests.films.models import BEARINGS
 from ui.bearing import KIND, Field, Value, Values, bearing_values, fields_of
 from ui.input_record import Input, tidy
-from ui.inputs import DEFAULT_PRESET, INPUTS, PRESET_VALUES, machine_of
+from ui.inputs import (
+    DEFAULT_PRESET,
+    INPUTS,
+    LAW,
+    LAWS,
+    OPTIONAL,
+    PRESET_VALUES,
+    SUPPLY,
+    inputs_of,
+    machine_of,
+)
 from ui.sharing import address
 
 
@@ -35,6 +45,11 @@ def drawn_values(draw: st.DrawFn, preset: str) -> Values:
         for key, value in drawn.items()
     }
     values["mj"] = min(values["mj"], tidy(0.49 * values["mass"]))
+    absent = ("T",) if draw(st.booleans()) else SUPPLY
+    values |= {key: drawn[key] for key in ("T", *SUPPLY)} | dict.fromkeys(absent)
+    values[LAW] = draw(st.sampled_from(sorted(LAWS)))
+    # Of Walther's law too thin an oil is none.
+    values["mu"] = max(values["mu"], tidy(1e-3 * values["rho"]))
     # µm: less than a tenth of the radius
     values["C"] = min(values["C"], tidy(49.0 * values["D"]))
     bearing = bearing_values(BEARINGS[draw(st.sampled_from(sorted(BEARINGS)))])
@@ -126,9 +141,10 @@ def test_both_ends_are_in_and_beyond_them_is_out(key: str) -> None:
     for end, beyond in ((item.low, -math.inf), (item.high, math.inf)):
         # No end of another input leaves this without a disk, or with too wide a clearance.
         given_values = {"mass": "1e5", "D": "1200", key: repr(float(end))}
-        assert address.read(given_values).problems == []
+        supply = {"T_in": "40"} if key in SUPPLY else {}
+        assert address.read(supply | given_values).problems == []
         outside = math.nextafter(end, beyond)
-        assert len(address.read({key: repr(outside)}).problems) == 1
+        assert len(address.read(supply | {key: repr(outside)}).problems) == 1
 
 
 def test_a_journal_mass_that_leaves_no_disk_is_named() -> None:
@@ -174,10 +190,10 @@ def test_the_weight_can_be_named() -> None:
 def test_no_link_breaks_the_program(params: dict[str, str]) -> None:
     read = address.read(params)
     machine_of(read.values)
-    assert all(not item.problem(read.values[key]) for key, item in INPUTS.items())
+    assert all(not item.problem(read.values[key]) for key, item in inputs_of(read.values).items())
     named = " ".join(read.problems)
     for key in params.keys() - {"preset", "units"}:
-        assert key not in INPUTS or read.values[key] is not None or key == "load" or key in named
+        assert key not in INPUTS or read.values[key] is not None or key in OPTIONAL or key in named
 
 
 @given(st.text(max_size=300))

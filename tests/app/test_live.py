@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.app.session import HOME, PAGES, faults, session_of, slider_keys, visit
-from ui.inputs import INPUTS
+from ui.inputs import inputs_of
 from ui.live.chart import encoded
 from ui.serving import settings
 from ui.widgets import _moved
@@ -26,7 +26,8 @@ def test_page_has_a_live_slider_for_every_input_and_live_charts(live: None, page
     components = [element.proto for element in at.get("bidi_component")]
     groups = [c for c in components if c.component_name == "rotorcalc.sliders"]
     names = [item["name"] for group in groups for item in json.loads(group.json)[0]]
-    assert sorted(names) == sorted(INPUTS.keys() - {"load"})  # the load follows the weight
+    inputs = inputs_of(session_of(at).values)
+    assert sorted(names) == sorted(inputs.keys() - {"load"})  # the load follows the weight
     assert slider_keys(at) == []
     assert not at.get("plotly_chart")
 

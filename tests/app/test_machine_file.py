@@ -90,22 +90,27 @@ def test_a_long_reason_is_not_cut() -> None:
 
 
 @pytest.mark.parametrize(
-    ("place", "word", "fields"),
+    ("place", "fields"),
     [
-        ("oil", "oil.law", {"law": "walther"}),
-        ("oil", "oil.heat_capacity", {"heat_capacity": 1900.0}),
-        ("", "supply", {"supply": {"temperature": 40.0}, "temperature": None}),
+        ("oil", {"law": "walther"}),
+        ("oil", {"heat_capacity": 1900.0}),
+        ("", {"supply": {"temperature": 40.0, "flow": 2e-4, "heat_share": 0.8}}),
     ],
 )
-def test_what_no_slider_shows_is_refused_and_not_lost(
-    place: str, word: str, fields: dict[str, object]
+def test_heat_of_a_file_becomes_the_session_s_and_is_written_again(
+    place: str, fields: dict[str, object]
 ) -> None:
     tree = json.loads(machine_of(PRESET_VALUES["sheet-1e8"]).to_json())
     (tree[place] if place else tree).update(fields)
-    if tree["temperature"] is None:
+    if "supply" in fields:
         del tree["temperature"]
     text = json.dumps(tree)
-    Machine.from_json(text)  # the core takes it
-    at = _loaded(text.encode(), C="70")
-    assert any(word in box.value and "Python package" in box.value for box in at.warning)
-    assert session_of(at).values["C"] == 70.0
+    visitor = Session("sheet-1e8", dict(PRESET_VALUES["sheet-1e8"]), "SI")
+    loaded = machine_file.read(text, visitor)
+    assert loaded.problems == []
+    assert machine_of(loaded.link.values) == Machine.from_json(text)
+    visitor.values = loaded.link.values
+    again = machine_file.read(
+        machine_file.write(machine_of(visitor.values), visitor, LABELS).decode(), visitor
+    )
+    assert (again.link.values, again.problems) == (visitor.values, [])

@@ -39,6 +39,7 @@ ON_ANY_FILM = {
 SHORT_ALONE = ("parabola", "C(1 − ε)", "calculation sheet. ", "clearance circle in")
 # A name with its index as a program writes it, outside TeX, HTML and links.
 STABILITY = "pages/3_Stability.py"
+HEAT = "pages/9_Heat.py"
 RAW = re.compile(r"\b[A-Za-zα-ω]{1,2}_(?:[A-Za-z]{1,3})\b")
 
 
@@ -84,8 +85,10 @@ def test_every_page_shows_every_film_and_cites_only_what_it_names(path: str, nam
     if name != "short":
         assert [text for text in said if any(words in text for words in SHORT_ALONE)] == []
     # Orbits need a force in any motion; without one they say so and show nothing to cite. Nor do
-    # the notes have an onset on a film known by its impedance alone.
-    uncited = {BEARINGS_PAGE: True, ORBITS: name not in MOVING, STABILITY: name == "lossy"}
+    # the notes have an onset on a film known by its impedance alone, or a balance of heat.
+    uncited = {
+        BEARINGS_PAGE: True, HEAT: True, ORBITS: name not in MOVING, STABILITY: name == "lossy",
+    }  # fmt: skip
     assert any(numbers(text) for text in said) or uncited.get(path)
 
 

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from rotorcalc import Machine, Oil
+from rotorcalc import Machine
 from rotorcalc.machine import APP
 from rotorcalc.records import parsed
 from ui.format import quoted
@@ -50,7 +50,6 @@ def write(machine: Machine, visitor: Session, labels: Labels) -> bytes:
 def read(text: str, visitor: Session) -> Loaded:
     """Return what a file says; what it leaves out is the session's. Raises ValueError."""
     machine = Machine.from_json(text)
-    _refuse_what_has_no_input(machine)
     app = parsed(text).get(APP, {})
     if not isinstance(app, Mapping):
         raise ValueError(f"{APP} = {quoted(app)}: must be a JSON object")
@@ -63,19 +62,3 @@ def read(text: str, visitor: Session) -> Loaded:
     link.values = address.checked_values(values | speeds, link.preset, link.problems)
     name, note = (str(app.get(key, ""))[:2000] for key in ("name", "note"))
     return Loaded(link, name, note, address.CASES in app, link.problems)
-
-
-def _refuse_what_has_no_input(machine: Machine) -> None:
-    """Raise ValueError where a machine has what no slider shows: it would be lost unseen."""
-    if machine.supply is not None:
-        raise ValueError(
-            "supply: the app computes with a given film temperature only; put temperature in its "
-            "place, or compute this machine by the Python package"
-        )
-    for name in ("heat_capacity", "law"):
-        value, only = getattr(machine.oil, name), getattr(Oil, name)
-        if value != only:
-            raise ValueError(
-                f"oil.{name} = {value}: the app has {only} only; leave it out, or compute "
-                "this machine by the Python package"
-            )
