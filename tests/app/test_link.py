@@ -48,8 +48,9 @@ def drawn_values(draw: st.DrawFn, preset: str) -> Values:
     absent = ("T",) if draw(st.booleans()) else SUPPLY
     values |= {key: drawn[key] for key in ("T", *SUPPLY)} | dict.fromkeys(absent)
     values[LAW] = draw(st.sampled_from(sorted(LAWS)))
-    # Of Walther's law too thin an oil is none.
-    values["mu"] = max(values["mu"], tidy(1e-3 * values["rho"]))
+    if values[LAW] == "walther":  # which neither so thin an oil has, nor one far from its reference
+        values["mu"] = max(values["mu"], tidy(1e-3 * values["rho"]))
+        values["T"] = None if values["T"] is None else values["TR"]
     # µm: less than a tenth of the radius
     values["C"] = min(values["C"], tidy(49.0 * values["D"]))
     bearing = bearing_values(BEARINGS[draw(st.sampled_from(sorted(BEARINGS)))])
