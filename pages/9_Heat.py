@@ -1,6 +1,7 @@
 import streamlit as st
 
 from rotorcalc.figures import equilibrium, heat
+from ui.frame import supply
 from ui.frame.page import Page, show
 from ui.words import equilibrium as film
 from ui.words import heat as words
@@ -44,7 +45,7 @@ def over_speed(page: Page) -> None:
 
 def balance(page: Page) -> None:
     if page.computed.machine.supply is None:
-        words.offer_supply()
+        supply.offer()
         return
     page.chart(
         lambda c: heat.balance(c.heat_curves, c.point, page.units), "heat_balance",
@@ -55,7 +56,7 @@ def balance(page: Page) -> None:
 
 def warming(page: Page) -> None:
     if page.computed.machine.supply is None:
-        words.offer_supply()
+        supply.offer()
         return
     page.say("warming", lambda c: words.table(c, page.units))
     left, right = st.columns(2)

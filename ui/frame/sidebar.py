@@ -10,9 +10,8 @@ from streamlit.delta_generator import DeltaGenerator
 from rotorcalc import PRESETS, Oil, oils
 from rotorcalc.oils import ISO_VG, fitted_oil, iso_oil
 from rotorcalc.units import AMPLITUDES, SI, SYSTEMS, Unit, Units
-from ui import supply
 from ui.format import amount
-from ui.frame import bore
+from ui.frame import bore, supply
 from ui.input_record import Input
 from ui.inputs import (
     GROUPS,
@@ -21,11 +20,11 @@ from ui.inputs import (
     LAWS,
     OPEN_GROUPS,
     applies,
-    has_supply,
     machine_of,
     number,
 )
 from ui.session import Session, session
+from ui.supply import film_temperature
 from ui.widgets import show_inputs
 
 # Pixels: its sliders are then so long that one pixel changes no input by more than 0.5 %.
@@ -119,27 +118,8 @@ def _toggle_load() -> None:
         visitor.set_value("load", float(f"{weight:.5g}"))
 
 
-def _supply() -> None:
-    """Draw the switch between a given film temperature and a supply of oil."""
-    visitor = session()
-    visitor.mirror("oil_supply", has_supply(visitor.values))
-    st.toggle(
-        "Film temperature follows from the oil supply", key="oil_supply", on_change=_toggle_supply,
-        help="The film's loss warms the oil that passes; at each speed the film is at the mean of "
-        "inlet and outlet temperature (ISO 7902-1).",
-    )  # fmt: skip
-
-
-def _toggle_supply() -> None:
-    visitor = session()
-    try:
-        visitor.set_supply(supply.other(visitor.values))
-    except ValueError as error:
-        visitor.problems[:] = [f"{error}."]
-
-
 # Switches that stand before an input, and inputs that their switch draws.
-_SWITCHES: dict[str, Callable[[], None]] = {"load": _load, "T": _supply}
+_SWITCHES: dict[str, Callable[[], None]] = {"load": _load, "T": supply.draw_switch}
 _ALONE = frozenset(("load",))
 
 
@@ -169,7 +149,7 @@ def _oil_library() -> None:
 def _grades() -> None:
     visitor = session()
     try:
-        temperature = supply.film_temperature(visitor.values)
+        temperature = film_temperature(visitor.values)
     except ValueError as error:
         st.error(f"{error}.")
         return
@@ -239,7 +219,7 @@ def _fit() -> None:
 def _beyond(fitted: tuple[float, float], visitor: Session) -> str:
     """Return in words that the film lies outside the temperatures of a fit, where it does."""
     with suppress(ValueError):
-        T = supply.film_temperature(visitor.values)
+        T = film_temperature(visitor.values)
         if not fitted[0] <= T <= fitted[1]:
             shown = amount(visitor.units.temperature, T)
             return (

@@ -2,21 +2,12 @@
 
 import math
 
-import streamlit as st
-
 from rotorcalc.figures.heat import Warmed, oil_rise
 from rotorcalc.heat import USUAL_RISE
 from rotorcalc.units import Units
-from ui import supply
 from ui.computed import Computed
 from ui.format import amount, digits, minus
 from ui.preview import Text
-from ui.session import session
-
-BOILING = (
-    "The film's temperature is given here. With a supply of oil it follows at each speed from the "
-    "film's loss and the oil that passes, and this tab shows how."
-)
 
 
 def carried(computed: Computed, units: Units) -> Text:
@@ -63,20 +54,6 @@ def needed(computed: Computed, units: Units) -> str:
     if flow == 0.0:
         return f"The side flow alone keeps the rise below {most}."
     return f"A groove flow of **{amount(units.flow, flow)}** holds the rise at {most}."
-
-
-def offer_supply() -> None:
-    """Explain that a balance needs a supply, and offer one."""
-    st.info(BOILING)
-    st.button("Let the temperature follow from the oil supply", key="use_supply", on_click=_use)
-
-
-def _use() -> None:
-    visitor = session()
-    try:
-        visitor.set_supply(supply.other(visitor.values))
-    except ValueError as error:
-        visitor.problems[:] = [f"{error}."]
 
 
 def warmed(computed: Computed, units: Units) -> Warmed:
