@@ -9,10 +9,9 @@ from ui.words.citation import cited
 
 
 def content(page: Page) -> None:
-    page.results("film_temperature", "outlet_temperature", "oil_rise", "viscosity", "power_loss")
+    page.results("film_temperature", "outlet_temperature", "power_loss", "oil_rise", "flow_needed")
     if not film.known("Loss, flow and their heat", page.computed.point.power_loss):
         return
-    page.say("heat", lambda c: words.carried(c, page.units))
     page.tabs("heat_tab", {
         "Over speed": over_speed,
         "Balance": balance,
@@ -33,7 +32,9 @@ def over_speed(page: Page) -> None:
          cited("Drag torque times speed, all dissipated as heat.", page.computed, "drag")),
         (heat.flows, "flows", cited("Oil that passes one bearing.", page.computed, "flow")),
     )  # fmt: skip
-    for row in (charts[:2], charts[2:]):
+    for number, row in enumerate((charts[:2], charts[2:])):
+        if number:  # below the first charts, which stand above the fold with their axes
+            page.say("heat", lambda c: words.carried(c, units))
         for column, (draw, key, caption) in zip(st.columns(2), row, strict=True):
             with column:
                 page.chart(

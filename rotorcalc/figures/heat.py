@@ -214,6 +214,7 @@ def _lines(
 def _temperature_ends(values: Array, unit: Unit) -> tuple[float, float]:
     """Return round ends of an axis about temperatures, in their unit."""
     shown = unit.of(values[np.isfinite(values)])
-    low = _SPAN * np.floor(float(shown.min()) / _SPAN)
-    high = _SPAN * np.ceil(float(shown.max()) / _SPAN)
-    return float(low), float(max(high, low + _SPAN))
+    # A line does not run along an end.
+    low = _SPAN * np.ceil(float(shown.min()) / _SPAN - 1.0)
+    high = _SPAN * np.floor(float(shown.max()) / _SPAN + 1.0)
+    return float(low), float(high)

@@ -1,7 +1,10 @@
 """Results of the balance of heat: temperatures of film and outlet, and the oil's rise."""
 
+from dataclasses import replace
+
 from rotorcalc.figures.heat import oil_rise
 from rotorcalc.films.model import Source
+from rotorcalc.heat import USUAL_RISE, heat_balance
 from ui.computed import Computed
 from ui.format import tex
 from ui.results.record import Result
@@ -9,6 +12,7 @@ from ui.results.record import Result
 _ISO = "ISO 7902-1"
 _FILM = r"T = \tfrac12\,(T_{in} + T_{out})"
 _OUTLET = r"T_{out} = T_{in} + \Delta T"
+_NEEDED = r"q = \frac{s\,P}{\rho c\,\Delta T} - Q"
 _RISE = r"T_{out} - T_{in} = \frac{s\,P}{\rho c\,(Q + q)}"
 
 
@@ -56,6 +60,18 @@ def _rise_filled(computed: Computed) -> str:
     return rf"\frac{{{top}}}{{{below}}} = {tex(_rise(computed), 'K')}"
 
 
+def _needed_filled(computed: Computed) -> str:
+    machine, supply = computed.machine, computed.machine.supply
+    if supply is not None:  # the film is then at another temperature
+        T = supply.temperature + 0.5 * USUAL_RISE
+        machine = replace(machine, temperature=T, supply=None)
+    film, oil = heat_balance(machine, computed.speed), machine.oil
+    P, Q = float(film.power_loss), float(film.side_flow)
+    top = rf"{tex(supply.heat_share if supply else 1.0)}\cdot {tex(P)}"
+    below = rf"{tex(oil.density)}\cdot {tex(oil.heat_capacity)}\cdot {tex(USUAL_RISE)}"
+    return rf"\frac{{{top}}}{{{below}}} - {tex(Q)} = {tex(computed.flow_needed)}"
+
+
 HEAT: tuple[Result, ...] = (
     Result(
         "film_temperature", "Film temperature T", "temperature",
@@ -73,5 +89,10 @@ HEAT: tuple[Result, ...] = (
         "oil_rise", "Rise of the oil ΔT", "rise", _rise, _ISO, _RISE, _rise_filled,
         "With the share s of the loss, side flow Q and groove flow q.",
         unknown="not known", modelled=False, solved=_rise_solved,
+    ),
+    Result(
+        "flow_needed", "Groove flow needed", "flow", lambda c: c.flow_needed, _ISO, _NEEDED,
+        _needed_filled, "Besides the side flow Q, so that the oil warms by ΔT = 20 K, or 36 °F.",
+        nought=lambda _: "none", unknown="not known", modelled=False,
     ),
 )  # fmt: skip
