@@ -7,16 +7,17 @@ value becomes a machine, a bore's by `ui.bearing.shape_of`.
 """
 
 import math
+import re
 from typing import Any
 
 from scipy.constants import g
 
 from rotorcalc import PRESETS, JournalBearing, Machine, Oil, Preset, Rotor, Supply
 from rotorcalc.figures import style
-from rotorcalc.units import SI
+from rotorcalc.units import SI, Units
 from ui.bearing import KIND, Values, bearing_values, defaults_of, shape_of, without_shape
 from ui.bores import Pick, bore_inputs
-from ui.format import quoted
+from ui.format import amount, quoted
 from ui.input_record import Input, tidy
 
 # What moves an onset of whirl stands together at the top.
@@ -143,6 +144,10 @@ SUPPLY: Values = {"T_in": None, "flow": 0.0, "share": 1.0}
 # Inputs that may be None: a value that follows from others, or one of what the machine has not.
 OPTIONAL = frozenset(("load", "T", *SUPPLY))
 
+# Quantities that messages of the core have in SI, by their units there.
+_KINDS = {"rad/s": "speed", "m³/s": "flow", "°C": "temperature", "W": "power"}
+_QUANTITY = re.compile(rf"(-?\d[\d.]*(?:e[+-]?\d+)?) ({'|'.join(_KINDS)})(?!\w)")
+
 # Inputs that are not part of a machine: the speeds at which it is analysed.
 _SPEEDS = ("speed", "top_speed")
 
@@ -212,12 +217,22 @@ def machine_of(values: Values) -> Machine:
 
 
 def in_words(message: str, values: Values) -> str:
-    """Return a message of the core with a field's name as the sidebar has it."""
-    field, _, _ = message.partition(" = ")
+    """Return a message of the core with its fields' names as the sidebar has them."""
     for item in inputs_of(values).values():
-        if field in (item.field, item.field.rpartition(".")[2]):
-            return f"{item.words}{message.removeprefix(field)}"
+        for name in (item.field, item.field.rpartition(".")[2]):
+            if message.startswith(f"{name} = "):
+                message = f"{item.words}{message.removeprefix(name)}"
+        message = message.replace(f", {item.field} = ", f", {item.words} = ")
     return message
+
+
+def in_units(message: str, units: Units) -> str:
+    """Return a message of the core with its speeds, flows and temperatures in a visitor's units."""
+    return _QUANTITY.sub(lambda found: _converted(found[1], found[2], units), message)
+
+
+def _converted(number: str, si: str, units: Units) -> str:
+    return amount(getattr(units, _KINDS[si]), float(number))
 
 
 def _machine_of(values: Values) -> Machine:

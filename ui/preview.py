@@ -18,7 +18,7 @@ from rotorcalc.units import Units
 from ui.bores import Values
 from ui.cases import Draw, Shown
 from ui.computed import Computed, computed_while_dragging
-from ui.inputs import input_named
+from ui.inputs import in_units, in_words, input_named
 
 T = TypeVar("T")
 Kind = Literal["markdown", "caption", "success", "info", "warning", "error", "html"]
@@ -85,8 +85,11 @@ class Preview:
         """
         # The other inputs are those of the page as last drawn, which its charts show beside it.
         values = self.values | {name: input_named(name, self.values).taken(value, self.units)}
-        computed = computed_while_dragging(values, self.computed)
-        _ = computed.point  # a film may have no answer at the running speed
+        try:
+            computed = computed_while_dragging(values, self.computed)
+            _ = computed.point  # a film may have no answer at the running speed
+        except ValueError as error:
+            raise ValueError(in_units(in_words(f"{error}", values), self.units)) from error
         drawn = {
             key: _given(lambda draw=draw: self._still(draw, computed))
             for key, draw in self.charts.items()

@@ -3,9 +3,14 @@
 import pytest
 
 from rotorcalc import PRESETS
-from tests.app.session import faults, session_of, texts, tours, visit
+from rotorcalc.units import US
+from tests.app.session import BEARINGS_PAGE, faults, session_of, texts, tours, visit
 from ui.bores import NAMES
+from ui.computed import computed_from
 from ui.frame.page import PAGES
+from ui.inputs import PRESET_VALUES
+from ui.sharing import address
+from ui.sharing.report_charts import charts, left_out, sections
 
 HEAT = next(path for path, name in PAGES.items() if name == "Heat")
 SUPPLY = {"T_in": "45", "flow": "10", "share": "0.9"}
@@ -47,6 +52,26 @@ def test_a_supply_can_be_had_on_the_page():
     assert session_of(at).values["T_in"] is not None
     assert not faults(at)
     assert not [button for button in at.button if button.key == "use_supply"]
+
+
+def test_bearings_are_compared_at_the_temperature_of_their_own_balance():
+    at = visit(BEARINGS_PAGE, **SUPPLY)
+    [table] = at.dataframe
+    film = next(column for name, column in table.value.items() if name.startswith("Film"))
+    assert film.iloc[0] == pytest.approx(
+        float(computed_from(session_of(at).values).point.temperature)
+    )
+    assert film.nunique() == len(film)
+
+
+def test_the_report_has_the_balance_of_a_supply():
+    given = computed_from(PRESET_VALUES["sheet-1e8"])
+    supplied = computed_from(address.read(SUPPLY).values)
+    missing = {"temperatures", "balance"}
+    drawn = [{one.key for one in sections(c)["Heat"]} for c in (given, supplied)]
+    assert drawn == [{"rise", "viscosity"}, {"rise", "viscosity"} | missing]
+    assert any("temperature is given" in words for words in left_out(given, "Heat"))
+    assert charts(supplied, [], US).keys() > missing
 
 
 def test_us_units_have_rises_in_degrees_fahrenheit():

@@ -23,6 +23,7 @@ from ui.inputs import (
     usual,
     values_of,
 )
+from ui.preview import Preview
 
 
 def _flat(tree: object) -> list[object]:
@@ -114,6 +115,20 @@ def test_an_overflowing_stiffness_is_not_read_as_a_rigid_shaft(word: str) -> Non
 def test_a_missing_value_is_named() -> None:
     with pytest.raises(ValueError, match="Radial clearance"):
         machine_of(PRESET_VALUES["sheet-1e8"] | {"C": None})
+
+
+def test_a_refused_balance_is_said_in_the_sidebars_words_and_a_visitors_units() -> None:
+    # An oil that does not thin is as hot as its flow leaves it: 306 °C at 6000 rpm.
+    values = PRESET_VALUES["sheet-1e8"] | {
+        "T": None, "T_in": 45.0, "flow": 0.5, "share": 1.0, "alpha": 0.0,
+    }  # fmt: skip
+    held = Preview(values, computed_from(values), None, US, dark=False)
+    with pytest.raises(ValueError, match="the film would be hotter than") as refused:
+        held.at("rpm", "12000")
+    words = f"{refused.value}"
+    assert words.startswith("Supply temperature Tᵢₙ = 113 °F, Groove flow q = ")
+    assert "hotter than 698 °F" in words
+    assert not any(unit in words for unit in ("rad/s", "m³/s", "°C", " W "))
 
 
 @pytest.mark.parametrize(("rpm", "top_rpm"), [(12000, 12000), (20000, 20000), (20010, 25000)])

@@ -7,7 +7,8 @@ import pytest
 from playwright.sync_api import Locator, expect
 
 from tests.browser.app_page import AppPage
-from ui.inputs import INPUTS
+from ui.inputs import INPUTS, inputs_of
+from ui.sharing import address
 
 # The page with the least beside its sidebar: a run of it takes half the processor time.
 PAGE = "Notes"
@@ -46,17 +47,19 @@ def _refused(app: AppPage, label: str, word: str, answer: str) -> Locator:
 def test_a_pixel_of_any_slider_changes_its_input_by_half_a_per_cent(
     app: AppPage, units: str
 ) -> None:
-    app.open(PAGE, units=units, load="3000")
+    supply = {"T_in": "45", "flow": "10", "share": "0.9"} if units == "US" else {}
+    query = {"load": "3000", **supply}
+    app.open(PAGE, units=units, **query)
     _open_all(app)
     tracks = app.page.locator(".live-slider").evaluate_all(_TRACKS)
-    assert tracks.keys() == INPUTS.keys()
+    assert tracks.keys() == inputs_of(address.read(query).values).keys()
     for key, values in tracks.items():
         assert len(values) > 300, key
         # A stop at an end of its track is no step on its way: zero, or a rigid shaft.
         numbers = [value for value in values if value not in (0, "rigid")]
         assert len(numbers) > 0.95 * len(values), key
         for before, after in itertools.pairwise(numbers):
-            if INPUTS[key].step:  # a temperature
+            if INPUTS[key].step:  # a temperature, or a share
                 assert 0.0 <= after - before <= (0.3 if units == "SI" else 0.5), key
             else:
                 assert 0.0 <= after / before - 1.0 <= 0.005, key

@@ -19,7 +19,7 @@ from ui.cases import computed as computed_cases
 from ui.choices import choice
 from ui.computed import Computed, computed_from
 from ui.frame import bore, cases, history, presentation, sidebar
-from ui.inputs import in_words
+from ui.inputs import in_units, in_words
 from ui.preview import Preview, Text, Words
 from ui.results.row import show_results
 from ui.serving import one_at_a_time, version
@@ -322,10 +322,10 @@ def _page(places: Places, views: presentation.Views, unanswered: Callable[[str],
     except ValueError as error:
         with places.foot:
             show_preview(None)
-        _stop(f"{error}")
+        _stop(in_units(f"{error}", visitor.units))
     beside, problems = computed_cases(visitor.cases)
     for problem in problems:
-        st.warning(problem)
+        st.warning(in_units(problem, visitor.units))
     first, units = (beside[0] if beside else None), visitor.units
     preview = Preview(
         dict(visitor.values), computed, first, units, dark=is_dark(), of_inputs=of_inputs
@@ -343,7 +343,7 @@ def _answered(
     except ValueError as error:
         with places.foot:
             show_preview(None)
-        unanswered(in_words(f"{error}", visitor.values))
+        unanswered(in_units(in_words(f"{error}", visitor.values), page.units))
         return page.alone()
     visitor.preview = page.preview
     page.say("verdict", lambda c: verdict.text(c, page.units))

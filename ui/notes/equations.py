@@ -85,6 +85,24 @@ EQUATIONS: dict[str, tuple[Equation, ...]] = {
             ("films.short.drag",), "Equilibrium",
         ),
     ),
+    "Heat": (
+        Equation(
+            "ISO 7902-1", "The film's temperature follows from the oil supplied; share s of the loss P",
+            r"T_{out} = T_{in}+\frac{s\,P}{\rho c\,(Q+q)},\qquad T = \tfrac12\,(T_{in}+T_{out})",
+            ("heat.film_temperature", "heat.outlet_temperature"), "Heat; all, with a supply of oil",
+        ),
+        Equation(
+            "ISO 7902-1", "Flow through the grooves with which the oil warms by ΔT",
+            r"q = \frac{s\,P}{\rho c\,\Delta T}-Q",
+            ("heat.flow_for_rise",), "Heat",
+        ),
+        Equation(
+            "ASTM D341", "Walther's law: ν = μ/ρ in mm²/s, T in kelvin",
+            r"\ln(\nu+0.7) = \ln(\nu_R+0.7)\left(\frac{T}{T_R}\right)^{-B},\qquad "
+            r"B = \frac{\alpha\,\nu_R T_R}{(\nu_R+0.7)\ln(\nu_R+0.7)}",
+            ("machine.Oil.viscosity",), "Heat; all, where it is chosen",
+        ),
+    ),
     "Force coefficients": (
         Equation(
             "5.14", "Definition",

@@ -11,6 +11,7 @@ from rotorcalc.figures import (
     coefficients,
     equilibrium,
     film,
+    heat,
     machine,
     modes,
     response,
@@ -60,6 +61,10 @@ class Figure:
 def _unknown(field: str) -> Callable[[Computed], str]:
     """Return what says that a film's model does not know a field of the sweep."""
     return lambda c: _NOT_GIVEN if np.isnan(getattr(c.point, field)).any() else ""
+
+
+def _given_temperature(computed: Computed) -> str:
+    return "The film's temperature is given." if computed.machine.supply is None else ""
 
 
 def _unknown_film(computed: Computed) -> str:
@@ -124,6 +129,29 @@ SECTIONS: dict[str, tuple[Figure, ...]] = {
         Figure(
             "flow", "Side flow", _of_sweep(equilibrium.side_flow), "Of one bearing.", ("flow",),
             titles={"yaxis": "Q [{units.flow.name}]"}, missing=_unknown("side_flow"),
+        ),
+    ),
+    "Heat": (
+        Figure(
+            "temperatures", "Temperatures", _of_sweep(heat.temperatures),
+            "The film is at the mean of inlet and outlet. ISO 7902-1.",
+            missing=lambda c: _unknown("power_loss")(c) or _given_temperature(c),
+        ),
+        Figure(
+            "rise", "Rise of the oil", _of_sweep(heat.rise),
+            "From inlet to outlet; with a given film temperature, of the side flow alone.",
+            titles={"yaxis": "ΔT [{units.rise.name}]"}, missing=_unknown("power_loss"),
+        ),
+        Figure(
+            "balance", "Balance of heat",
+            lambda c, u: heat.balance(c.heat_curves, c.point, u),
+            "At the running speed; they cross at the film's temperature. ISO 7902-1.",
+            missing=lambda c: _unknown("power_loss")(c) or _given_temperature(c),
+        ),
+        Figure(
+            "viscosity", "Viscosity of the oil",
+            lambda c, u: heat.viscosity(c.sweep, c.point, c.other_oil, u),
+            "Shaded: the film up to the top speed.",
         ),
     ),
     "Force coefficients": (

@@ -23,6 +23,7 @@ from ui.bores import name_of
 from ui.format import amount, lower
 from ui.frame.bore import picture_address, picture_tag
 from ui.frame.page import Page
+from ui.inputs import in_units, in_words
 from ui.jobs import cache, work
 from ui.jobs.queue import SHORT
 from ui.session import session
@@ -136,7 +137,7 @@ def compare(page: Page) -> list[BearingResult]:
             so_far = so_far or _SoFar(top.empty(), below.empty())
             so_far.show(found, one[2] or machine.bearing.geometry, len(asked), page)
             drawn = time.monotonic()
-        found.append(_results(*one))
+        found.append(_worded(_results(*one), page))
     if so_far:
         so_far.progress.empty()
     with so_far.table.container() if so_far else top:
@@ -164,6 +165,12 @@ def _asked(machine: Machine, speed: float) -> list[tuple[Machine, float, Geometr
     """Return what is computed: the machine as it is, then on every kind of bore by itself."""
     # The last visitor's bore does not matter to the others: their results are then the same.
     return [(machine, speed, None), *((_plain(machine), speed, geometry) for geometry in KINDS)]
+
+
+def _worded(one: BearingResult, page: Page) -> BearingResult:
+    """Return a result with its refusal in the sidebar's words and units."""
+    said = in_units(in_words(one.refusal, page.preview.values), page.units)
+    return replace(one, refusal=said) if one.refusal else one
 
 
 def _plain(machine: Machine) -> Machine:
@@ -197,6 +204,9 @@ _COLUMNS = (
             "Highest peak of the disk's imbalance response up to 1.5 times the running speed.",
             bars=True),
 )  # fmt: skip
+# With a supply of oil each bearing's own; a given temperature is the same for all.
+_FILM = _Column("Film", "temperature", "temperature", 1, 78, "Temperature of the film, by the "
+                "bearing's own balance of heat.")  # fmt: skip
 _USE = "Diameter, length, clearance and load stay; Undo takes it back."
 
 
@@ -204,6 +214,7 @@ def _table(found: Sequence[BearingResult], page: Page, *, done: bool) -> None:
     """Show the results in a table that can be sorted, some as bars, each with a button at last."""
     config = st.column_config
     bearings = [one.bearing for one in found]
+    film = () if page.computed.machine.supply is None else (_FILM,)
     own = f"{_OWN}: none" if found[0].refusal else _OWN
     columns: list[tuple[str, list[Any], ColumnConfig | ButtonColumnResult]] = [
         (
@@ -221,7 +232,7 @@ def _table(found: Sequence[BearingResult], page: Page, *, done: bool) -> None:
             if done  # a key stands for one table of a run
             else config.TextColumn("", width=48),
         ),
-        *(_numbers(column, found, page.units) for column in _COLUMNS),
+        *(_numbers(column, found, page.units) for column in (*_COLUMNS, *film)),
     ]
     st.dataframe(
         {label: values for label, values, _ in columns},
