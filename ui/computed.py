@@ -143,10 +143,10 @@ class Computed:
         machine, T = self.machine, float(self.point.temperature)
         if machine.supply is None:
             raise ValueError("the film's temperature is given")
-        # To as far above the balance as the supply is below it, and some degrees at least.
-        rise = max(2.0 * (T - machine.supply.temperature), 10.0)
         inlet = machine.supply.temperature
-        return heat.heat_curves(machine, self.speed, np.linspace(inlet, inlet + rise, POINTS // 2))
+        # As far above the balance as the supply is below it, to a round end that stays in a drag.
+        top = 20.0 * math.floor((T + max(T - inlet, 5.0)) / 20.0 + 1.0)
+        return heat.heat_curves(machine, self.speed, np.linspace(inlet, top, POINTS // 2))
 
     @property
     def unwarmed(self) -> "Computed":

@@ -97,10 +97,9 @@ def oil_rise(sweep: Sweep) -> Array:
 def balance(curves: HeatCurves, point: Sweep, units: Units) -> Chart:
     """Return heat made and heat carried over the film's temperature; they cross at the balance."""
     T, power = units.temperature, units.power
-    x = style.axis(
-        style.titled("Film temperature", "T", T.name),
-        float(T.of(curves.temperature[0])), float(T.of(curves.temperature[-1])),
-    )  # fmt: skip
+    low, _ = _temperature_ends(curves.temperature, T)
+    high = float(T.of(curves.temperature[-1]))
+    x = style.axis(style.titled("Film temperature", "T", T.name), low, high)
     share = point.machine.supply.heat_share if point.machine.supply else 1.0
     here = share * float(point.power_loss)
     # Heat made in cold oil may be many times as much: the axis shows the crossing.
