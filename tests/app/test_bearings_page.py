@@ -162,7 +162,8 @@ def test_an_own_bearing_without_an_answer_leaves_the_others_theirs(case: bool) -
 def test_without_load_a_plain_bore_whirls_at_any_speed() -> None:
     at = visit(BEARINGS_PAGE, load="0")
     assert table(at)["Onset [rpm]"][1] == 0.0
-    assert "the lowest of all: 0 rpm against" in judged(at)[0]
+    # So do others: neither is lower.
+    assert not any("lowest of all" in one for one in judged(at))
     assert faults(at) == []
 
 

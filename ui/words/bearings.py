@@ -319,7 +319,9 @@ def here(one: BearingResult, found: Sequence[BearingResult], units: Units) -> li
     lines: list[str] = []
     for claim in _JUDGEMENTS[one.bearing.geometry.kind].claims:
         other = min(answered, key=claim.value, default=plain) if one is plain else plain
-        if not math.isnan(claim.value(one) + claim.value(other)):
+        # Where neither has an onset, or both whirl at any speed, their numbers tell nothing.
+        value, to = claim.value(one), claim.value(other)
+        if value != to and not math.isnan(value + to):
             lines.append(_judged(claim, one, other, units))
     return lines
 
