@@ -57,14 +57,20 @@ def tex(value: float, unit: str = "") -> str:
     return number + (rf"\ \mathrm{{{words}}}" if unit else "")
 
 
+def tex_base(value: float) -> str:
+    """Return a number in LaTeX that a power can follow."""
+    number = tex(value)
+    return f"({number})" if "^" in number else number
+
+
 def display(tex: str) -> str:
     """Return LaTeX as an equation on lines of its own, Markdown."""
     return f"$$\n{tex}\n$$"
 
 
 def lower(text: str) -> str:
-    """Return a text for the middle of a sentence, without its first capital."""
-    return text[:1].lower() + text[1:]
+    """Return a text for the middle of a sentence: without its first capital, but for a name's."""
+    return text if text.startswith("Reynolds") else text[:1].lower() + text[1:]
 
 
 def quoted(word: object) -> str:

@@ -3,6 +3,7 @@
 import re
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 import rotorcalc as rc
@@ -14,6 +15,7 @@ from ui.computed import Computed
 from ui.notes.equations import equation
 from ui.results.row import explanation
 from ui.results.table import RESULTS
+from ui.words.coefficients import matrix
 
 
 @pytest.mark.parametrize("key", [key for key, one in RESULTS.items() if "Eq." in one.number])
@@ -25,6 +27,21 @@ def test_an_explanation_titled_by_an_equation_shows_it(key: str) -> None:
     solved = {"static_load", "eccentricity_ratio", "attitude_angle", "minimum_film_thickness",
               "whirl_ratio", "equivalent_stiffness"}  # fmt: skip
     assert (equation(number) in said) == (key not in solved)
+
+
+@pytest.mark.parametrize("key", RESULTS)
+def test_powers_of_a_small_number_stand_behind_brackets(key: str) -> None:
+    """LaTeX has no power of a power."""
+    light = Computed(replace(SHEET, load=1.0), SPEED, TOP)
+    said = explanation(RESULTS[key], light, SI)
+    assert not re.search(r"\^\{[^{}]*\}\^", said)
+    if key == "eccentricity_ratio":
+        assert re.search(r"\(1-\(6.*10\^\{-5\}\)\^2\)", said)
+
+
+def test_what_rounding_leaves_of_a_zero_is_shown_as_zero() -> None:
+    words = matrix("M", np.array([[21.11, -6.9e-32], [0.3, 21.11]]), SI.mass)
+    assert words.endswith(r"\begin{bmatrix}21.11 & 0\\0.3 & 21.11\end{bmatrix}\ \text{kg}" + "\n$$")
 
 
 def test_what_solved_an_onset_is_not_equated_to_it() -> None:

@@ -4,7 +4,7 @@ import math
 
 from rotorcalc.films.model import Source
 from ui.computed import Computed
-from ui.format import tex
+from ui.format import tex, tex_base
 from ui.notes.equations import equation
 from ui.results.record import Result
 
@@ -44,20 +44,21 @@ def _sommerfeld(computed: Computed) -> str:
 
 
 def _eccentricity(computed: Computed) -> str:
-    eps, sigma = (
-        tex(float(computed.point.eccentricity_ratio)),
-        tex(float(computed.point.sommerfeld)),
-    )
+    ratio, sigma = (
+        float(computed.point.eccentricity_ratio), tex(float(computed.point.sommerfeld))
+    )  # fmt: skip
+    eps, square = tex(ratio), f"{tex_base(ratio)}^2"
     return (
-        rf"{sigma} = \frac{{(1-{eps}^2)^2}}{{{eps}\sqrt{{16\cdot {eps}^2+\pi^2(1-{eps}^2)}}}},"
+        rf"{sigma} = \frac{{(1-{square})^2}}{{{eps}\sqrt{{16\cdot {square}+\pi^2(1-{square})}}}},"
         rf"\quad \varepsilon = {eps}"
     )
 
 
 def _attitude(computed: Computed) -> str:
-    eps, phi = tex(float(computed.point.eccentricity_ratio)), float(computed.point.attitude_angle)
+    ratio, phi = float(computed.point.eccentricity_ratio), float(computed.point.attitude_angle)
+    root = rf"\sqrt{{1-{tex_base(ratio)}^2}}"
     return (
-        rf"\arctan\frac{{\pi\sqrt{{1-{eps}^2}}}}{{4\cdot {eps}}} = {tex(phi, 'rad')}"
+        rf"\arctan\frac{{\pi{root}}}{{4\cdot {tex(ratio)}}} = {tex(phi, 'rad')}"
         rf" = {tex(math.degrees(phi))}^\circ"
     )
 

@@ -136,6 +136,13 @@ def _whirl(computed: Computed) -> str:
     return rf"{ratio}\cdot {tex(onset.speed)} = {tex(onset.whirl_frequency, 'rad/s')}"
 
 
+def _ratio_of_speeds(computed: Computed) -> str:
+    onset, ratio = computed.onset, _onset_ratio(computed)
+    if math.isnan(ratio):
+        return tex(ratio)
+    return rf"\frac{{{tex(onset.whirl_frequency)}}}{{{tex(onset.speed)}}} = {tex(ratio)}"
+
+
 # Where the notes have the threshold of a rigid and of a flexible rotor, and the whirl ratio.
 _RIGID, _FLEXIBLE, _RATIO = "Eq. 5.45", "Eq. 5.50", "Eq. 5.46"
 _CITED = {number: equation(number.removeprefix("Eq. ")) for number in (_RIGID, _FLEXIBLE, _RATIO)}
@@ -207,8 +214,7 @@ STABILITY: tuple[Result, ...] = (
     Result(
         "onset_ratio", "Whirl ratio at onset", "number", _onset_ratio, "ωₒₙ/Ωₒₙ",
         r"\frac{\omega_{on}}{\Omega_{on}}",
-        lambda c: rf"\frac{{{tex(c.onset.whirl_frequency)}}}{{{tex(c.onset.speed)}}} = "
-        rf"{tex(_onset_ratio(c))}",
+        _ratio_of_speeds,
         "The whirl ratio of the machine itself; without midspan damping it equals the film's.",
         at_onset=True,
     ),

@@ -27,7 +27,7 @@ from ui.bearing import (
 from ui.bores import FILMS
 from ui.cases import Case, added
 from ui.choices import NAMES
-from ui.format import quoted, typed_number
+from ui.format import quoted, short, typed_number
 from ui.input_record import tidy
 from ui.inputs import (
     DEFAULT_PRESET,
@@ -260,5 +260,6 @@ def _kept(key: str, preset: str) -> str:
         return "the preset's bearing is used."
     if key not in INPUTS:
         return "the preset's machine is used."
-    shown = "half the rotor's weight" if value is None else written(value)
-    return f"the preset's {shown} is used."
+    if value is None:
+        return "half the rotor's weight is used."
+    return f"the preset's {value if isinstance(value, str) else short(value)} is used."

@@ -20,6 +20,8 @@ _SMALL, _LARGE = 0.01, 0.1
 
 def matrix(symbol: str, values: np.ndarray, unit: Unit, axes: Axes = "XY") -> str:
     """Return the equation of a 2×2 matrix of coefficients: its elements' names and values."""
+    # What rounding leaves beside entries that are zero.
+    values = np.where(np.abs(values) > 1e-12 * np.abs(values).max(), values, 0.0)
     names = [[rf"{symbol}_{{{row}{column}}}" for column in axes] for row in axes]
     numbers = [[tex(float(value)) for value in row] for row in unit.of(values)]
     return display(f"{_bracket(names)}={_bracket(numbers)}{_unit(unit)}")
