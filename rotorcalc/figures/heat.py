@@ -102,13 +102,14 @@ def balance(curves: HeatCurves, point: Sweep, units: Units) -> Chart:
     x = style.axis(style.titled("Film temperature", "T", T.name), low, high)
     share = point.machine.supply.heat_share if point.machine.supply else 1.0
     here = share * float(point.power_loss)
+    made = "made by the film" if share == 1.0 else "made by the film, the oil's share"
     # Heat made in cold oil may be many times as much: the axis shows the crossing.
     y = style.axis(
         style.titled("Heat per bearing", "", power.name), 0.0, style.ceiling(2.5 * power.of(here))
     )
     hover = text.hover(f"%{{x:.1f}} {T.name}", power)
     traces = [
-        style.line(T.of(curves.temperature), power.of(curves.made), "made by the film", _MADE,
+        style.line(T.of(curves.temperature), power.of(curves.made), made, _MADE,
                    hovertemplate=hover),
         style.line(T.of(curves.temperature), power.of(curves.carried), "carried by the oil",
                    _CARRIED, hovertemplate=hover),

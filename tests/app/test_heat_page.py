@@ -1,16 +1,20 @@
 """The page Heat, and every other page with the film's temperature from a supply of oil."""
 
+import math
+
 import pytest
 
-from rotorcalc import PRESETS
-from rotorcalc.units import US
+from rotorcalc import PRESETS, analyse
+from rotorcalc.units import SI, US
 from tests.app.session import BEARINGS_PAGE, faults, session_of, texts, tours, visit
 from ui.bores import NAMES
 from ui.computed import computed_from
+from ui.format import amount
 from ui.frame.page import PAGES
 from ui.inputs import PRESET_VALUES
 from ui.sharing import address
 from ui.sharing.report_charts import charts, left_out, sections
+from ui.words.verdict import verdict
 
 HEAT = next(path for path, name in PAGES.items() if name == "Heat")
 SUPPLY = {"T_in": "45", "flow": "10", "share": "0.9"}
@@ -72,6 +76,16 @@ def test_the_report_has_the_balance_of_a_supply():
     assert drawn == [{"rise", "viscosity"}, {"rise", "viscosity"} | missing]
     assert any("temperature is given" in words for words in left_out(given, "Heat"))
     assert charts(supplied, [], US).keys() > missing
+
+
+def test_a_machine_whose_oil_ends_before_an_onset_is_not_said_never_to_whirl():
+    # An oil that does not thin: by the side flow alone the film is at 370 °C below the onset.
+    computed = computed_from(address.read({"T_in": "45", "flow": "0.5", "alpha": "0"}).values)
+    assert math.isinf(computed.onset.speed)
+    with pytest.raises(ValueError, match="hotter"):
+        analyse(computed.machine, 1.01 * computed.onset.searched_to)
+    words = verdict(computed, SI).sentence
+    assert f"no whirl up to {amount(SI.speed, computed.onset.searched_to)}" in words
 
 
 def test_us_units_have_rises_in_degrees_fahrenheit():

@@ -63,7 +63,7 @@ def _sentence(computed: Computed, units: Units) -> str:
 def _outlook(computed: Computed, units: Units) -> str:
     onset = computed.onset
     if math.isinf(onset.speed):
-        return "no speed makes this machine whirl."
+        return _never(computed, units)
     if onset.speed > computed.speed:
         margin = above(onset.speed / computed.speed)
         beyond = " (outside the model's range)" if computed.onset_is_outside else ""
@@ -73,6 +73,17 @@ def _outlook(computed: Computed, units: Units) -> str:
     return (
         f"it is above its range of whirl, which begins at {amount(units.speed, onset.speed)}, "
         f"where it whirls at {_whirl(computed, units)}."
+    )
+
+
+def _never(computed: Computed, units: Units) -> str:
+    """Return that no onset was found, and up to which speed, where a supply's oil ends there."""
+    limit = computed.onset.searched_to
+    if computed.machine.supply is None or math.isinf(limit):
+        return "no speed makes this machine whirl."
+    return (
+        f"no whirl up to {amount(units.speed, limit)}; above, the oil supplied is too little to "
+        "carry the heat."
     )
 
 
