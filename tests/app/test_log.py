@@ -1,11 +1,14 @@
 """What is written of what happens often."""
 
+import re
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 from starlette.types import Message, Receive, Scope, Send
 
 from tests.waiting import finished
+from ui.frame.page import PAGES
 from ui.serving import log
 from ui.serving.guard import refusal, strangers
 
@@ -90,3 +93,11 @@ def test_the_paths_of_a_login_are_there_where_one_is_set_up(
     }  # fmt: skip
     finished(strangers.OwnSite(app)(scope, None, send))  # type: ignore[arg-type]
     assert sent[0]["status"] == status
+
+
+def test_the_proxys_log_knows_every_page() -> None:
+    config = (Path(__file__).parents[2] / "deploy" / "nginx.conf").read_text(encoding="utf-8")
+    named = re.search(r"rotorcalc_known>/rotorcalc/\(([^)]*)", config)
+    pages = {re.sub(r".*/\d+_(.*)\.py", r"\1", path) for path in PAGES} - {"app.py"}
+    assert named
+    assert pages <= set(named[1].split("|"))
