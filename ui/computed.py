@@ -110,6 +110,16 @@ class Computed:
         return any(one.worst == "outside" and one.name != IMBALANCE_ORBIT for one in there)
 
     @property
+    def onset_is_unknown(self) -> bool:
+        """Whether the oil supplied carries the heat up to a speed only, and no onset lies below."""
+        return self.ends_unanswered(self.onset)
+
+    def ends_unanswered(self, onset: Onset) -> bool:
+        """Return whether an onset was sought up to the speed that the oil supplied allows only."""
+        supplied = self.machine.supply is not None
+        return supplied and math.isinf(onset.speed) and onset.searched_to < math.inf
+
+    @property
     def sweep(self) -> Sweep:
         """The machine over speed, up to the top speed."""
         return _sweep(self.machine, self.top_speed)

@@ -177,7 +177,7 @@ def test_bearings_that_do_not_whirl_are_named(monkeypatch: pytest.MonkeyPatch) -
     said: list[str] = []
     monkeypatch.setattr(words.st, "info", said.append)
     words.say_exceptions(results)
-    assert said == ["No speed makes this machine whirl on: elliptical (two-lobe)."]
+    assert said == ["No onset was found on: elliptical (two-lobe)."]
     assert any("none against" in said for said in words.here(results[3], results, SI))
 
 

@@ -1,14 +1,20 @@
 """A supply of oil in place of the film temperature: its switch, sliders, link, file and history."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
-from rotorcalc import PRESETS, analyse
+from rotorcalc import PRESETS, Rotor, analyse
+from rotorcalc.units import SI
 from tests.app.session import HOME, faults, session_of, visit
+from ui.computed import Computed
 from ui.inputs import PRESET_VALUES, has_supply, input_named, machine_of, speeds_of
+from ui.results.table import RESULTS
 from ui.sharing import address
 from ui.supply import other
+from ui.words import citation, root_locus
+from ui.words.verdict import verdict
 
 SHEET = PRESET_VALUES["sheet-1e8"]
 
@@ -96,3 +102,22 @@ def test_the_switch_the_sliders_and_undo():
 def test_where_no_balance_exists_the_page_says_why():
     at = visit(HOME, T_in="40", load="0")
     assert "no oil leaves" in at.error[0].value
+
+
+def test_where_the_oil_runs_out_before_an_onset_no_word_claims_that_there_is_none():
+    # So heavy a load on so light a rotor whirls at speeds at which the oil would burn.
+    machine = replace(machine_of(SHEET | other(SHEET)), load=1e6, rotor=Rotor(mass=0.01))
+    shown = Computed(machine, 300.0, 600.0)
+    assert shown.onset_is_unknown
+    said = [
+        verdict(shown, SI).sentence,
+        citation.without_onset(shown),
+        root_locus.crossing(shown, shown.onset, SI),
+    ]
+    for words, there in zip(said, ["too little to carry", "As far as", "as far as"], strict=True):
+        assert there in words
+    never = ["never", "no speed makes", "cannot make"]
+    assert not any(words in one.lower() for one in said for words in never)
+    at_onset = [result.shown(shown, SI) for result in RESULTS.values() if result.at_onset]
+    assert len(at_onset) > 2
+    assert {*at_onset} == {"not found"}

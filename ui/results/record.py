@@ -52,12 +52,10 @@ class Result:
         return getattr(units, self.kind)
 
     def shown(self, computed: Computed, units: Units) -> str:
-        """Return the result with its unit, or a word where it is NaN."""
+        """Return the result with its unit, or a word where it is no number."""
         value = self.value(computed)
-        if math.isnan(value):
-            return self.unknown
-        if math.isinf(value):
-            return self.boundless
+        if not math.isfinite(value):
+            return self._without_number(computed, value)
         if value == 0.0 and self.nought:
             return self.nought(computed)
         unit = self.unit(units)
@@ -65,6 +63,11 @@ class Result:
             return f"{minus(digits(value))} times"
         number = minus(digits(float(unit.of(value))))
         return number + {"-": "", "°": "°"}.get(unit.name, f" {unit.name}")
+
+    def _without_number(self, computed: Computed, value: float) -> str:
+        if self.at_onset and computed.onset_is_unknown:
+            return "not found"
+        return self.unknown if math.isnan(value) else self.boundless
 
     def origin(self, computed: Computed) -> Source | None:
         """Return what was solved for this machine, None where its film names no source."""

@@ -287,7 +287,7 @@ def say_exceptions(found: Sequence[BearingResult]) -> None:
     if refused:
         st.warning(f"No answer at this speed and load, for the reason below: {', '.join(refused)}.")
     if steady:
-        st.info(f"No speed makes this machine whirl on: {', '.join(steady)}.")
+        st.info(f"No onset was found on: {', '.join(steady)}.")
 
 
 def in_rows(found: Sequence[BearingResult]) -> Iterator[Sequence[BearingResult]]:

@@ -70,6 +70,13 @@ def is_stiff_unloaded(computed: Computed) -> bool:
     return bool(abs(K[0, 0] + K[1, 1]) > 1e-9 * abs(K[0, 1] - K[1, 0]))
 
 
+def without_onset(computed: Computed) -> str:
+    """Return why a machine has no onset, the beginning of a sentence."""
+    if computed.onset_is_unknown:
+        return "As far as the oil supplied carries the heat, this machine does not whirl"
+    return "No speed makes this machine whirl"
+
+
 def without_load(computed: Computed) -> str:
     """Return in words why a machine whirls at any speed."""
     if not computed.unloaded or is_stiff_unloaded(computed):

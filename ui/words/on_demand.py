@@ -30,7 +30,7 @@ from ui.jobs import cache, work
 from ui.jobs.work import Progress
 from ui.results.stability import leading
 from ui.session import session
-from ui.words.citation import capital, without_load
+from ui.words.citation import capital, without_load, without_onset
 
 T = TypeVar("T")
 
@@ -226,7 +226,7 @@ def _no_onset(computed: Computed) -> str:
             f"{capital(without_load(computed))}, so this machine whirls at any speed: there is no "
             "onset from which limit cycles could branch off, and none to compare."
         )
-    return "No speed makes this machine whirl: it has no onset, and no limit cycles."
+    return f"{without_onset(computed)}: no onset was found, and no limit cycles."
 
 
 def tabulated(computed: Computed) -> FilmMotion | None:

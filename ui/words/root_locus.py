@@ -84,6 +84,8 @@ def how_to_read(computed: Computed) -> str:
 
 def crossing(computed: Computed, onset: Onset, units: Units) -> str:
     """Return a text that says where a mode crosses the imaginary axis."""
+    if computed.ends_unanswered(onset):
+        return "No mode crosses the imaginary axis, as far as the oil supplied carries the heat."
     if math.isinf(onset.speed):
         return "No mode crosses the imaginary axis: this film cannot make this rotor whirl."
     speed = f"{float(units.speed.of(onset.speed)):.0f} {units.speed.name}"

@@ -18,7 +18,7 @@ from ui.choices import choose
 from ui.computed import Computed
 from ui.format import amount
 from ui.preview import Text
-from ui.words.citation import capital, without_load
+from ui.words.citation import capital, without_load, without_onset
 
 NO_WHIRL = (
     "This film cannot whirl: at no load does it have the cross-coupled stiffness that feeds a "
@@ -157,7 +157,7 @@ def energies(computed: Computed) -> Energies:
 def has_orbit(computed: Computed) -> bool:
     """Return whether the machine has an onset and so a whirl orbit; show a note if it has none."""
     if math.isinf(computed.onset.speed):
-        st.info("No speed makes this machine whirl, so there is no whirl orbit.")
+        st.info(f"{without_onset(computed)}, so there is no whirl orbit.")
         return False
     return True
 

@@ -78,13 +78,10 @@ def _outlook(computed: Computed, units: Units) -> str:
 
 def _never(computed: Computed, units: Units) -> str:
     """Return that no onset was found, and up to which speed, where a supply's oil ends there."""
-    limit = computed.onset.searched_to
-    if computed.machine.supply is None or math.isinf(limit):
+    if not computed.onset_is_unknown:
         return "no speed makes this machine whirl."
-    return (
-        f"no whirl up to {amount(units.speed, limit)}; above, the oil supplied is too little to "
-        "carry the heat."
-    )
+    limit = amount(units.speed, computed.onset.searched_to)
+    return f"no whirl up to {limit}; above, the oil supplied is too little to carry the heat."
 
 
 def _past(computed: Computed, units: Units) -> str:
