@@ -47,6 +47,7 @@ def public() -> dict[str, Callable]:
 # Good values of arguments, by their names: one alone of each call is spoiled.
 GOOD: dict[str, Any] = {
     "machine": SHEET, "bearing": SHEET.bearing, "rotor": SHEET.rotor, "sweep": SWEEP,
+    "oil": SHEET.oil,
     "motion": rc.simulate(SHEET, 600.0, revolutions=5), "K": K, "C": C, "k": K, "c": C,
     "speed": 600.0, "eps": 0.5, "sigma": 1.0, "sommerfeld": 1.0, "theta": 1.0, "zeta": 0.0,
     "position": (0.1, 0.0), "velocity": (0.1, 0.0), "length_to_radius": 1.0, "eigenvalue": 1j,
