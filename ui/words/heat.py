@@ -77,13 +77,14 @@ def table(computed: Computed, units: Units) -> Text:
 
 def _numbers(label: str, computed: Computed, units: Units) -> str:
     point, onset = computed.point, computed.onset.speed
+    never = "not found" if computed.onset_is_unknown else "none"
     return _row([
         label,
         amount(units.temperature, point.temperature),
         amount(units.viscosity, point.viscosity),
         minus(digits(float(point.eccentricity_ratio))),
         amount(units.film, point.minimum_film_thickness),
-        "none" if math.isinf(onset) else amount(units.speed, onset),
+        never if math.isinf(onset) else amount(units.speed, onset),
     ])  # fmt: skip
 
 
