@@ -91,7 +91,8 @@ class Input:
         if self.low <= value <= self.high:
             return ""
         low, high = (short(self.shown(end, units)) for end in (self.low, self.high))
-        return f"lies outside {low} to {high} {self.unit(units).name}"
+        unit = self.unit(units).name
+        return f"lies outside {low} to {high}" + ("" if unit == "-" else f" {unit}")
 
     def text(self, value: float, units: Units) -> str:
         """Return a kept value as a field shows it, in a visitor's unit."""

@@ -17,7 +17,6 @@ from ui.bearing import (
     FILM,
     KIND,
     Field,
-    Value,
     Values,
     fields_of,
     kinds,
@@ -255,11 +254,18 @@ def _word(
 
 
 def _kept(key: str, preset: str) -> str:
-    value: Value = PRESET_VALUES[preset].get(key)
+    if key == "T_in":
+        return "the film's temperature is given instead."
+    return f"{_used(key, preset)} is used."
+
+
+def _used(key: str, preset: str) -> str:
     if key == KIND:
-        return "the preset's bearing is used."
+        return "the preset's bearing"
     if key not in INPUTS:
-        return "the preset's machine is used."
+        return "the preset's machine"
+    value = SUPPLY.get(key, PRESET_VALUES[preset].get(key))
     if value is None:
-        return "half the rotor's weight is used."
-    return f"the preset's {value if isinstance(value, str) else short(value)} is used."
+        return "half the rotor's weight"
+    shown = value if isinstance(value, str) else short(value)
+    return shown if key in SUPPLY else f"the preset's {shown}"
