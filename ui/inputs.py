@@ -231,6 +231,11 @@ def in_units(message: str, units: Units) -> str:
     return _QUANTITY.sub(lambda found: _converted(found[1], found[2], units), message)
 
 
+def as_shown(message: str, values: Values, units: Units) -> str:
+    """Return a message of the core in the sidebar's words and a visitor's units."""
+    return in_units(in_words(message, values), units)
+
+
 def _converted(number: str, si: str, units: Units) -> str:
     return amount(getattr(units, _KINDS[si]), float(number))
 

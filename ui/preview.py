@@ -18,7 +18,7 @@ from rotorcalc.units import Units
 from ui.bores import Values
 from ui.cases import Draw, Shown
 from ui.computed import Computed, computed_while_dragging
-from ui.inputs import in_units, in_words, input_named
+from ui.inputs import as_shown, input_named
 
 T = TypeVar("T")
 Kind = Literal["markdown", "caption", "success", "info", "warning", "error", "html"]
@@ -89,7 +89,7 @@ class Preview:
             computed = computed_while_dragging(values, self.computed)
             _ = computed.point  # a film may have no answer at the running speed
         except ValueError as error:
-            raise ValueError(in_units(in_words(f"{error}", values), self.units)) from error
+            raise ValueError(as_shown(f"{error}", values, self.units)) from error
         drawn = {
             key: _given(lambda draw=draw: self._still(draw, computed))
             for key, draw in self.charts.items()

@@ -19,7 +19,7 @@ from ui.cases import computed as computed_cases
 from ui.choices import choice
 from ui.computed import Computed, computed_from
 from ui.frame import bore, cases, history, presentation, sidebar
-from ui.inputs import in_units, in_words
+from ui.inputs import as_shown, in_units
 from ui.preview import Preview, Text, Words
 from ui.results.row import show_results
 from ui.serving import one_at_a_time, version
@@ -343,7 +343,7 @@ def _answered(
     except ValueError as error:
         with places.foot:
             show_preview(None)
-        unanswered(in_units(in_words(f"{error}", visitor.values), page.units))
+        unanswered(as_shown(f"{error}", visitor.values, page.units))
         return page.alone()
     visitor.preview = page.preview
     page.say("verdict", lambda c: verdict.text(c, page.units))

@@ -23,7 +23,7 @@ from ui.bores import name_of
 from ui.format import amount, lower
 from ui.frame.bore import picture_address, picture_tag
 from ui.frame.page import Page
-from ui.inputs import in_units, in_words
+from ui.inputs import as_shown
 from ui.jobs import cache, work
 from ui.jobs.queue import SHORT
 from ui.session import session
@@ -169,7 +169,7 @@ def _asked(machine: Machine, speed: float) -> list[tuple[Machine, float, Geometr
 
 def _worded(one: BearingResult, page: Page) -> BearingResult:
     """Return a result with its refusal in the sidebar's words and units."""
-    said = in_units(in_words(one.refusal, page.preview.values), page.units)
+    said = as_shown(one.refusal, page.preview.values, page.units)
     return replace(one, refusal=said) if one.refusal else one
 
 

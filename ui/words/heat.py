@@ -2,6 +2,7 @@
 
 import math
 
+from rotorcalc import Supply
 from rotorcalc.figures.heat import Warmed, oil_rise
 from rotorcalc.heat import USUAL_RISE
 from rotorcalc.units import Units
@@ -12,8 +13,9 @@ from ui.preview import Text
 
 def carried(computed: Computed, units: Units) -> Text:
     """Return where the heat goes at the running speed."""
-    say = _given if computed.machine.supply is None else _supplied
-    return Text(f"{say(computed, units)} {needed(computed, units)}".rstrip())
+    supply = computed.machine.supply
+    said = _given(computed, units) if supply is None else _supplied(computed, supply, units)
+    return Text(f"{said} {needed(computed, units)}".rstrip())
 
 
 def _given(computed: Computed, units: Units) -> str:
@@ -31,14 +33,13 @@ def _given(computed: Computed, units: Units) -> str:
     )
 
 
-def _supplied(computed: Computed, units: Units) -> str:
-    point, oil = computed.point, computed.machine.supply
-    share = oil.heat_share if oil else 1.0
+def _supplied(computed: Computed, supply: Supply, units: Units) -> str:
+    point, share = computed.point, supply.heat_share
     whole = "" if share == 1.0 else f"{digits(100.0 * share)} % of "
-    inlet = amount(units.temperature, oil.temperature if oil else math.nan)
-    total = float(point.side_flow) + (oil.flow if oil else 0.0)
+    inlet = amount(units.temperature, supply.temperature)
     return (
-        f"{amount(units.flow, total)} of oil come at {inlet}, take up {whole}"
+        f"{amount(units.flow, point.side_flow + supply.flow)} of oil come at {inlet}, take up "
+        f"{whole}"
         f"**{amount(units.power, point.power_loss)}**, and leave at "
         f"{amount(units.temperature, point.outlet_temperature)}: the oil warms by "
         f"**{amount(units.rise, oil_rise(point))}**, and the film is at "
