@@ -44,8 +44,9 @@ def _pairs_in_columns(columns: int, least: int) -> str:
     )
     # Four in rows of three, or five in rows of four, would leave one alone. To count a row's
     # children by :has() would style the whole page anew whenever anything is put into it.
-    alone = f'[class*="st-key-results_{columns + 1}_"]' if columns in (3, 4) else "none"
-    row = f'[class*="st-key-results_"]:where(:not({alone}))'
+    row = '[class*="st-key-results_"]'
+    if columns in (3, 4):
+        row += f':where(:not([class*="st-key-results_{columns + 1}_"]))'
     rules = " ".join(f"{row} > {place}" for place in places)
     return f"@container (min-width: {least}rem) {{{rules}}}"
 

@@ -199,7 +199,7 @@ def say_onsets(found: Onsets, units: Units) -> None:
         ("Eigenvalues", found.eigenvalues, "max Re λ = 0"),
         ("Measured growth in time", found.measured, "the motion neither grows nor decays"),
     )
-    with st.container(key="results_3_onsets"):
+    with st.container(key=f"results_{len(rows)}_onsets"):
         for label, speed, how in rows:
             unknown = "no closed form" if label == "Closed form" else "not found"
             reading = f"{float(units.speed.of(speed)):.2f} {units.speed.name}"
