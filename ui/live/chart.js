@@ -90,6 +90,10 @@ function made(parent) {
   chart.settle = () => chart.shown !== chart.given && draw(chart, chart.given);
   chart.resizing = new ResizeObserver(() => {
     if (!element.data || !element.offsetParent) return;
+    if (chart.type && chart.type !== large()) {
+      draw(chart, chart.shown);
+      return;
+    }
     window.rotorcalcDrawing += 1; // Plotly waits a tenth of a second
     window.Plotly.Plots.resize(element).catch(() => {}).finally(() => {
       chart.tools?.cursor.placed(chart);
@@ -192,7 +196,8 @@ function envelop(trace, [low, high], width, { numbers }) {
 async function redrawn(Plotly, chart, { chart: figure, config, presenting }) {
   const whole = document.fullscreenElement === chart.view;
   const copy = structuredClone(unfolded(figure, whole)); // Plotly writes into what it is given
-  if (whole || presenting) enlarge(copy, large());
+  chart.type = whole || presenting ? large() : null; // in another window it is drawn anew
+  if (chart.type) enlarge(copy, chart.type);
   delete copy.layout.height; // the element's
   delete copy.layout.meta; // not Plotly's
   const seen = visible(chart, copy.layout);
