@@ -109,7 +109,13 @@ class AppPage:
     def leave(self, size: ViewportSize) -> None:
         """Make the tab as good as new for what opens in it next, once nothing is held in it."""
         # A page keeps its state when it is left; a listener of its own event comes after it.
-        self.page.evaluate("() => addEventListener('pagehide', () => sessionStorage.clear())")
+        # Streamlit keeps in all tabs of a browser whether the sidebar was open.
+        self.page.evaluate(
+            """() => addEventListener('pagehide', () => {
+              sessionStorage.clear();
+              localStorage.clear();
+            })"""
+        )
         self.page.mouse.move(0, 0)
         self.page.emulate_media(color_scheme="light", reduced_motion="no-preference")
         self.page.set_viewport_size(size)
