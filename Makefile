@@ -2,7 +2,9 @@
 PYTHON ?= python3
 
 VENV := .venv/bin/python
-# What is imported is compiled then; to compile all that is installed takes twelve seconds more.
+# What is imported is compiled then, once, though the surroundings may forbid it: else each of the
+# tests' hundred servers would compile it anew. To compile all that is installed takes twelve seconds.
+unexport PYTHONDONTWRITEBYTECODE
 PIP  := $(VENV) -m pip install --disable-pip-version-check --no-compile
 # Written when an install has ended well: a .venv without it was interrupted, and is made anew.
 RUNTIME := .venv/.requirements
