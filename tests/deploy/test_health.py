@@ -87,8 +87,10 @@ def _processes(server: Replica) -> dict[str, int]:
     for status in Path("/proc").glob("[0-9]*/stat"):
         with suppress(OSError):
             if status.read_text().rsplit(")", 1)[1].split()[1] == str(server.process.pid):
-                nicer = (status.parent / "cmdline").read_text().split("\0")[3]
-                found["releases" if nicer == "0" else "long computations"] = int(status.parent.name)
+                command = (status.parent / "cmdline").read_text().split("\0")
+                if len(command) > 3:  # one that has ended has none
+                    what = "releases" if command[3] == "0" else "long computations"
+                    found[what] = int(status.parent.name)
     return found
 
 
