@@ -47,6 +47,11 @@ class FilmMotion:
         where there are none.
     seconds : float
         About how long that takes, on one core of a laptop.
+    revolution : float
+        About how long a revolution takes then [s], where a chart cannot have it at once; else 0.
+    apart : float
+        By how much its stiffness and damping at rest may differ from the film's own, over their
+        largest entry: both are known to a mesh, or exactly, 0.
     """
 
     force: Force
@@ -54,6 +59,8 @@ class FilmMotion:
     thinnest: float = 0.0
     tables: Hashable | None = None
     seconds: float = 0.0
+    revolution: float = 0.0
+    apart: float = 0.0
 
 
 # (x, y, x', y') or (x, y, f_x, f_y), inner states, instantaneous viscosity [Pa·s], speed [rad/s]

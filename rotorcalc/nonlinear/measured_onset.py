@@ -20,6 +20,7 @@ from rotorcalc.analysis import analyse
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
 from rotorcalc.display import Result
+from rotorcalc.films import FilmMotion, film_of
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.linear_motion import linear_theory
 from rotorcalc.nonlinear.signals import fitted_modes
@@ -28,7 +29,8 @@ from rotorcalc.onset.closed_form import closed_form_onset, covers
 from rotorcalc.onset.search import searched_onset
 
 # The initial whirl, in clearances, and its bound in minimum film thicknesses: so small that its
-# growth is linear to a millionth of |λ|, yet large against the integrator's errors.
+# growth is linear to a millionth of |λ|, yet large against the integrator's errors. Where the force
+# is known to a mesh, and with it the place of rest, the whirl is as large as that error.
 _WHIRL, _OF_FILM = 1e-4, 1e-2
 # Observed time: _WHIRLS periods of whirl, or _LIFETIMES of 1/|growth rate| if shorter; at least
 # _FEWEST periods, in at most _MOST revolutions and periods; and the samples over that time.
@@ -38,7 +40,7 @@ _NOISE = 1e-6
 # Speeds over the guess that bracket the onset, tried outwards; and the tolerance of the result.
 _SPREAD = (0.97, 1.03, 0.9, 1.1, 0.75, 1.3, 0.5, 2.0)
 _SHARP = 1e-6
-# Relative difference up to which the three onsets agree, well above the errors of each.
+# Relative difference up to which the three onsets of a film that is known exactly agree.
 _AGREE = 1e-3
 
 
@@ -57,11 +59,14 @@ class Onsets:
         Where the largest Re λ vanishes; infinite where there is none.
     measured : float
         Where a small whirl neither grows nor decays; NaN where no such speed was found.
+    tolerance : float
+        Relative difference up to which they agree [-], well above the errors of each.
     """
 
     closed_form: float
     eigenvalues: float
     measured: float
+    tolerance: float = _AGREE
 
     @property
     def spread(self) -> float:
@@ -71,13 +76,13 @@ class Onsets:
 
     @property
     def agree(self) -> Agreement:
-        """Whether all known onsets "agree" to a thousandth, or "differ".
+        """Whether all known onsets "agree" to their tolerance, or "differ".
 
         "not measured" where the measurement found no onset: two linear results prove nothing.
         """
         if math.isnan(self.measured):
             return "not measured"
-        return "agree" if self.spread < _AGREE else "differ"
+        return "agree" if self.spread < self.tolerance else "differ"
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,7 +137,14 @@ def onsets(machine: Machine, *, progress: Callable[[float], object] | None = Non
         closed_form=closed,
         eigenvalues=by_eigenvalues,
         measured=measured_onset(machine, near=by_eigenvalues, progress=progress),
+        tolerance=max(_AGREE, _apart(machine)),
     )
+
+
+def _apart(machine: Machine) -> float:
+    """Return how far a film's force in motion may be from its linear theory."""
+    motion = film_of(machine.bearing).motion()
+    return motion.apart if isinstance(motion, FilmMotion) else 0.0
 
 
 @checked
@@ -153,9 +165,10 @@ def measured_growth(machine: Machine, speed: float) -> float:
     Returns
     -------
     float
-        Growth rate [1/s] of a whirl of a ten-thousandth of the clearance. NaN where no mode
-        oscillates, where two whirls take more than 400 revolutions or a revolution more than
-        400 whirls (that bounds the cost), or where the motion cannot be integrated.
+        Growth rate [1/s] of a whirl of a ten-thousandth of the clearance, or of as much as the
+        film's force at rest is uncertain (`FilmMotion.apart`). NaN where no mode oscillates, where
+        two whirls take more than 400 revolutions or a revolution more than 400 whirls (that bounds
+        the cost), or where the motion cannot be integrated.
 
     Raises
     ------
@@ -170,7 +183,8 @@ def measured_growth(machine: Machine, speed: float) -> float:
     turns = time * speed / (2.0 * math.pi)
     revolutions = math.ceil(turns)
     film = float(point.minimum_film_thickness)
-    whirl = min(_WHIRL * machine.bearing.radial_clearance, _OF_FILM * film)
+    share = max(_WHIRL, _apart(machine))
+    whirl = min(share * machine.bearing.radial_clearance, max(_OF_FILM, share) * film)
     try:
         motion = simulate(
             balanced,

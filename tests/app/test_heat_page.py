@@ -18,7 +18,7 @@ from ui.words.verdict import verdict
 
 HEAT = next(path for path, name in PAGES.items() if name == "Heat")
 SUPPLY = {"T_in": "45", "flow": "10", "share": "0.9"}
-# Each page with some bore, each bore on some page; orbits are not computed in pockets.
+# Each page with some bore, each bore on some page.
 KINDS = list(NAMES)
 ROUND = [(path, KINDS[place % len(KINDS)]) for place, path in enumerate(PAGES, start=1)]
 

@@ -217,7 +217,7 @@ def test_a_film_of_finite_length_says_what_its_tables_cost_and_makes_them_once_a
     words = " ".join(text.value for text in at.markdown)
     assert re.search(r"tabulated once .* about \d+ s", words), words
     assert charts(at) == {}
-    press(at, "orbits_tables")
+    press(at, "orbits_slow_release")
     assert set(charts(at)) == {"chart_orbits_path", "chart_orbits_time"}
     assert re.search("After 40 revolutions|returns to equilibrium", said(at)), said(at)
     session_of(at).set_value("rpm", 5800.0)
@@ -226,10 +226,22 @@ def test_a_film_of_finite_length_says_what_its_tables_cost_and_makes_them_once_a
     assert len(charts(at)) == 2  # another speed needs no other tables
 
 
+def test_pads_with_pockets_say_what_each_release_costs_and_wait_to_be_asked() -> None:
+    at = visit(ORBITS, bearing="multi-dam", revolutions="20")
+    words = " ".join(text.value for text in at.markdown)
+    assert re.search(r"solved at each step\. This release takes about 4 s", words), words
+    press(at, "orbits_slow_release")
+    assert set(charts(at)) == {"chart_orbits_path", "chart_orbits_time"}
+    session_of(at).set_value("rpm", 5800.0)
+    at.run()
+    assert faults(at) == []
+    assert charts(at) == {}  # another speed is another release
+
+
 def test_another_bore_may_refuse_a_release_after_its_tables() -> None:
     at = visit(ORBITS, film="finite")
     at.slider(key="orbits_kick").set_value(1.2).run()
-    at.button(key="orbits_tables").click().run()
+    at.button(key="orbits_slow_release").click().run()
     assert not at.exception
     assert "film has no thickness left" in said(at)
     assert charts(at) == {}

@@ -7,7 +7,7 @@ import pytest
 
 from rotorcalc import TransientError, analyse, energy_balance, onset_speed, simulate
 from rotorcalc.films import film_of
-from rotorcalc.geometry import AxialGrooves, Elliptical, Plain, PressureDam
+from rotorcalc.geometry import AxialGrooves, Elliptical, MultiDam, Plain, PressureDam
 from rotorcalc.nonlinear.collocation import Balance
 from rotorcalc.nonlinear.continuation import small_cycle
 from rotorcalc.nonlinear.hopf import hopf
@@ -15,8 +15,10 @@ from rotorcalc.nonlinear.measured_onset import measured_growth
 from rotorcalc.nonlinear.release import release
 from tests.machines import ROTORS, SHEET, C
 
-ALL = pytest.mark.parametrize("geometry", [Plain(), AxialGrooves(), Elliptical()])
-KINDS = pytest.mark.parametrize("kind", ["rigid", "massless journals", "journal mass, damped"])
+TABLED = [Plain(), AxialGrooves(), Elliptical()]
+MOVED = ["rigid", "massless journals", "journal mass, damped"]
+ALL = pytest.mark.parametrize("geometry", [*TABLED, PressureDam(), MultiDam()])
+KINDS = pytest.mark.parametrize("kind", MOVED)
 SPEED = 500.0
 
 
@@ -44,8 +46,12 @@ def test_a_balanced_journal_rests_where_it_is_in_equilibrium(geometry, kind):
     assert np.abs(motion.journal - rest).max() < 1e-3 * C
 
 
-@ALL
-@KINDS
+# A wide motion over pockets takes seconds.
+@pytest.mark.parametrize(("geometry", "kind"), [
+    *((geometry, kind) for geometry in TABLED for kind in MOVED),
+    (PressureDam(), "massless journals"),
+    (MultiDam(), "massless journals"),
+])  # fmt: skip
 def test_the_energy_of_a_wide_motion_balances(geometry, kind):
     machine = machine_on(geometry, kind, imbalance=0.05 * C)
     rest = analyse(machine, SPEED).journal_position
@@ -91,8 +97,3 @@ def test_a_motion_ends_where_the_film_is_thinner_than_computed():
         simulate(machine, SPEED, revolutions=1, start=thin)
     with pytest.raises(ValueError, match="must be at least"):  # no equilibrium to release it from
         release(too_heavy, SPEED, kick=0.1 * C, revolutions=20)
-
-
-def test_pockets_are_refused_in_words():
-    with pytest.raises(ValueError, match="pads have pockets"):
-        simulate(machine_on(PressureDam()), SPEED, revolutions=1)

@@ -35,10 +35,8 @@ from ui.words.citation import capital, without_load, without_onset
 T = TypeVar("T")
 
 # Seconds that limit cycles and the onset three ways take on a laptop's core, and on a film whose
-# force comes from tables.
-_CYCLES_TAKE, _CYCLES_ON_TABLES, _THREE_ON_TABLES = 15, 45, 20
-# Of a revolution on such a film, at the tolerance of a chart.
-REVOLUTION = 0.03
+# force takes long.
+_CYCLES_TAKE, _SLOW_CYCLES_TAKE, _SLOW_THREE_TAKE = 15, 45, 25
 _CYCLES = (
     "From the onset on, whirl of a constant size is possible at each speed: a limit cycle. The "
     "chart will show the size of these cycles over speed, without imbalance: stable cycles, on "
@@ -111,7 +109,7 @@ def ask_cycles(page: Page) -> Bifurcation | None:
         st.info(_no_onset(computed))
         return None
     machine = balanced(computed.machine)
-    comes = _CYCLES.format(_CYCLES_ON_TABLES if tabulated(computed) else _CYCLES_TAKE)
+    comes = _CYCLES.format(_SLOW_CYCLES_TAKE if slow_film(computed) else _CYCLES_TAKE)
     return on_demand(
         page, Job("Follow the limit cycles", "orbits_cycles", comes), ("cycles", machine),
         lambda tell: attempt(lambda: _cycles(machine, tell=tell)),
@@ -166,10 +164,11 @@ def ask_onsets(page: Page) -> tuple[Onsets, GrowthCurve] | None:
     if not 0.0 < onset < math.inf:
         st.info(_no_onset(computed))
         return None
-    if (film := tabulated(computed)) is not None:
-        comes = f"{_THREE.removesuffix('A few seconds …')}About {_THREE_ON_TABLES} s."
+    if (film := slow_film(computed)) is not None:
+        comes = f"{_THREE.removesuffix('A few seconds …')}About {_SLOW_THREE_TAKE} s."
+        about = film.tables or balanced(computed.machine)
         return on_demand(
-            page, Job("Find the onset three ways", "orbits_three", comes), ("three", film.tables),
+            page, Job("Find the onset three ways", "orbits_three", comes), ("three", about),
             lambda _: attempt(lambda: three_onsets(computed)),
         )  # fmt: skip
     place = st.empty()
@@ -229,13 +228,13 @@ def _no_onset(computed: Computed) -> str:
     return f"{without_onset(computed)}: no onset was found, and no limit cycles."
 
 
-def tabulated(computed: Computed) -> FilmMotion | None:
-    """Return the force of a film that makes tables before its first motion, else None."""
+def slow_film(computed: Computed) -> FilmMotion | None:
+    """Return the force of a film whose motion a page cannot have at once, else None."""
     try:
         motion = film_of(computed.machine.bearing).motion()
     except ValueError:
         return None
-    return motion if isinstance(motion, FilmMotion) and motion.tables is not None else None
+    return motion if isinstance(motion, FilmMotion) and motion.revolution > 0.0 else None
 
 
 def has_motion(bearing: JournalBearing) -> bool:

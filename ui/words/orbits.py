@@ -19,7 +19,7 @@ from ui.jobs import cache, queue, work
 from ui.jobs.work import Progress
 from ui.preview import Preview, Text, not_at_once
 from ui.session import session
-from ui.words.on_demand import REVOLUTION, Job, on_demand, tabulated
+from ui.words.on_demand import Job, on_demand, slow_film
 
 T = TypeVar("T")
 
@@ -37,6 +37,16 @@ _SUBCRITICAL = PRESET_VALUES["sheet-1e8"] | {
 }  # fmt: skip
 
 Demo = Literal["below", "above", "small", "big"]
+# What a film has whose motion comes by tables, or by a solution at each step.
+_TABULATED = (
+    "The force of this film in any motion comes from solutions of Reynolds' equation, tabulated "
+    "once for the pads' arc and L/D. With this release that takes about {} s; then other loads, "
+    "speeds, clearances and preloads follow at once."
+)
+_SOLVED = (
+    "Pads with pockets have no table of their force in motion: Reynolds' equation is solved at "
+    "each step. This release takes about {} s."
+)
 
 
 @dataclass(frozen=True)
@@ -132,8 +142,22 @@ def _set_up(demo: Demo) -> None:
 def let_go(computed: Computed, ask: Ask, tell: Progress | None = None) -> Release:
     """Return the release of a machine's journal."""
     ask = _affordable(computed, ask)
-    release = _long_release if ask.revolutions >= work.LONG else _release
-    return release(computed.machine, computed.speed, ask.kick, ask.revolutions, tell=tell)
+    return _releases(computed, ask)(*_of(computed, ask), tell=tell)
+
+
+def _releases(computed: Computed, ask: Ask) -> cache.Cached[Release]:
+    """Return the cache, and the queue, that a release belongs to."""
+    return _long_release if ask.revolutions >= work.LONG or _is_solved(computed) else _release
+
+
+def _of(computed: Computed, ask: Ask) -> tuple[Machine, float, float, int]:
+    return computed.machine, computed.speed, ask.kick, ask.revolutions
+
+
+def _is_solved(computed: Computed) -> bool:
+    """Return whether each release takes long, not the first alone."""
+    film = slow_film(computed)
+    return film is not None and film.tables is None
 
 
 def coarse(computed: Computed, ask: Ask) -> Release:
@@ -141,7 +165,7 @@ def coarse(computed: Computed, ask: Ask) -> Release:
 
     Raises ValueError where it cannot be computed, or not as fast as the slider moves.
     """
-    if tabulated(computed) is not None:
+    if slow_film(computed) is not None:
         not_at_once(computed)
     ask = _affordable(computed, ask)
     turns = min(ask.revolutions, _COARSE)
@@ -166,11 +190,11 @@ def _affordable(computed: Computed, ask: Ask) -> Ask:
 def try_out(page: Page, ask: Ask) -> Page | None:
     """Return the page without the cases that allow no such release.
 
-    Say in words why there is none, and stop, where the live machine allows none. Where tables must
-    be made first, say so, and return None until a visitor asks for them.
+    Say in words why there is none, and stop, where the live machine allows none. Where it takes
+    long, say so, and return None until a visitor asks for it.
     """
     ask = _affordable(page.computed, ask)
-    if not _ask_for_tables(page, ask):
+    if not _asked_for(page, ask):
         return None
     bar = st.progress(0.0, "Integrating …") if ask.revolutions >= work.LONG else None
     try:
@@ -181,26 +205,36 @@ def try_out(page: Page, ask: Ask) -> Page | None:
     finally:
         if bar is not None:
             bar.empty()
-    return replace(page, cases=tuple(s for s in page.cases if _can_let_go(s.computed, ask)))
+    return replace(page, cases=tuple(s for s in page.cases if _is_drawn(s.computed, ask)))
 
 
-def _ask_for_tables(page: Page, ask: Ask) -> bool:
-    """Return whether a release needs no tables, or a visitor has asked for them."""
-    if (film := tabulated(page.computed)) is None:
+def _asked_for(page: Page, ask: Ask) -> bool:
+    """Return whether a release comes at once, or a visitor has asked for it."""
+    film = slow_film(page.computed)
+    if film is None or _is_known(page.computed, ask):
         return True
-    seconds = math.ceil(film.seconds + ask.revolutions * REVOLUTION)
-    job = Job(
-        "Release the journal", "orbits_tables",
-        "The force of this film in any motion comes from solutions of Reynolds' equation, "
-        f"tabulated once for the pads' arc and L/D. With this release that takes about {seconds} "
-        "s; then other loads, speeds, clearances and preloads follow at once.",
-    )  # fmt: skip
+    seconds = math.ceil(film.seconds + ask.revolutions * film.revolution)
+    if _is_solved(page.computed):
+        how = _SOLVED.format(seconds)
+        about = "release", page.computed.machine, page.computed.speed, ask
+    else:
+        how, about = _TABULATED.format(seconds), ("tables", film.tables)
     # An error comes again, and is shown, where the release is asked for anew.
     asked = on_demand(
-        page, job, ("tables", film.tables),
+        page, Job("Release the journal", "orbits_slow_release", how), about,
         lambda tell: (_can_let_go(page.computed, ask, tell), True),
     )  # fmt: skip
     return asked is not None
+
+
+def _is_drawn(computed: Computed, ask: Ask) -> bool:
+    """Return whether a case's release can be drawn; one that takes long, once it was asked for."""
+    return _is_known(computed, ask) if _is_solved(computed) else _can_let_go(computed, ask)
+
+
+def _is_known(computed: Computed, ask: Ask) -> bool:
+    ask = _affordable(computed, ask)
+    return _releases(computed, ask).known(*_of(computed, ask)) is not None
 
 
 def _can_let_go(computed: Computed, ask: Ask, tell: Progress | None = None) -> bool:

@@ -15,7 +15,7 @@ from ui.computed import Computed
 from ui.format import amount, digits
 from ui.frame.page import Page
 from ui.jobs import cache, work
-from ui.words.on_demand import REVOLUTION, Job, attempt, balanced, on_demand, tabulated
+from ui.words.on_demand import Job, attempt, balanced, on_demand, slow_film
 
 # Ends of a passage around the onset, over its speed; and the start of one to the top speed, over
 # that.
@@ -80,10 +80,10 @@ def ask_run(page: Page, asked: AskRun) -> RunUp | None:
     units = page.units
     ends = " to ".join(amount(units.speed, speed) for speed in (asked.lowest, asked.highest))
     rate = amount(units.speed, asked.acceleration)
-    film = tabulated(page.computed)
+    film = slow_film(page.computed)
     # Both ways, after the tables of a film that needs them.
     ways = 2.0 * asked.revolutions
-    seconds = math.ceil(ways * _COST if film is None else ways * REVOLUTION + film.seconds)
+    seconds = math.ceil(ways * _COST if film is None else ways * film.revolution + film.seconds)
     job = Job(
         "Run up and down", "orbits_run_up",
         f"The speed rises from {ends} within {digits(asked.time)} s, by {rate} each second, "

@@ -11,7 +11,8 @@ from numpy.typing import ArrayLike
 from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.films.dynamics import NO_INERTIA, FilmDynamics
 from rotorcalc.films.finite.accuracy import accuracy
-from rotorcalc.films.finite.motion import SECONDS, THINNEST, FinitePadsInMotion
+from rotorcalc.films.finite.direct_motion import SOLVED_REVOLUTION, SolvedPadsInMotion
+from rotorcalc.films.finite.motion import REVOLUTION, SECONDS, THINNEST, FinitePadsInMotion
 from rotorcalc.films.finite.pressure import Pressures
 from rotorcalc.films.finite.table import FilmTable, table, takes_long
 from rotorcalc.films.model import Accuracy, FilmMotion, Limit, Source
@@ -183,17 +184,15 @@ class FiniteFilm:
         )
 
     def motion(self) -> FilmMotion:
-        """Return the force on a moving journal, and its inverse, in plain floats.
-
-        Raises
-        ------
-        ValueError
-            Where a pad has a pocket.
-        """
+        """Return the force on a moving journal, and its inverse, in plain floats."""
         if have_pockets(pads_of(self.bearing)):
-            raise ValueError(
-                f"bearing = {self.bearing.geometry.kind}: nonlinear motion is not computed where "
-                "pads have pockets, whose film depends on more than the direction of the motion"
+            solved = SolvedPadsInMotion(self.bearing)
+            return FilmMotion(
+                force=solved.force,
+                velocity=solved.velocity,
+                thinnest=THINNEST,
+                revolution=SOLVED_REVOLUTION,
+                apart=0.012,
             )
         moving = FinitePadsInMotion(self.bearing)
         return FilmMotion(
@@ -202,6 +201,8 @@ class FiniteFilm:
             thinnest=THINNEST,
             tables=moving.shapes,
             seconds=SECONDS * len(moving.shapes),
+            revolution=REVOLUTION,
+            apart=0.005,
         )
 
     def accuracy(self, sommerfeld: float) -> Accuracy:

@@ -17,8 +17,10 @@ from rotorcalc.films.finite.impedance import Impedance, Shape, impedance
 from rotorcalc.films.pads import Pad, pads_of
 from rotorcalc.machine import JournalBearing
 
-# Gap below which the force is held, in C, and about how long a table takes on a laptop's core.
-THINNEST, SECONDS = 0.02, 2.0
+# Gap below which the force is held, in C.
+THINNEST = 0.02
+# About how long a table and a revolution take on a laptop's core, at the tolerance of a chart.
+SECONDS, REVOLUTION = 2.0, 0.03
 # Difference of a film's middle for derivatives, in columns of the table.
 _BESIDE = 1e-3
 
