@@ -100,8 +100,15 @@ def _see_answer_chart_and_controls_above_the_fold(app: AppPage) -> None:
 
 def _see_a_chart_on_a_projector(app: AppPage) -> None:
     assert _below_the_fold(app, 768) == {}
+    assert _plot_height(app) > 120
+    app.page.set_viewport_size({"width": 960, "height": 600})  # a desk's window at 150 %
+    app.rest()
+    assert _plot_height(app) > 90
+
+
+def _plot_height(app: AppPage) -> float:
     plot = app.page.locator(".js-plotly-plot .bglayer, .js-plotly-plot .cartesianlayer").first
-    assert plot.evaluate("plot => plot.getBoundingClientRect().height") > 120
+    return plot.evaluate("plot => plot.getBoundingClientRect().height")
 
 
 def _below_the_fold(app: AppPage, fold: float, chart: float = math.inf) -> dict[str, float]:

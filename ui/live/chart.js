@@ -27,6 +27,9 @@ const CORNERS = `<svg viewBox="0 0 16 16" width="16" height="16" fill="none" str
 // in others, as a projector shows them at one size, and 16 px at least.
 const large = () => Math.min(2, Math.max(8 / 7, Math.min(innerWidth / 1008, innerHeight / 630)));
 
+// Height of a window [px] in which a presentation's legend would leave no room for the plot: the full screen has it.
+const LOW = 700;
+
 const FAILED = "This chart could not be drawn: Plotly's script did not load. Reload the page.";
 // Milliseconds without a change after which Plotly draws a moved chart.
 const WHILE = 300;
@@ -198,6 +201,7 @@ async function redrawn(Plotly, chart, { chart: figure, config, presenting }) {
   const copy = structuredClone(unfolded(figure, whole)); // Plotly writes into what it is given
   chart.type = whole || presenting ? large() : null; // in another window it is drawn anew
   if (chart.type) enlarge(copy, chart.type);
+  if (presenting && !whole && innerHeight < LOW) copy.layout.showlegend = false;
   delete copy.layout.height; // the element's
   delete copy.layout.meta; // not Plotly's
   const seen = visible(chart, copy.layout);
