@@ -24,6 +24,7 @@ ISO_VG: dict[str, tuple[float, float]] = {
     "ISO VG 68": (68.0, 8.731),
     "ISO VG 100": (100.0, 11.384),
 }
+LAW_NAMES = {"exponential": "exponential law", "walther": "Walther's law"}
 # A round value for mineral oils [kg/m³]: it converts a grade's kinematic viscosity to the dynamic
 # one, and enters the film's Reynolds number.
 DENSITY = 860.0

@@ -11,6 +11,7 @@ from rotorcalc.figures import cursor, style, text
 from rotorcalc.figures.style import Axis, Chart, Trace
 from rotorcalc.heat import USUAL_RISE, HeatCurves, lone_rise
 from rotorcalc.machine import Oil
+from rotorcalc.oils import LAW_NAMES
 from rotorcalc.units import Unit, Units
 
 HEIGHT = 340
@@ -150,9 +151,9 @@ def viscosity(sweep: Sweep, point: Sweep, other: Oil | None, units: Units) -> Ch
     own = mu.of(oil.viscosity(si))
     y = style.axis(style.titled("Viscosity", "μ", mu.name), *style.decades(own), log=True)
     hover = text.hover(f"%{{x:.1f}} {T.name}", mu)
-    traces = [style.line(over, own, _LAWS[oil.law], style.BLUE, hovertemplate=hover)]
+    traces = [style.line(over, own, LAW_NAMES[oil.law], style.BLUE, hovertemplate=hover)]
     if other is not None:
-        soft = style.line(over, mu.of(other.viscosity(si)), _LAWS[other.law], style.GREY,
+        soft = style.line(over, mu.of(other.viscosity(si)), LAW_NAMES[other.law], style.GREY,
                           dash="dot", width=1.6, hovertemplate=hover)  # fmt: skip
         traces.insert(0, soft)
     traces += style.here(float(T.of(point.temperature)), float(mu.of(point.viscosity)), x, y)
@@ -162,9 +163,6 @@ def viscosity(sweep: Sweep, point: Sweep, other: Oil | None, units: Units) -> Ch
         "y0": 0, "y1": 1, "line": {"width": 0}, "fillcolor": _BAND, "layer": "below",
     }  # fmt: skip
     return style.chart(traces, x, y, height=HEIGHT, margin=_MARGIN, shapes=[band])
-
-
-_LAWS = {"exponential": "exponential law", "walther": "Walther's law"}
 
 
 def _compared(

@@ -55,7 +55,7 @@ def report(
         _matrices(computed, units),
         _over_speed(computed, units),
         _modes(computed, units),
-        _validity(computed),
+        _validity(computed, units),
         _reading(computed, cases),
         *(
             _section(computed, title, figures, charts)
@@ -244,7 +244,7 @@ def _mode(number: int, value: complex, speed: float, units: Units) -> str:
     return _row([(str(number), ""), *((minus(text), "n") for text in texts)])
 
 
-def _validity(computed: Computed) -> str:
+def _validity(computed: Computed, units: Units) -> str:
     rows = (
         _row([
             (check.name, ""),
@@ -252,7 +252,7 @@ def _validity(computed: Computed) -> str:
             (validity_words.WORDS[check.worst], check.worst),
             ("" if check.worst == "good" else f"{check.reason}.", ""),
         ])
-        for check in validity(computed.point)
+        for check in (validity_words.read(check, units) for check in validity(computed.point))
     )  # fmt: skip
     limits = ("Strained at", "n"), ("Fails at", "n")
     head = _head("Assumption", ("Here", "n"), *limits, "Model", "Reason")

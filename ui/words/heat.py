@@ -5,10 +5,12 @@ import math
 from rotorcalc import Supply
 from rotorcalc.figures.heat import Warmed, oil_rise
 from rotorcalc.heat import USUAL_RISE
+from rotorcalc.oils import LAW_NAMES
 from rotorcalc.units import Units
 from ui.computed import Computed
 from ui.format import amount, digits, minus
 from ui.preview import Text
+from ui.results.table import RESULTS
 
 
 def carried(computed: Computed, units: Units) -> Text:
@@ -77,15 +79,14 @@ def table(computed: Computed, units: Units) -> Text:
 
 
 def _numbers(label: str, computed: Computed, units: Units) -> str:
-    point, onset = computed.point, computed.onset.speed
-    never = "not found" if computed.onset_is_unknown else "none"
+    point = computed.point
     return _row([
         label,
         amount(units.temperature, point.temperature),
         amount(units.viscosity, point.viscosity),
         minus(digits(float(point.eccentricity_ratio))),
         amount(units.film, point.minimum_film_thickness),
-        never if math.isinf(onset) else amount(units.speed, onset),
+        RESULTS["onset_speed"].shown(computed, units),
     ])  # fmt: skip
 
 
@@ -125,11 +126,10 @@ def _difference(computed: Computed, units: Units) -> str:
     T = computed.sweep.temperature
     far = T.flat[abs(T - oil.reference_temperature).argmax()]
     ratio = float(oil.viscosity(far) / other.viscosity(far))
-    name = "exponential" if oil.law == "exponential" else "Walther's"
     if abs(ratio - 1.0) < 0.01:
         return " In this range they agree to 1 %."
     return (
-        f" At {amount(units.temperature, far)} the {name} law used here gives "
+        f" At {amount(units.temperature, far)} the {LAW_NAMES[oil.law]} used here gives "
         f"{digits(float(f'{abs(100.0 * (ratio - 1.0)):.2g}'))} % "
         f"{'more' if ratio > 1.0 else 'less'} than the other."
     )

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import streamlit as st
@@ -97,12 +98,25 @@ def _by(ratio: float, more: str, less: str) -> str:
 
 
 def _line(check: Check, computed: Computed, units: Units) -> str:
+    check = read(check, units)
     badge = f":{_BADGES[check.worst]}-badge[{WORDS[check.worst]}]"
     text = f"{badge} {check.name}: **{number(check.value)}** ({limits(check)})"
     if check.worst == "good":
         return text
-    remedy = f" {needed(computed, units)}" if check.name == HEAT else ""
+    remedy = f" {needed(computed, units)}" if check.name.startswith(_RISE) else ""
     return f"{text}: {check.reason}.{remedy}"
+
+
+_RISE = HEAT.removesuffix("K")
+
+
+def read(check: Check, units: Units) -> Check:
+    """Return an assumption in the units of display: that of heat has one, the others are ratios."""
+    if check.name != HEAT:
+        return check
+    value, caution, limit = map(units.rise.of, (check.value, check.caution, check.limit))
+    name = f"{_RISE}{units.rise.name}"
+    return replace(check, name=name, value=value, caution=caution, limit=limit)
 
 
 def limits(check: Check) -> str:
