@@ -450,8 +450,6 @@ SHORT_PADS = {
 }
 # Those whose film has a force on a journal in any motion.
 MOVING = [name for name in BEARINGS | SHORT_PADS if name != "lossy"]
-# Those whose force comes from tables: near theirs, not to the last digit.
-TABULATED = [name for name in FINITE if "dam" not in name]
 BEARINGS |= FINITE | SHORT_PADS
 
 

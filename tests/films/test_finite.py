@@ -443,8 +443,6 @@ def test_bores_of_one_shape_share_a_table():
 
 def test_a_film_of_finite_length_says_what_it_does_not_compute():
     film = film_of(on(PressureDam(), 0.5))
-    with pytest.raises(ValueError, match="nonlinear motion is not computed"):
-        film.motion()
     with pytest.raises(ValueError, match="added mass is not computed"):
         film.added_mass(OperatingPoints.at_sommerfeld(film.bearing, 1.0))
     with pytest.raises(ValueError, match="zeta"):
