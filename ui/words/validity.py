@@ -98,16 +98,13 @@ def _by(ratio: float, more: str, less: str) -> str:
 
 
 def _line(check: Check, computed: Computed, units: Units) -> str:
-    check = read(check, units)
+    seen = read(check, units)
     badge = f":{_BADGES[check.worst]}-badge[{WORDS[check.worst]}]"
-    text = f"{badge} {check.name}: **{number(check.value)}** ({limits(check)})"
+    text = f"{badge} {seen.name}: **{number(seen.value)}** ({limits(seen)})"
     if check.worst == "good":
         return text
-    remedy = f" {needed(computed, units)}" if check.name.startswith(_RISE) else ""
+    remedy = f" {needed(computed, units)}" if check.name == HEAT else ""
     return f"{text}: {check.reason}.{remedy}"
-
-
-_RISE = HEAT.removesuffix("K")
 
 
 def read(check: Check, units: Units) -> Check:
@@ -115,7 +112,7 @@ def read(check: Check, units: Units) -> Check:
     if check.name != HEAT:
         return check
     value, caution, limit = map(units.rise.of, (check.value, check.caution, check.limit))
-    name = f"{_RISE}{units.rise.name}"
+    name = f"{HEAT.removesuffix('K')}{units.rise.name}"
     return replace(check, name=name, value=value, caution=caution, limit=limit)
 
 

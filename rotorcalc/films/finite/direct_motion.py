@@ -15,13 +15,14 @@ from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.films import convex
 from rotorcalc.films.convex import Answer
 from rotorcalc.films.finite.reynolds import (
+    SQUEEZE,
     Films,
     Mesh,
     banded,
     films,
-    flow_out,
     force_weights,
     mesh,
+    refilled,
 )
 from rotorcalc.films.pads import pads_of
 from rotorcalc.machine import JournalBearing
@@ -34,8 +35,6 @@ SOLVED_REVOLUTION = 0.2
 _MOST_SWEEPS, _FEW_SWEEPS = 200, 12
 # Determinant of the damping over its trace's square, below which it resists in one direction only.
 _LEAST = 1e-12
-# Right sides by a velocity over the weights of the force: −12 ∫ h_τ with h_τ = −v·n, weights −½∫n.
-_SQUEEZE = -24.0
 
 
 class _Place(NamedTuple):
@@ -104,15 +103,15 @@ class SolvedPadsInMotion:
         flat, wet, G = weights.reshape(2, -1), self._wet[0], place.films.conductance
         for _ in range(_FEW_SWEEPS):
             still, *moved = banded(place.films, G, wet, np.stack([place.wedge, *weights]))
-            C: Array = -_SQUEEZE * np.stack(moved).reshape(2, -1) @ flat.T
+            C: Array = -SQUEEZE * np.stack(moved).reshape(2, -1) @ flat.T
             # Without a film that resists in all directions there is no one velocity.
             if not np.linalg.det(C) > _LEAST * np.trace(C) ** 2:
                 return None
             v = np.asarray(np.linalg.solve(C, flat @ still.ravel() - force / self._unit), float)
-            drive = _SQUEEZE * v
+            drive = SQUEEZE * v
             pressure = still + drive[0] * moved[0] + drive[1] * moved[1]
             right = place.wedge + drive[0] * weights[0] + drive[1] * weights[1]
-            after = _full(place.films, wet, pressure, right)
+            after = refilled(place.films, wet, pressure, right)
             if np.array_equal(after, wet):
                 self._wet[:] = [wet]
                 return float(v[0]), float(v[1])
@@ -127,8 +126,8 @@ class SolvedPadsInMotion:
     def _answer(self, place: _Place, dx: float, dy: float) -> Answer:
         pressure, right, adjoint = self._pressure(place, dx, dy, place.weights)
         flat = np.reshape(place.weights, (2, -1))
-        force, C = flat @ pressure.ravel(), -_SQUEEZE * adjoint.reshape(2, -1) @ flat.T
-        potential = (pressure * right).sum() / (-2.0 * _SQUEEZE)
+        force, C = flat @ pressure.ravel(), -SQUEEZE * adjoint.reshape(2, -1) @ flat.T
+        potential = (pressure * right).sum() / (-2.0 * SQUEEZE)
         return Answer(*(self._unit * np.array([*force, *C.ravel(), potential])).tolist())
 
     def _pressure(
@@ -139,20 +138,14 @@ class SolvedPadsInMotion:
         The others are solved where the film is full.
         """
         w_x, w_y = place.weights
-        right = place.wedge + _SQUEEZE * (dx * w_x + dy * w_y)
+        right = place.wedge + SQUEEZE * (dx * w_x + dy * w_y)
         wet = self._wet[0] if self._wet else right > 0.0
         G = place.films.conductance
         for _ in range(_MOST_SWEEPS):
             pressure, *others = banded(place.films, G, wet, np.stack([right, *also]))
-            after = _full(place.films, wet, pressure, right)
+            after = refilled(place.films, wet, pressure, right)
             if np.array_equal(after, wet):
                 self._wet[:] = [wet]
                 return pressure, right, np.array(others)
             wet = after
         raise ArithmeticError("the film of a pad in motion has not settled")
-
-
-def _full(found: Films, wet: BoolArray, pressure: Array, right: Array) -> BoolArray:
-    """Return where the film is full after one correction of the active set."""
-    excess = right - flow_out(found, found.conductance, pressure)
-    return np.where(wet, pressure > 0.0, excess > 0.0)

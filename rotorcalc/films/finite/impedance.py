@@ -32,9 +32,9 @@ from rotorcalc.films.finite.reynolds import (
     Mesh,
     banded,
     films,
-    flow_out,
     force_weights,
     mesh,
+    refilled,
 )
 from rotorcalc.films.pads import Pad
 
@@ -249,10 +249,8 @@ def _settled(found: Films, rows: IntArray, right: Array, wet: BoolArray) -> tupl
     p, active = np.zeros_like(right), np.arange(len(rows))
     for _ in range(_MOST_SWEEPS):
         here = found.taken(rows[active])
-        G = here.conductance
-        now = banded(here, G, wet[active], right[None, active])[0]
-        excess = right[active] - flow_out(here, G, now)
-        after = np.where(wet[active], now > 0.0, excess > 0.0)
+        now = banded(here, here.conductance, wet[active], right[None, active])[0]
+        after = refilled(here, wet[active], now, right[active])
         p[active] = now
         changed = (after != wet[active]).any(axis=(1, 2, 3))
         wet[active] = after

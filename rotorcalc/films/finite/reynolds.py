@@ -28,6 +28,8 @@ from rotorcalc.films.pads import Pad, have_pockets
 _TURN = 2.0 * math.pi
 # Share of the journal's eccentricity by which the mesh is refined at the thinnest film.
 _GRADING, _STEEPEST = 0.7, 0.9
+# Right side by a velocity v over the weights of the force: −12 ∫ h_τ with h_τ = −v·n, and −½ ∫ n.
+SQUEEZE = -24.0
 # Diagonal of a node without film, many orders above any other.
 _SUPPORT = 1e30
 
@@ -361,8 +363,7 @@ def solved(found: Films, wet: BoolArray, squeeze: Array | None = None) -> Soluti
     right = Q[:, :, :-1] - Q[:, :, 1:]
     loads = force_weights(found)
     if squeeze is not None:
-        # −12 ∫ h_τ with h_τ = −(x', y')·n; the weights of the force are −½ ∫ n.
-        right = right - 24.0 * (
+        right = right + SQUEEZE * (
             squeeze[:, 0, None, None, None] * loads[0] + squeeze[:, 1, None, None, None] * loads[1]
         )
     values = np.stack([right, *loads])
@@ -402,6 +403,26 @@ def flow_out(found: Films, G: Array, p: Array) -> Array:
     flux[:, :, 0], flux[:, :, -1] = -p[:, :, 0], p[:, :, -1]
     flux *= G
     return np.diff(flux, axis=2) + found.axial_flow(p)
+
+
+def refilled(found: Films, wet: BoolArray, p: Array, right: Array) -> BoolArray:
+    """Return where the film is full after one correction of the active set.
+
+    Parameters
+    ----------
+    found : Films
+        The films.
+    wet : boolean array, (P, N, nodes, m)
+        Where the film was taken as full.
+    p, right : array, (P, N, nodes, m)
+        Pressures there, and the right side that they balance.
+
+    Returns
+    -------
+    boolean array, (P, N, nodes, m)
+        Without the nodes of negative pressure, with those that more oil reaches than leaves.
+    """
+    return np.where(wet, p > 0.0, right - flow_out(found, found.conductance, p) > 0.0)
 
 
 def banded(found: Films, G: Array, wet: BoolArray, values: Array) -> Array:
