@@ -22,6 +22,7 @@ def content(page: Page) -> None:
         "Against speed": partial(against_speed, axes=axes),
         "Against ε": partial(dimensionless, axes=axes, against="ε"),
         "Against σ": partial(dimensionless, axes=axes, against="σ"),
+        "Over whirl ratio": over_whirl_ratio,
         "Added mass": added_mass,
         "Why only cross-coupling": only_cross_coupling,
     })  # fmt: skip
@@ -80,6 +81,23 @@ def dimensionless(page: Page, axes: Axes, against: Literal["ε", "σ"]) -> None:
                 caption=words.dimensionless_caption(page.computed, symbol, against),
             )
     page.say("unloaded", words.unloaded)
+
+
+def over_whirl_ratio(page: Page) -> None:
+    if not words.depends_on_whirl(page.computed):
+        return
+    symbols: tuple[Literal["K", "C"], ...] = ("K", "C")
+    for column, symbol in zip(st.columns(2), symbols, strict=True):
+        with column:
+            name = "Stiffness" if symbol == "K" else "Damping"
+            page.chart(
+                lambda c, symbol=symbol: draw.over_whirl_ratio(
+                    c.over_whirl_ratio, c.point, symbol, page.units
+                ),
+                f"{symbol}_whirl_ratio", at_one_speed=True,
+                alt=f"{name} of one bearing against the frequency of the whirl over the speed.",
+                caption=words.whirl_ratio_caption(page.computed, symbol),
+            )  # fmt: skip
 
 
 def added_mass(page: Page) -> None:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from rotorcalc import heat
 from rotorcalc.arguments import checked
-from rotorcalc.arrays import Array, BoolArray, real_array
+from rotorcalc.arrays import Array, BoolArray, real_array, shown
 from rotorcalc.arrays import checked_speed as checked_speed  # noqa: PLC0414 - its known place
 from rotorcalc.display import Result
 from rotorcalc.films import (
@@ -168,6 +168,28 @@ class Unloading(Result):
     whirl_damping: Array
 
 
+@dataclass(frozen=True, eq=False)
+class OverWhirlRatio(Result):
+    """A film's stiffness and damping for a journal that whirls at other frequencies than Ω.
+
+    Attributes
+    ----------
+    speed : array, ()
+        Running speed, Ω [rad/s].
+    whirl_ratio : array, (n,)
+        Frequency of the whirl over running speed, ν = ω/Ω [-].
+    stiffness : array, (n, 2, 2)
+        Re Z(ν) in X, Y [N/m].
+    damping : array, (n, 2, 2)
+        Im Z(ν)/(νΩ) in X, Y [N·s/m].
+    """
+
+    speed: Array
+    whirl_ratio: Array
+    stiffness: Array
+    damping: Array
+
+
 @checked
 def equilibrium(machine: Machine, speed: ArrayLike) -> Equilibrium:
     """Return the static equilibrium of a machine's bearing and its force coefficients.
@@ -286,6 +308,41 @@ def stiffness_and_damping(machine: Machine, speed: ArrayLike) -> tuple[Array, Ar
     speed = checked_speed(speed)
     # Imbalance shakes the film at running speed, so inner coordinates are eliminated at ω = Ω.
     return reduced(_dynamics(machine, speed), speed)
+
+
+@checked
+def over_whirl_ratio(machine: Machine, speed: float, *, whirl_ratio: ArrayLike) -> OverWhirlRatio:
+    """Return the film's stiffness and damping over the frequency of the journal's whirl.
+
+    They are the same at any frequency where the film has no parts that move and does not yield;
+    those of `stiffness_and_damping` belong to the whirl ratio 1.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : float
+        Running speed, Ω [rad/s], positive.
+    whirl_ratio : array_like, (n,)
+        ν = ω/Ω [-], positive.
+
+    Returns
+    -------
+    OverWhirlRatio
+        In static equilibrium at that speed.
+
+    Raises
+    ------
+    ValueError
+        Where the speed or a whirl ratio is not positive and finite.
+    """
+    omega = checked_speed(speed)
+    ratio = np.atleast_1d(real_array("whirl_ratio", whirl_ratio))
+    if not np.all((ratio > 0.0) & np.isfinite(ratio)):
+        raise ValueError(f"whirl_ratio = {shown(whirl_ratio)}: must be positive and finite")
+    K, C = reduced(_dynamics(machine, omega), ratio * omega)
+    shape = (len(ratio), 2, 2)
+    return OverWhirlRatio(omega, ratio, np.broadcast_to(K, shape), np.broadcast_to(C, shape))
 
 
 @checked

@@ -28,6 +28,7 @@ from rotorcalc.coefficients import (
     AddedMass,
     Equilibrium,
     FilmForces,
+    OverWhirlRatio,
     PressureField,
     Unloading,
     added_mass,
@@ -35,6 +36,7 @@ from rotorcalc.coefficients import (
     film_field,
     film_forces,
     middle_pressure,
+    over_whirl_ratio,
     unloading,
 )
 from rotorcalc.figures.equilibrium import Path
@@ -75,6 +77,8 @@ _COARSE = np.linspace(-np.pi, np.pi, 73)
 # The wall, every degree: a square bore's corners are among them.
 _AROUND = np.linspace(0.0, 2.0 * np.pi, 361)
 _ZETA = np.linspace(-0.5, 0.5, 21)
+# Half-speed whirl, imbalance at 1, and its second harmonic.
+_WHIRL_RATIOS = np.linspace(0.02, 2.0, 100)
 
 
 class Computed:
@@ -332,6 +336,11 @@ class Computed:
     def unloading_here(self) -> Unloading:
         """K and (Ω/2)·C at the running speed under the machine's load."""
         return unloading(self.machine, self.speed, sommerfeld=self.point.sommerfeld)
+
+    @cached_property
+    def over_whirl_ratio(self) -> OverWhirlRatio:
+        """Stiffness and damping at the running speed over the frequency of the whirl."""
+        return over_whirl_ratio(self.machine, self.speed, whirl_ratio=_WHIRL_RATIOS)
 
     def added_mass(self, factor: float) -> AddedMass:
         """Return the film's added mass over the sweep, for a velocity profile."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from rotorcalc.analysis import ForceCoefficients, Sweep
 from rotorcalc.arrays import Array, BoolArray
-from rotorcalc.coefficients import AddedMass, Unloading
+from rotorcalc.coefficients import AddedMass, OverWhirlRatio, Unloading
 from rotorcalc.figures import cursor, style
 from rotorcalc.figures.style import Axis, Chart, Trace
 from rotorcalc.units import Unit, Units
@@ -69,6 +69,28 @@ def damping_against_speed(
 ) -> Chart:
     """Return C against running speed, with dimensions."""
     return _dimensional("C", sweep, point, (curve, here), units)
+
+
+def over_whirl_ratio(
+    curve: OverWhirlRatio, point: Sweep, symbol: Literal["K", "C"], units: Units
+) -> Chart:
+    """Return K or C against the whirl ratio; the synchronous ones are marked."""
+    is_stiffness = symbol == "K"
+    unit: Unit = units.stiffness if is_stiffness else units.damping
+    values = unit.of(curve.stiffness if is_stiffness else curve.damping)
+    here = unit.of(point.stiffness if is_stiffness else point.damping)
+    x = style.axis(style.titled("Whirl ratio", "ν", "-"), 0.0, float(curve.whirl_ratio[-1]))
+    words = "Stiffness" if is_stiffness else "Damping"
+    low, high = _span(np.append(values, here))
+    y = style.axis(style.titled(words, f"{symbol}_ij", unit.name), low, high)
+    traces = [
+        style.line(
+            curve.whirl_ratio, values[:, *place], _name(symbol, "XY", place), colour,
+            width=_width(symbol, place),
+        )
+        for place, colour in _COLOURS.items()
+    ]  # fmt: skip
+    return style.chart([*traces, *_points(1.0, here, (x, y), signed=True)], x, y, legend=_LEGEND)
 
 
 def unloading(curve: Unloading, here: Unloading, centred: Unloading, units: Units) -> Chart:

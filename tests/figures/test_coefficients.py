@@ -10,7 +10,14 @@ from numpy.testing import assert_allclose
 
 from rotorcalc import PRESETS, Machine, analyse, film_curves
 from rotorcalc.analysis import ForceCoefficients, force_coefficients
-from rotorcalc.coefficients import BULK_FLOW, LAMINAR, added_mass, equilibrium, unloading
+from rotorcalc.coefficients import (
+    BULK_FLOW,
+    LAMINAR,
+    added_mass,
+    equilibrium,
+    over_whirl_ratio,
+    unloading,
+)
 from rotorcalc.figures import SI, US, Units, coefficients
 from rotorcalc.films import OperatingPoints, film_of, short
 from tests.figures.charts import check_case_is_behind, check_plotly_takes_it, curves_in_window
@@ -41,6 +48,9 @@ def _charts(machine: Machine, units: Units, axes: Any) -> Iterator[dict[str, Any
     yield coefficients.unloading(*states, units)
     laminar, bulk = (added_mass(machine, sweep.speed, factor=f) for f in (LAMINAR, BULK_FLOW))
     yield coefficients.added_mass(laminar, bulk, added_mass(machine, SPEED), units)
+    over = over_whirl_ratio(machine, SPEED, whirl_ratio=np.linspace(0.1, 2.0, 20))
+    yield coefficients.over_whirl_ratio(over, point, "K", units)
+    yield coefficients.over_whirl_ratio(over, point, "C", units)
 
 
 @pytest.mark.parametrize("units", [SI, US], ids=lambda units: units.name)

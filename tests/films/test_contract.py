@@ -14,6 +14,7 @@ from rotorcalc.coefficients import (
     dynamics,
     equilibrium,
     film_forces,
+    over_whirl_ratio,
     stiffness_and_damping,
     unloading,
 )
@@ -125,6 +126,19 @@ def test_the_state_is_synchronous(bearing):
     K, C = stiffness_and_damping(machine, speed)
     assert state.stiffness == pytest.approx(K, rel=1e-10)
     assert state.damping == pytest.approx(C, rel=1e-10)
+
+
+@ALL
+def test_over_the_whirl_ratio_the_synchronous_coefficients_stand_at_one(bearing):
+    machine = machine_on(bearing)
+    over = over_whirl_ratio(machine, 600.0, whirl_ratio=[0.5, 1.0, 1.5])
+    K, C = stiffness_and_damping(machine, 600.0)
+    assert over.stiffness[1] == pytest.approx(K, rel=1e-10)
+    assert over.damping[1] == pytest.approx(C, rel=1e-10)
+    if not film_of(bearing).frequency_dependent:
+        assert np.array_equal(over.stiffness[0], over.stiffness[2])
+    with pytest.raises(ValueError, match="whirl_ratio"):
+        over_whirl_ratio(machine, 600.0, whirl_ratio=0.0)
 
 
 @ALL

@@ -7,6 +7,7 @@ import streamlit as st
 
 from rotorcalc.analysis import Axes
 from rotorcalc.coefficients import BULK_FLOW, LAMINAR
+from rotorcalc.films import film_of
 from rotorcalc.units import Unit, Units
 from ui.computed import Computed
 from ui.format import amount, digits, display, minus, tex
@@ -77,6 +78,27 @@ def unloaded(computed: Computed) -> Text | None:
         "undefined: the charts show no running speed. K and C against speed do.",
         "info",
     )
+
+
+def depends_on_whirl(computed: Computed) -> bool:
+    """Return whether K and C depend on the whirl's frequency; say so if they do not."""
+    if film_of(computed.machine.bearing).frequency_dependent:
+        return True
+    st.info(
+        "This film has no parts that move and does not yield: its K and C are the same whatever "
+        "the frequency of the whirl. On tilting pads, a floating ring or a foil they are not."
+    )
+    return False
+
+
+def whirl_ratio_caption(computed: Computed, symbol: str) -> str:
+    """Return the caption of K or C over the whirl ratio."""
+    words = (
+        "The film's moving parts follow the journal at ν = ω/Ω; the mark is imbalance, ν = 1. "
+        "Onset and modes take each whirl at its own ν. "
+        + ("$K=\\operatorname{Re}Z(ν)$." if symbol == "K" else "$C=\\operatorname{Im}Z(ν)/(νΩ)$.")
+    )
+    return cited(words, computed, "stiffness" if symbol == "K" else "damping")
 
 
 def say_other_centre(preview: Preview) -> bool:
