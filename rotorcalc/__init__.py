@@ -4,9 +4,20 @@ SI units throughout, temperature in °C. X points along the static load, Y at +9
 rotation. `analyse(machine, speed)` computes the whole chain; the modules hold its links.
 """
 
-from rotorcalc import coefficients, films, frames, heat, modes, oils, stability, unbalance_response
+from rotorcalc import (
+    coefficients,
+    criteria,
+    films,
+    frames,
+    heat,
+    modes,
+    oils,
+    stability,
+    unbalance_response,
+)
 from rotorcalc.analysis import FilmCurves, Sweep, analyse, film_curves
 from rotorcalc.comparison import BearingResult, compare_bearings
+from rotorcalc.criteria import LevelOne, level_one
 from rotorcalc.design import onset_map, sensitivities, solve_onset
 from rotorcalc.geometry import (
     AxialGrooves,
@@ -52,6 +63,7 @@ __all__ = [
     "HeatBalance",
     "Hopf",
     "JournalBearing",
+    "LevelOne",
     "Lobes",
     "Machine",
     "MultiDam",
@@ -75,6 +87,7 @@ __all__ = [
     "bifurcation",
     "coefficients",
     "compare_bearings",
+    "criteria",
     "energy_balance",
     "film_curves",
     "films",
@@ -83,6 +96,7 @@ __all__ = [
     "heat_balance",
     "hopf",
     "iso_oil",
+    "level_one",
     "measured_growth",
     "modes",
     "oils",

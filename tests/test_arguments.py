@@ -59,9 +59,12 @@ GOOD: dict[str, Any] = {
     "viscosities": (0.02, 0.01), "values": {"load": 1e3}, "vary": "load", "target": 900.0,
     "low": 1e3, "high": 2e3, "xs": [1e3, 2e3], "ys": [0.1], "path": np.ones((300, 2)), "step": 0.1,
     "dynamics": FilmDynamics, "frequency": 1.0, "power_loss": 100.0, "side_flow": 1e-5,
+    "cross_coupling": 1e6, "power": 1e6, "diameter": 0.4, "width": 0.02,
 }  # fmt: skip
 # Where a name means something else.
 ITS_OWN: dict[str, dict[str, Any]] = {
+    "criteria.imbalance_of_grade": {"grade": "G 2.5"},
+    "criteria.permissible_eccentricity": {"grade": "G 2.5"},
     "onset_map": {"x": "load", "y": "temperature"},
     "response_peaks": {"speed": SPEEDS},
     "coefficients.rising_speed": {"speed": SPEEDS},

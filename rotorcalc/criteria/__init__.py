@@ -1,0 +1,21 @@
+"""What standards ask of a rotor on journal bearings: criteria, each with its source and limit."""
+
+from rotorcalc.criteria.level_one import LevelOne, anticipated_cross_coupling, level_one
+from rotorcalc.criteria.unbalance import (
+    GRADES,
+    balance_quality,
+    grade_of_imbalance,
+    imbalance_of_grade,
+    permissible_eccentricity,
+)
+
+__all__ = [
+    "GRADES",
+    "LevelOne",
+    "anticipated_cross_coupling",
+    "balance_quality",
+    "grade_of_imbalance",
+    "imbalance_of_grade",
+    "level_one",
+    "permissible_eccentricity",
+]
