@@ -42,6 +42,8 @@ from rotorcalc.oils import iso_oil
 from rotorcalc.onset import Onset, onset_speed
 from rotorcalc.onset.whirl import WhirlOnset, whirl_onset
 from rotorcalc.presets import PRESETS, Preset
+from rotorcalc.tolerances.statistics import Influence, Probability
+from rotorcalc.tolerances.study import Tolerance, tolerance
 from rotorcalc.unbalance_curves import unstable_ranges
 from rotorcalc.unbalance_peaks import response_peaks
 from rotorcalc.unbalance_response import OrbitEllipse, orbit_ellipse
@@ -62,6 +64,7 @@ __all__ = [
     "FilmCurves",
     "HeatBalance",
     "Hopf",
+    "Influence",
     "JournalBearing",
     "LevelOne",
     "Lobes",
@@ -76,10 +79,12 @@ __all__ = [
     "Plain",
     "Preset",
     "PressureDam",
+    "Probability",
     "Rotor",
     "Start",
     "Supply",
     "Sweep",
+    "Tolerance",
     "Transient",
     "TransientError",
     "WhirlOnset",
@@ -112,6 +117,7 @@ __all__ = [
     "solve_onset",
     "stability",
     "start_on_mode",
+    "tolerance",
     "unbalance_response",
     "unstable_ranges",
     "validity",

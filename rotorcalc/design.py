@@ -9,6 +9,7 @@ Source: San Andrés, Notes 5.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +21,7 @@ from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, real_array
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine
+from rotorcalc.numerics.parts import in_parts
 from rotorcalc.onset.closed_form import covers
 from rotorcalc.onset.many import onset_speeds
 from rotorcalc.records import number_paths
@@ -175,6 +177,7 @@ def onset_map(  # noqa: PLR0913 - two axes, each a name and its values
     xs: ArrayLike,
     y: str,
     ys: ArrayLike,
+    executor: Executor | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> OnsetMap:
     """Return the onset speed over two inputs, the others as they are.
@@ -187,6 +190,8 @@ def onset_map(  # noqa: PLR0913 - two axes, each a name and its values
         The inputs, "bearing.radial_clearance" or "radial_clearance".
     xs, ys : array_like, (n,), (m,)
         Their values in SI.
+    executor : concurrent.futures.Executor, optional
+        Computes rows at the same time; with or without, onsets agree to their rounding.
     progress : callable, optional
         Called with the share done, 0 to 1, after each block of rows.
 
@@ -210,14 +215,12 @@ def onset_map(  # noqa: PLR0913 - two axes, each a name and its values
     rows = [[_machine_or_none(machine, {x_path: a, y_path: b}) for a in xs] for b in ys]
     made = [row_machine for row in rows for row_machine in row if row_machine is not None]
     whole = all(covers(one) for one in made)
-    speed = np.empty((len(ys), len(xs)))
-    # In one go in closed form, else by blocks of rows, so that progress can be reported.
-    height = max(1, len(ys) if whole else len(ys) // _BLOCKS)
-    for top in range(0, len(ys), height):
-        part = slice(top, top + height)
-        speed[part] = _onsets_where_made(rows[part])
-        if progress is not None:
-            progress(min(1.0, (top + height) / len(ys)))
+    # In one go in closed form, else by blocks of rows, so that progress can be reported; row by row
+    # where others may compute them.
+    height = max(1, len(ys) if whole else len(ys) // _BLOCKS) if executor is None else 1
+    blocks = [rows[top : top + height] for top in range(0, len(ys), height)]
+    parts = list(in_parts(_onsets_where_made, blocks, executor=executor, progress=progress))
+    speed = np.concatenate(parts) if parts else np.empty((0, len(xs)))
     return OnsetMap(x=x, y=y, xs=xs, ys=ys, speed=speed)
 
 
