@@ -17,7 +17,7 @@ from rotorcalc import (
 )
 from rotorcalc.analysis import FilmCurves, Sweep, analyse, film_curves
 from rotorcalc.comparison import BearingResult, compare_bearings
-from rotorcalc.criteria import LevelOne, level_one
+from rotorcalc.criteria import Amplification, LevelOne, amplification, level_one
 from rotorcalc.design import onset_map, sensitivities, solve_onset
 from rotorcalc.geometry import (
     AxialGrooves,
@@ -55,6 +55,7 @@ __version__ = "0.2.0"
 
 __all__ = [
     "PRESETS",
+    "Amplification",
     "AxialGrooves",
     "BearingResult",
     "Bifurcation",
@@ -88,6 +89,7 @@ __all__ = [
     "Transient",
     "TransientError",
     "WhirlOnset",
+    "amplification",
     "analyse",
     "bifurcation",
     "coefficients",

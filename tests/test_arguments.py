@@ -60,6 +60,7 @@ GOOD: dict[str, Any] = {
     "low": 1e3, "high": 2e3, "xs": [1e3, 2e3], "ys": [0.1], "path": np.ones((300, 2)), "step": 0.1,
     "dynamics": FilmDynamics, "frequency": 1.0, "power_loss": 100.0, "side_flow": 1e-5,
     "cross_coupling": 1e6, "power": 1e6, "diameter": 0.4, "width": 0.02,
+    "amplification_factor": 5.0, "above": True,
 }  # fmt: skip
 # Where a name means something else.
 ITS_OWN: dict[str, dict[str, Any]] = {

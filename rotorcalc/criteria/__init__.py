@@ -1,5 +1,6 @@
 """What standards ask of a rotor on journal bearings: criteria, each with its source and limit."""
 
+from rotorcalc.criteria.amplification import Amplification, amplification, required_margin
 from rotorcalc.criteria.level_one import LevelOne, anticipated_cross_coupling, level_one
 from rotorcalc.criteria.unbalance import (
     GRADES,
@@ -11,11 +12,14 @@ from rotorcalc.criteria.unbalance import (
 
 __all__ = [
     "GRADES",
+    "Amplification",
     "LevelOne",
+    "amplification",
     "anticipated_cross_coupling",
     "balance_quality",
     "grade_of_imbalance",
     "imbalance_of_grade",
     "level_one",
     "permissible_eccentricity",
+    "required_margin",
 ]

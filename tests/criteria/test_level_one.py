@@ -12,11 +12,6 @@ from scipy.optimize import brentq
 
 from rotorcalc import (
     PRESETS,
-    AxialGrooves,
-    Elliptical,
-    Lobes,
-    OffsetHalves,
-    PartialArc,
     analyse,
     criteria,
     level_one,
@@ -26,29 +21,14 @@ from rotorcalc import (
 )
 from rotorcalc.coefficients import dynamics
 from rotorcalc.films import reduced
-from tests.films.models import Lossy, Ringed, Sprung
+from tests.criteria.bores import GEOMETRIES, on
+from tests.films.models import Sprung
 from tests.machines import BENDING, MACHINES, ROTORS, SHEET, log_uniform, with_rotor
 
 J = np.array([[0.0, 1.0], [-1.0, 0.0]])
 SPEED = 400.0
 # The same in X and Y: two springs and dampers, which only cross-coupling makes unstable.
 ISOTROPIC = Sprung(stiffness=2.0, ratio=1.0, damping=0.1)
-GEOMETRIES = {
-    "grooves": AxialGrooves(),
-    "partial arc": PartialArc(),
-    "lemon": Elliptical(),
-    "offset": OffsetHalves(),
-    "lobes": Lobes(),
-    "impedance": Lossy(),
-    "ring": Ringed(),
-    "ring with mass": Ringed(ring_mass=0.5),
-}
-
-
-def on(geometry, rotor=SHEET.rotor, machine=SHEET):
-    """Return a machine with another bore, on the short film, and another rotor."""
-    bearing = replace(machine.bearing, geometry=geometry, film="short")
-    return replace(machine, bearing=bearing, rotor=rotor)
 
 
 def whole_machine(machine, speed, Q):
