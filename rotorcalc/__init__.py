@@ -22,6 +22,7 @@ from rotorcalc.design import onset_map, sensitivities, solve_onset
 from rotorcalc.geometry import (
     AxialGrooves,
     Elliptical,
+    FloatingRing,
     Lobes,
     MultiDam,
     OffsetHalves,
@@ -63,6 +64,7 @@ __all__ = [
     "Elliptical",
     "EnergyBalance",
     "FilmCurves",
+    "FloatingRing",
     "HeatBalance",
     "Hopf",
     "Influence",

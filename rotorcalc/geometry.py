@@ -17,6 +17,9 @@ from scipy.constants import degree
 from rotorcalc.records import Bound, Choice, Kind
 
 _TURN = 2.0 * math.pi
+# Largest C/R accepted. Bearings have 0.0005 to 0.005, and Reynolds' equation assumes a film thin
+# against the radius; a larger ratio is nearly always a clearance in the wrong unit.
+WIDEST = 0.1
 _BOTH, _FINITE = ("finite", "short"), ("finite",)
 # Angles, shares of a length, and numbers of pads, grooves or recesses.
 _Angle = Annotated[float, Bound("rad", above=0.0, below=_TURN)]
@@ -40,6 +43,9 @@ class Geometry(Kind):
     def implied(self, name: str, clearance: float) -> float:  # noqa: ARG002 - of some kinds' fields
         """Return the value that a field has when it is None, at a radial clearance C [m]."""
         raise ValueError(f"{name}: has no value of its own where it is None")
+
+    def check_around(self, radius: float) -> None:
+        """Raise ValueError where the bore does not fit around a journal of a radius [m]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -256,6 +262,79 @@ class MultiDam(_Pocketed):
         super().__post_init__()
         _fits(self.number, "pads", "arc", self.arc)
         _within_pad(self.pocket_arc, self.arc)
+
+
+@dataclass(frozen=True, kw_only=True)
+class FloatingRing(Geometry):
+    """A ring that turns freely between two films: the journal's in it, and one around it.
+
+    The bearing's own diameter, length and clearance are the inner film's. Both films are plain and
+    at one temperature. The outer film carries the journal's load; the ring's weight, some
+    hundredths of it, is left out.
+
+    Parameters
+    ----------
+    outer_radius : float
+        Outer radius of the ring, R_o [m]; greater than the journal's.
+    outer_length : float
+        Axial length of the outer film, L_o [m].
+    outer_clearance : float
+        Radial clearance of the outer film, C_o [m].
+    viscosity_ratio : float
+        Viscosity in the outer film over that in the inner one, μ_o/μ_i [-].
+    ring_mass : float
+        Mass of the ring [kg].
+    """
+
+    kind: ClassVar[str] = "floating-ring"
+    models: ClassVar[tuple[str, ...]] = _BOTH
+
+    outer_radius: Annotated[float, Bound("m", above=0.0)]
+    outer_length: Annotated[float, Bound("m", above=0.0)]
+    outer_clearance: Annotated[float, Bound("m", above=0.0)]
+    viscosity_ratio: Annotated[float, Bound("-", above=0.0)] = 1.0
+    ring_mass: Annotated[float, Bound("kg", at_least=0.0)] = 0.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        C, most = self.outer_clearance, WIDEST * self.outer_radius
+        if most < C:
+            raise ValueError(
+                f"outer_clearance = {C:.6g} m ({C * 1e6:.6g} µm): must be at most a tenth of the "
+                f"outer radius, {most:.6g} m ({most * 1e6:.6g} µm)"
+            )
+
+    @classmethod
+    def around(cls, diameter: float, length: float, radial_clearance: float) -> "FloatingRing":
+        """Return a ring of the usual proportions around a journal.
+
+        Parameters
+        ----------
+        diameter, length, radial_clearance : float
+            Those of the journal and its film, D, L and C [m].
+
+        Returns
+        -------
+        FloatingRing
+            R_o = 1.6 R, L_o = 1.2 L, C_o = 2.5 C.
+
+        Examples
+        --------
+        >>> FloatingRing.around(0.010, 0.006, 20e-6).outer_radius
+        0.008
+        """
+        usual = 0.8 * diameter, 1.2 * length, 2.5 * radial_clearance
+        # As they are written in a file: without what the products add in the last digit.
+        radius, length, clearance = (float(f"{value:.12g}") for value in usual)
+        return cls(outer_radius=radius, outer_length=length, outer_clearance=clearance)
+
+    def check_around(self, radius: float) -> None:
+        """Raise ValueError where the ring has no wall around the journal."""
+        if not self.outer_radius > radius:
+            raise ValueError(
+                f"outer_radius = {self.outer_radius:.6g} m ({self.outer_radius * 1e3:.6g} mm): "
+                f"must be greater than the journal's radius, {radius:.6g} m ({radius * 1e3:.6g} mm)"
+            )
 
 
 def _fits(number: float, parts: str, name: str, angle: float) -> None:

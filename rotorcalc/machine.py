@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from scipy.constants import g, zero_Celsius
 
 from rotorcalc.arrays import Array, real_array, shown
-from rotorcalc.geometry import Geometry, Plain
+from rotorcalc.geometry import WIDEST, Geometry, Plain
 from rotorcalc.records import Bound, Choice, Record, from_tree, parsed, to_tree
 
 # Version 2 added the bearing's geometry and leaves defaults out; version 1 is still read.
@@ -24,9 +24,6 @@ FORMAT_VERSION = 2
 # Where a program may keep what it shows of a machine; no field of the machine has this name.
 APP = "app"
 _PLAIN = Plain()
-# Largest C/R accepted. Bearings have 0.0005 to 0.005, and Reynolds' equation assumes a film thin
-# against the radius; a larger ratio is nearly always a clearance in the wrong unit.
-_WIDEST = 0.1
 # The range of the charts of ASTM D341 [°C]: outside it no law of an oil's viscosity means anything.
 COLDEST, HOTTEST = -70.0, 370.0
 
@@ -270,12 +267,13 @@ class JournalBearing(Record):
                 f"model {' or '.join(map(repr, self.geometry.models))}"
             )
         self._check_clearance()
+        self.geometry.check_around(self.radius)
         if self.film == self.geometry.models[0]:
             # The default by its name is the default: equal bearings are equal records.
             object.__setattr__(self, "film", None)
 
     def _check_clearance(self) -> None:
-        C, most = self.radial_clearance, _WIDEST * self.radius
+        C, most = self.radial_clearance, WIDEST * self.radius
         if most < C:
             raise ValueError(
                 f"radial_clearance = {C:.6g} m ({C * 1e6:.6g} µm): must be at most a tenth of the "

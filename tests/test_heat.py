@@ -18,12 +18,13 @@ from rotorcalc.onset.many import onset_speeds
 from rotorcalc.onset.search import searched_onset
 from rotorcalc.validity import HEAT
 
+RING = rc.FloatingRing.around(0.150, 0.050, 60e-6)
 BORES = [
     (rc.Plain(), "short"), (rc.Plain(), "finite"), (rc.PartialArc(), "finite"),
     (rc.PartialArc(), "short"), (rc.AxialGrooves(), "finite"), (rc.AxialGrooves(), "short"),
     (rc.Elliptical(), "finite"), (rc.Elliptical(), "short"), (OffsetHalves(), "finite"),
     (OffsetHalves(), "short"), (rc.Lobes(), "finite"), (rc.Lobes(), "short"),
-    (rc.PressureDam(), "finite"), (MultiDam(), "finite"),
+    (rc.PressureDam(), "finite"), (MultiDam(), "finite"), (RING, "short"), (RING, "finite"),
 ]  # fmt: skip
 NAMES = [f"{geometry.kind} {film}" for geometry, film in BORES]
 SHEET = rc.PRESETS["sheet-1e8"].machine

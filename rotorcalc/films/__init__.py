@@ -16,6 +16,7 @@ from rotorcalc.films.dynamics import FilmDynamics, reduced
 from rotorcalc.films.finite import CoarseFilm, FiniteFilm
 from rotorcalc.films.lobes import LobesFilm
 from rotorcalc.films.model import Film, FilmMotion, InnerMotion
+from rotorcalc.films.ring import RingFilm
 from rotorcalc.films.short import ShortFilm
 from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
 from rotorcalc.films.units import FilmUnits
@@ -57,6 +58,9 @@ MODELS: dict[tuple[str, str], Callable[[JournalBearing], Film]] = {
     ("lobes", "short"): LobesFilm,
 }
 MODELS.update({(kind, "coarse"): CoarseFilm for kind, model in list(MODELS) if model == "finite"})
+# A ring's film takes the model of its two films from the bearing.
+for _model in ("short", "finite", "coarse"):
+    MODELS["floating-ring", _model] = RingFilm
 
 
 @checked

@@ -34,7 +34,12 @@ Answers: TypeAlias = Callable[[float, float], Answer]
 
 
 def velocity(
-    answers: Answers, f_x: float, f_y: float, near: list[float] | None = None
+    answers: Answers,
+    f_x: float,
+    f_y: float,
+    near: list[float] | None = None,
+    *,
+    scale: float = 0.0,
 ) -> tuple[float, float]:
     """Return the velocity at which the film's force on the journal is the given one.
 
@@ -46,6 +51,8 @@ def velocity(
         Force of the film in X and Y, in film units.
     near : list or None
         Solution of the last search, from which this one starts and which it replaces.
+    scale : float
+        Size of the forces beside which that is to be found, where it is small or none.
 
     Returns
     -------
@@ -58,7 +65,7 @@ def velocity(
         Where the search does not converge, as for a force of NaN.
     """
     dx, dy = (near[0], near[1]) if near else (0.0, 0.0)
-    scale, last = math.hypot(f_x, f_y), math.inf
+    scale, last = max(scale, math.hypot(f_x, f_y)), math.inf
     found = answers(dx, dy)
     for _ in range(_MOST_STEPS):
         left = math.hypot(f_x - found.f_x, f_y - found.f_y)

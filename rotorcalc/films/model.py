@@ -86,12 +86,16 @@ class InnerMotion:
         Force on the journal and rates of the inner states from the journal's position and velocity.
     velocity : callable
         Velocity of the journal and the same rates from its position and the force on it.
+    loaded : callable or None
+        The same under a static load per bearing [N], where what does not move in a motion depends
+        on it, as the speed of rotation of a floating ring does; without it there is no load.
     """
 
     states: int
     rest: Callable[[OperatingPoints], Array]
     force: InnerRates
     velocity: InnerRates
+    loaded: "Callable[[float], InnerMotion] | None" = None
 
 
 @dataclass(frozen=True)

@@ -121,6 +121,8 @@ class Equations:
         # The gap at which a motion ends, in C: at the wall, or where the film's force is not known.
         self.thinnest = 0.0
         if isinstance(film, InnerMotion):
+            if film.loaded is not None:
+                film = film.loaded(machine.static_load)
             film = self.inner = _Inner(film, model.inner, mu)
         else:
             self.thinnest = film.thinnest

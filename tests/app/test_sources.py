@@ -22,7 +22,7 @@ from tests.app.session import (
     visit,
 )
 from tests.app.test_bearings import EVERYWHERE, SPEED, TOP, machine, query, refusal
-from tests.films.models import BEARINGS, FINITE, MOVING, SHORT_PADS
+from tests.films.models import BEARINGS, FINITE, MOVING, RINGS, SHORT_PADS
 from tests.machines import SHEET
 from ui.computed import Computed
 from ui.inputs import machine_of, values_of
@@ -108,7 +108,7 @@ def test_the_report_cites_what_the_film_names(name: str) -> None:
     text = page[: page.index("<script>")]
     assert numbers(text) - ON_ANY_FILM - own(name) == set()
     # The films made for the tests know nothing of pressure, flow or drag.
-    gives_all = name in {"short", *FINITE, *SHORT_PADS}
+    gives_all = name in {"short", *FINITE, *SHORT_PADS, *RINGS}
     assert ("The model of this bearing&#x27;s film does not give it." in text) == (not gives_all)
     assert ("This film cannot whirl" in text) == (name == "sprung")
     assert ('id="power"' in text) == gives_all

@@ -25,6 +25,7 @@ from rotorcalc.frames import rotate, vector
 from rotorcalc.geometry import (
     AxialGrooves,
     Elliptical,
+    FloatingRing,
     Geometry,
     Lobes,
     MultiDam,
@@ -431,6 +432,15 @@ BEARINGS = {
     "ringed": replace(_PLAIN, geometry=Ringed()),
     "ringed, heavy": replace(_PLAIN, geometry=Ringed(ring_mass=1.5)),
 }
+# A floating ring of the usual proportions, on each film model, and one with its mass.
+_AROUND = FloatingRing.around(_PLAIN.diameter, _PLAIN.length, _PLAIN.radial_clearance)
+SHORT_RINGS = {
+    "floating ring, heavy": replace(
+        _PLAIN, geometry=replace(_AROUND, ring_mass=12.0), film="short"
+    ),
+    "floating ring": replace(_PLAIN, geometry=_AROUND, film="short"),
+}
+RINGS = {"finite floating ring": replace(_PLAIN, geometry=_AROUND), **SHORT_RINGS}
 
 # Every fixed bore on the film of finite length.
 FINITE = {
@@ -449,8 +459,8 @@ SHORT_PADS = {
     for name in ("partial arc", "axial grooves", "elliptical", "offset halves", "lobes")
 }
 # Those whose film has a force on a journal in any motion.
-MOVING = [name for name in BEARINGS | SHORT_PADS if name != "lossy"]
-BEARINGS |= FINITE | SHORT_PADS
+MOVING = [name for name in BEARINGS | SHORT_PADS | SHORT_RINGS if name != "lossy"]
+BEARINGS |= FINITE | SHORT_PADS | RINGS
 
 
 def points(bearing, sigma, *, viscosity=0.0127, speed=600.0):

@@ -32,9 +32,15 @@ def machine_on(bearing, **changes):
     return replace(SHEET, bearing=bearing, **changes)
 
 
+def motion_at(film, at):
+    motion = film.motion()
+    loaded = getattr(motion, "loaded", None)
+    return motion if loaded is None else loaded(float(at.load))
+
+
 def journal_force(film, at, place, velocity, inner=()):
     """Return the film's force on the journal in film units, inner states given."""
-    motion = film.motion()
+    motion = motion_at(film, at)
     if isinstance(motion, FilmMotion):
         return np.array(motion.force(*place, *velocity))
     f_x, f_y, _ = motion.force(
@@ -62,7 +68,7 @@ def test_at_rest_the_film_force_equals_the_load(bearing, sigma):
 @pytest.mark.parametrize("sigma", SIGMA)
 def test_inner_states_rest_in_equilibrium(bearing, sigma):
     film, at = film_of(bearing), points(bearing, sigma)
-    motion = film.motion()
+    motion = motion_at(film, at)
     if isinstance(motion, FilmMotion):
         assert film.inner == 0
         return
@@ -73,7 +79,9 @@ def test_inner_states_rest_in_equilibrium(bearing, sigma):
     assert rates == pytest.approx([0.0] * motion.states, abs=1e-8)
 
 
-@pytest.mark.parametrize("name", [name for name in MOVING if name != "ringed"])
+@pytest.mark.parametrize(
+    "name", [name for name in MOVING if name not in {"ringed", "floating ring"}]
+)
 def test_stiffness_and_damping_are_the_derivatives_of_the_force(name):
     """A massless ring cannot be held while the journal moves; its series is tested below."""
     bearing = BEARINGS[name]

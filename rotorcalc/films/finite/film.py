@@ -139,6 +139,11 @@ class FiniteFilm:
             peak_angle=row.peak_angle,
         )
 
+    def place_and_flow(self, sommerfeld: Array) -> tuple[Array, Array]:
+        """Return the journal's centre at σ, (..., 2), in C, and the side flow: of `state` alone."""
+        row = self._table.row(sommerfeld)
+        return row.position, row.side_flow
+
     def dynamics(self, points: OperatingPoints) -> FilmDynamics:
         """Return stiffness and damping only."""
         K, C = self._table.coefficients(points.sommerfeld)

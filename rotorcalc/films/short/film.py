@@ -139,6 +139,14 @@ class ShortFilm:
             peak_angle=phi + np.pi + peak,  # θ = 0 lies at Θ = φ + π
         )
 
+    def place_and_flow(self, sommerfeld: Array) -> tuple[Array, Array]:
+        """Return the journal's centre at σ, (..., 2), in C, and the side flow: of `state` alone."""
+        eps = eccentricity_ratio(sommerfeld)
+        # cos φ = 4ε/√(16ε² + π²s²) and sin φ = πs/√(…), Eq. 5.7.
+        along, across = 4.0 * eps, np.pi * np.sqrt(s_squared(eps))
+        share = eps / np.hypot(along, across)
+        return vector(share * along, share * across), side_flow(eps)
+
     def dynamics(self, points: OperatingPoints) -> FilmDynamics:
         """Return stiffness and damping only, in half the time of `state`."""
         eps = _eccentricity(points)

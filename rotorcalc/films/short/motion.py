@@ -16,6 +16,8 @@ Units and axes as in `short`: position in C, velocity in CΩ, force in μΩRL³/
 
 import math
 
+from rotorcalc.films.convex import Answer
+
 # Closer to the wall than κ² = 1 − x² − y² = 1e-10 the force is held at its value there: only trial
 # steps come there, which the integrator then rejects.
 _LEAST_KAPPA2 = 1e-10
@@ -53,6 +55,41 @@ def force(x: float, y: float, dx: float, dy: float) -> tuple[float, float]:
     W, half_slope, _ = _impedance(-(x * A + y * B) / V, 1.0 - x * x - y * y)
     g_a = (y * A - x * B) / V * half_slope
     return -g_a * B - W * A, g_a * A - W * B
+
+
+def answer(x: float, y: float, dx: float, dy: float) -> Answer:
+    """Return the force, its derivatives by velocity and its potential Φ = V²W/2.
+
+    Parameters
+    ----------
+    x, y, dx, dy : float
+        As of `force`.
+
+    Returns
+    -------
+    Answer
+        Force, damping C_ij = −∂F_i/∂v_j and Φ, in film units.
+
+    Notes
+    -----
+    Along n, the direction of (A, B), and t at +90° from it, ∂b/∂α = −a and ∂a/∂α = b give
+    C_nn = W, C_nt = C_tn = −g_a and C_tt = W − bW'/2 + a²W''/2.
+    """
+    A, B = dx + 0.5 * y, dy - 0.5 * x
+    V = math.hypot(A, B)
+    n_x, n_y = (A / V, B / V) if V > 0.0 else (1.0, 0.0)
+    a, b = y * n_x - x * n_y, -(x * n_x + y * n_y)
+    W, half_slope, bend = _impedance(b, 1.0 - x * x - y * y)
+    g_a = a * half_slope
+    tt = W - b * half_slope + 0.5 * a * a * bend
+    cross, turn = n_x * n_y, g_a * (n_x * n_x - n_y * n_y)
+    xy = (W - tt) * cross - turn
+    return Answer(
+        -V * (g_a * n_y + W * n_x), V * (g_a * n_x - W * n_y),
+        W * n_x * n_x + 2.0 * g_a * cross + tt * n_y * n_y, xy,
+        xy, W * n_y * n_y - 2.0 * g_a * cross + tt * n_x * n_x,
+        0.5 * V * V * W,
+    )  # fmt: skip
 
 
 def velocity(
