@@ -64,6 +64,7 @@ GOOD: dict[str, Any] = {
 }  # fmt: skip
 # Where a name means something else.
 ITS_OWN: dict[str, dict[str, Any]] = {
+    "criteria.campbell": {"speed": SPEEDS},
     "criteria.imbalance_of_grade": {"grade": "G 2.5"},
     "criteria.permissible_eccentricity": {"grade": "G 2.5"},
     "onset_map": {"x": "load", "y": "temperature"},

@@ -50,6 +50,17 @@ def coupled_eigenvalues(rotor: Rotor, film: FilmDynamics, cross_coupling: Array)
     return np.where(settled & (np.abs(found - first) <= _SAME * np.abs(first)), found, first)
 
 
+def disk_whirls_forward(
+    rotor: Rotor, film: FilmDynamics, cross_coupling: Array, eigenvalue: ComplexArray
+) -> BoolArray:
+    """Return whether the disk turns forward in a mode of each Q, (m,), of eigenvalue λ, (m,)."""
+    W, _ = _impedance(rotor, film, cross_coupling / 2.0, eigenvalue[:, None])
+    # The motion on which no force acts: the right singular vector of the smallest value.
+    motion = np.linalg.svd(W[:, 0])[2][:, -1].conj()
+    x, y = motion[:, 0], motion[:, 1]
+    return np.abs(x + 1j * y) > np.abs(x - 1j * y)
+
+
 def _state_matrices(rotor: Rotor, film: FilmDynamics, q: Array) -> Array:
     """Return the state matrices A of each q, (m, n, n)."""
     A = modes.state_matrix(rotor, film.stiffness, film.damping, inertia=film.inertia)
@@ -76,11 +87,20 @@ def _refined(
 
 
 def _newton_step(rotor: Rotor, film: FilmDynamics, q: Array, lam: ComplexArray) -> ComplexArray:
-    """Return −1/tr(W⁻¹ dW/dλ) of the machine's impedance W at each λ, (m, n).
+    """Return −1/tr(W⁻¹ dW/dλ) at each λ, (m, n)."""
+    W, dW = _impedance(rotor, film, q, lam)
+    return -1.0 / np.trace(_solved(W, dW), axis1=-2, axis2=-1)
 
-    The disk's impedance is D = z I + q J, z = λ²m_d + λC_s. It bends the shaft so that the journal
-    moves by E = I + D/K_rot times the disk's displacement; film and journal then have Z E, and the
-    forces on the rotor balance where W = Z E + D is singular.
+
+def _impedance(
+    rotor: Rotor, film: FilmDynamics, q: Array, lam: ComplexArray
+) -> tuple[ComplexArray, ComplexArray]:
+    """Return the machine's impedance W and dW/dλ at each λ, (m, n, 2+i, 2+i).
+
+    The disk's own impedance is D = z I + q J, z = λ²m_d + λC_s. It bends the shaft so that the
+    journal moves by E = I + D/K_rot times the disk's displacement; film and journal then have Z E,
+    and the forces on the rotor balance where W = Z E + D is singular. The film's inner coordinates
+    keep their own columns.
     """
     at = lam[..., None, None]
     s, m = 1.0 / rotor.shaft_stiffness, rotor.disk_mass
@@ -89,14 +109,12 @@ def _newton_step(rotor: Rotor, film: FilmDynamics, q: Array, lam: ComplexArray) 
     Z, dZ = _film_impedance(film, lam)
     Z[..., :2, :2] += at * at * rotor.journal_mass * _I
     dZ[..., :2, :2] += 2.0 * at * rotor.journal_mass * _I
-    # Inner coordinates of the film keep their own columns.
     W, dW = Z.copy(), dZ.copy()
     W[..., :2] = Z[..., :2] @ (_I + s * D)
     dW[..., :2] = dZ[..., :2] @ (_I + s * D) + Z[..., :2] @ (s * dD)
     W[..., :2, :2] += D
     dW[..., :2, :2] += dD
-    adjusted = _solved(W, dW)
-    return -1.0 / np.trace(adjusted, axis1=-2, axis2=-1)
+    return W, dW
 
 
 def _film_impedance(film: FilmDynamics, lam: ComplexArray) -> tuple[ComplexArray, ComplexArray]:

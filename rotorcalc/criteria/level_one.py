@@ -25,9 +25,9 @@ from scipy.optimize import brentq
 
 from rotorcalc import modes
 from rotorcalc.arguments import checked
-from rotorcalc.arrays import Array, ComplexArray, checked_speed, real_array, shown
+from rotorcalc.arrays import Array, BoolArray, ComplexArray, checked_speed, real_array, shown
 from rotorcalc.coefficients import dynamics
-from rotorcalc.criteria.coupled_modes import coupled_eigenvalues
+from rotorcalc.criteria.coupled_modes import coupled_eigenvalues, disk_whirls_forward
 from rotorcalc.display import Result
 from rotorcalc.films import FilmDynamics
 from rotorcalc.machine import Machine, Rotor
@@ -55,6 +55,9 @@ class LevelOne(Result):
         δ of the least damped mode [-]; infinite where no mode oscillates.
     whirl_frequency : array, (...)
         Frequency of that mode [rad/s].
+    forward : boolean array, (...)
+        Whether the disk turns with the shaft in that mode. Standards ask for the first forward
+        mode; a backward one that is damped less only makes this criterion stricter.
     zero_decrement : float
         Q_0, the smallest Q at which δ vanishes [N/m]; 0 where the machine is unstable without any,
         infinite where no Q makes it unstable.
@@ -64,6 +67,7 @@ class LevelOne(Result):
     cross_coupling: Array
     log_decrement: Array
     whirl_frequency: Array
+    forward: BoolArray
     zero_decrement: float
 
 
@@ -88,20 +92,23 @@ def level_one(machine: Machine, speed: float, cross_coupling: ArrayLike) -> Leve
     Raises
     ------
     ValueError
-        Where the speed is not positive and finite, or a Q is not finite.
+        Where the speed is not positive and finite, a Q is not finite, or on a film that is known by
+        its impedance no mode was found.
     """
     omega = float(checked_speed(speed))
     Q = real_array("cross_coupling", cross_coupling)
     if not np.all(np.isfinite(Q)):
         raise ValueError(f"cross_coupling = {shown(cross_coupling)} N/m: must be finite")
     film = dynamics(machine, omega)
-    values = coupled_eigenvalues(machine.rotor, film, Q.ravel())
-    decrement, frequency = _least_damped(values)
+    row = Q.ravel()
+    least = _least_damped(coupled_eigenvalues(machine.rotor, film, row))
+    forward = (least.imag != 0.0) & disk_whirls_forward(machine.rotor, film, row, least)
     return LevelOne(
         speed=omega,
         cross_coupling=Q,
-        log_decrement=decrement.reshape(Q.shape),
-        whirl_frequency=frequency.reshape(Q.shape),
+        log_decrement=modes.logarithmic_decrement(least).reshape(Q.shape),
+        whirl_frequency=modes.damped_frequency(least).reshape(Q.shape),
+        forward=forward.reshape(Q.shape),
         zero_decrement=_zero_decrement(machine.rotor, film),
     )
 
@@ -165,12 +172,16 @@ def _positive(name: str, value: ArrayLike, unit: str) -> Array:
     return array
 
 
-def _least_damped(values: ComplexArray) -> tuple[Array, Array]:
-    """Return log decrement and frequency of the least damped of modes (m, n), each (m,)."""
-    decrement = modes.logarithmic_decrement(values)
+def _least_damped(values: ComplexArray) -> ComplexArray:
+    """Return λ of the least damped of modes (m, n) with Im λ ≥ 0, (m,)."""
+    decrement = np.where(values.imag < 0.0, np.nan, modes.logarithmic_decrement(values))
+    if np.any(np.all(np.isnan(decrement), axis=-1)):
+        raise ValueError(
+            "cross_coupling: on this film no mode was found whose frequency is that of its own "
+            "stiffness and damping; try other values of Q or another speed"
+        )
     place = np.nanargmin(decrement, axis=-1)[:, None]
-    frequency = np.abs(np.take_along_axis(values, place, axis=-1).imag)
-    return np.take_along_axis(decrement, place, axis=-1)[:, 0], frequency[:, 0]
+    return np.take_along_axis(values, place, axis=-1)[:, 0]
 
 
 def _zero_decrement(rotor: Rotor, film: FilmDynamics) -> float:
