@@ -51,6 +51,7 @@ from rotorcalc.unbalance_response import OrbitEllipse, orbit_ellipse
 from rotorcalc.units import rpm
 from rotorcalc.validity import validity
 from rotorcalc.variation import varied
+from rotorcalc.working_point import load_for, stiffness_for
 
 __version__ = "0.2.0"
 
@@ -106,6 +107,7 @@ __all__ = [
     "hopf",
     "iso_oil",
     "level_one",
+    "load_for",
     "measured_growth",
     "modes",
     "oils",
@@ -121,6 +123,7 @@ __all__ = [
     "solve_onset",
     "stability",
     "start_on_mode",
+    "stiffness_for",
     "tolerance",
     "unbalance_response",
     "unstable_ranges",
