@@ -5,6 +5,7 @@ rotation. `analyse(machine, speed)` computes the whole chain; the modules hold i
 """
 
 from rotorcalc import (
+    batch,
     coefficients,
     criteria,
     films,
@@ -16,6 +17,7 @@ from rotorcalc import (
     unbalance_response,
 )
 from rotorcalc.analysis import FilmCurves, Sweep, analyse, film_curves
+from rotorcalc.batch import read_machines
 from rotorcalc.comparison import BearingResult, compare_bearings
 from rotorcalc.criteria import Amplification, LevelOne, amplification, level_one
 from rotorcalc.design import onset_map, sensitivities, solve_onset
@@ -94,6 +96,7 @@ __all__ = [
     "WhirlOnset",
     "amplification",
     "analyse",
+    "batch",
     "bifurcation",
     "coefficients",
     "compare_bearings",
@@ -115,6 +118,7 @@ __all__ = [
     "onset_speed",
     "onsets",
     "orbit_ellipse",
+    "read_machines",
     "response_peaks",
     "rpm",
     "sensitivities",

@@ -208,8 +208,16 @@ def _value_of(rule: Rule, value: object, *, where: str) -> object:
 
 def parsed(text: str) -> dict[str, Any]:
     """Return the object in a JSON text, strictly: no NaN, no duplicate key."""
+    document = parsed_value(text)
+    if not isinstance(document, dict):
+        raise ValueError(f"machine = {shown(document)}: must be a JSON object")
+    return cast("dict[str, Any]", document)
+
+
+def parsed_value(text: str) -> object:
+    """Return whatever a JSON text holds, as strictly."""
     try:
-        document = json.loads(
+        return json.loads(
             text,
             # As a float at once: an integer of a million digits is then inf, refused as too large.
             parse_int=float,
@@ -219,9 +227,6 @@ def parsed(text: str) -> dict[str, Any]:
     # RecursionError: brackets nested too deep. TypeError: not a text.
     except (json.JSONDecodeError, UnicodeDecodeError, RecursionError, TypeError) as error:
         raise ValueError(f"no JSON text of a machine: {error}") from error
-    if not isinstance(document, dict):
-        raise ValueError(f"machine = {shown(document)}: must be a JSON object")
-    return cast("dict[str, Any]", document)
 
 
 def _refuse_constant(word: str) -> NoReturn:

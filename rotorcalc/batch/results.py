@@ -1,0 +1,231 @@
+"""What is computed of each machine of a file: the sheet at its speed, its onset, and criteria."""
+
+import math
+import time
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+import numpy as np
+
+from rotorcalc.analysis import analyse
+from rotorcalc.arguments import checked
+from rotorcalc.batch.reading import Case, Problem
+from rotorcalc.criteria import balance_quality, level_one
+from rotorcalc.numerics.parts import in_parts
+from rotorcalc.onset import onset_speed
+from rotorcalc.onset.judge import is_unstable
+from rotorcalc.tables import columns
+from rotorcalc.tolerances.study import tolerance
+from rotorcalc.units import rpm
+
+Value: TypeAlias = float | str
+# What a film that has no answer raises.
+_NO_ANSWER = (ValueError, RuntimeError)
+_SHARES = (0.05, 0.5, 0.95)
+
+
+@dataclass(frozen=True)
+class CaseResult:
+    """What was computed of one machine.
+
+    Attributes
+    ----------
+    line : int
+        Of its file.
+    name : str
+        The machine's.
+    values : mapping of str to float
+        In SI, the unit in the name: "onset [rad/s]".
+    refusal : str
+        Why something has no value; empty where all has.
+    """
+
+    line: int
+    name: str
+    values: Mapping[str, float] = field(default_factory=dict[str, float])
+    refusal: str = ""
+
+
+@checked
+def result(case: Case) -> CaseResult:
+    """Return the onset of a machine, and at its running speed the sheet and the criteria.
+
+    Parameters
+    ----------
+    case : Case
+        The machine; without a running speed its onset alone is computed.
+
+    Returns
+    -------
+    CaseResult
+        Its values, as far as the film has an answer.
+    """
+    values: dict[str, float] = {}
+    refusals: list[str] = []
+    running = () if math.isnan(case.speed) else (_stability, _sheet, _criteria)
+    for compute in (_onset, *running):
+        try:
+            values |= compute(case)
+        except _NO_ANSWER as error:
+            refusals.append(str(error))
+    return CaseResult(case.line, case.name, values, "; ".join(dict.fromkeys(refusals)))
+
+
+def _onset(case: Case) -> dict[str, float]:
+    found = onset_speed(case.machine)
+    return {
+        "speed [rad/s]": case.speed,
+        "onset [rad/s]": found.speed,
+        "onset [rpm]": found.speed / rpm,
+        "whirl_frequency_at_onset [rad/s]": found.whirl_frequency,
+        "margin [-]": found.speed / case.speed - 1.0,
+    }
+
+
+def _stability(case: Case) -> dict[str, float]:
+    return {"unstable [-]": float(is_unstable(case.machine, case.speed))}
+
+
+def _sheet(case: Case) -> dict[str, float]:
+    sheet = columns(analyse(case.machine, case.speed), rows=1)
+    return {name: float(column[0]) for name, column in sheet.items()}
+
+
+def _criteria(case: Case) -> dict[str, float]:
+    found = level_one(case.machine, case.speed, 0.0)
+    quality = balance_quality(case.machine.rotor, speed=case.speed)
+    return {
+        "log_decrement [-]": float(found.log_decrement),
+        "zero_decrement_cross_coupling [N/m]": found.zero_decrement,
+        "balance_quality [m/s]": float(quality),
+    }
+
+
+@dataclass(frozen=True)
+class Spread:
+    """The tolerances of a file's machines: spreads as `tolerance` takes them, samples and seed."""
+
+    spreads: Mapping[str, object]
+    samples: int
+    seed: int
+
+
+def tolerance_result(case: Case, spread: Spread, executor: Executor | None = None) -> CaseResult:
+    """Return the onset of a machine within tolerances.
+
+    Parameters
+    ----------
+    case : Case
+        The machine; without a running speed there is no probability.
+    spread : Spread
+        Of its inputs.
+    executor : concurrent.futures.Executor, optional
+        Computes samples at the same time.
+
+    Returns
+    -------
+    CaseResult
+        Quantiles of the onset, the probability of being unstable, first-order indices.
+    """
+    speed = None if math.isnan(case.speed) else case.speed
+    try:
+        found = tolerance(
+            case.machine, spread.spreads, spread.samples, spread.seed, executor, speed=speed
+        )
+    except ValueError as error:
+        return CaseResult(case.line, case.name, refusal=str(error))
+    known = found.onset[~np.isnan(found.onset)]
+    quantiles = np.quantile(known, _SHARES, method="inverted_cdf") if known.size else [math.nan] * 3
+    values = {
+        f"onset_quantile_{share:g} [rad/s]": float(onset)
+        for share, onset in zip(_SHARES, quantiles, strict=True)
+    }
+    if speed is not None:
+        chance = found.probability_unstable
+        values |= {
+            "probability_unstable [-]": chance.value,
+            "probability_low [-]": chance.low,
+            "probability_high [-]": chance.high,
+        }
+    values["unanswered [-]"] = float(np.count_nonzero(~found.answered))
+    for one in found.influences:
+        values[f"influence_{one.field} [-]"] = one.index
+        values[f"influence_error_{one.field} [-]"] = one.error
+    return CaseResult(case.line, case.name, values, "; ".join(found.refusals))
+
+
+@checked
+def results(
+    cases: Sequence[Case],
+    *,
+    executor: Executor | None = None,
+    seconds: float = math.inf,
+    progress: Callable[[float], object] | None = None,
+) -> list[CaseResult]:
+    """Return what is computed of the machines of a file.
+
+    Parameters
+    ----------
+    cases : sequence of Case
+        The machines.
+    executor : concurrent.futures.Executor, optional
+        Computes machines at the same time.
+    seconds : float
+        After this time no further machine is begun [s]; what is left says so.
+    progress : callable, optional
+        Called with the share that is done, from above 0 to 1.
+
+    Returns
+    -------
+    list of CaseResult
+        In the order of the cases.
+    """
+    return within(
+        in_parts(result, cases, executor=executor, progress=progress), cases, seconds=seconds
+    )
+
+
+def within(
+    each: Iterable[CaseResult], cases: Sequence[Case], *, seconds: float
+) -> list[CaseResult]:
+    """Return results as far as a time goes; the other cases say that they were not computed."""
+    end = time.monotonic() + seconds
+    found: list[CaseResult] = []
+    for one in each:
+        found.append(one)
+        if time.monotonic() > end:
+            break
+    words = f"not computed: the time of {seconds:g} s was over"
+    return found + [CaseResult(one.line, one.name, refusal=words) for one in cases[len(found) :]]
+
+
+@checked
+def table(
+    results: Sequence[CaseResult], problems: Sequence[Problem] = ()
+) -> dict[str, list[Value]]:
+    """Return results and problems as columns, a row for each line of the file.
+
+    Parameters
+    ----------
+    results : sequence of CaseResult
+        What was computed.
+    problems : sequence of Problem, optional
+        Of lines that are no machine: rows with the reason alone.
+
+    Returns
+    -------
+    dict of str to list
+        "line", "name", every value with its unit, and "problem"; NaN where a row has no value.
+        `pandas.DataFrame` takes it as it is.
+    """
+    wrong = [CaseResult(one.line, one.name, refusal=str(one)) for one in problems]
+    rows = sorted([*results, *wrong], key=lambda row: row.line)
+    names = dict.fromkeys(name for row in rows for name in row.values)
+    return {
+        "line": [row.line for row in rows],
+        "name": [row.name for row in rows],
+        **{name: [row.values.get(name, math.nan) for row in rows] for name in names},
+        "problem": [row.refusal for row in rows],
+    }
