@@ -337,11 +337,50 @@ class FloatingRing(Geometry):
             )
 
 
+@dataclass(frozen=True, kw_only=True)
+class Hydrostatic(Geometry):
+    """A circular bore with recesses that are supplied with oil through restrictors.
+
+    The first recess stands on the load line. The recesses are so deep that each has one pressure;
+    the film lies on the lands at both ends and between them.
+
+    Parameters
+    ----------
+    recesses : float
+        Number of recesses, N, evenly spaced; a whole number.
+    land_ratio : float
+        Length of the land at either end over that of the bearing, a/L [-].
+    land_angle : float
+        Angle of the land between two recesses [rad].
+    supply_pressure : float
+        Pressure above ambient before the restrictors, p_s [Pa].
+    pressure_ratio : float
+        Recess pressure over p_s without load and rotation, β [-]: it sizes the restrictors.
+    restrictor : "capillary" or "orifice"
+        How the flow into a recess depends on the drop of pressure, as itself or as its root.
+    """
+
+    kind: ClassVar[str] = "hydrostatic"
+    models: ClassVar[tuple[str, ...]] = _FINITE
+
+    recesses: Annotated[float, Bound("-", at_least=3.0, below=13.0, whole=True)] = 4.0
+    land_ratio: Annotated[float, Bound("-", above=0.0, below=0.5)] = 0.25
+    land_angle: _Angle = 30 * degree
+    supply_pressure: Annotated[float, Bound("Pa", above=0.0)] = 2e6
+    pressure_ratio: _Share = 0.5
+    restrictor: Annotated[str, Choice(("capillary", "orifice"))] = "capillary"
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        # Lands that meet would leave no recess, as grooves that meet leave no pad.
+        _fits(self.recesses, "recesses", "land_angle", self.land_angle)
+
+
 def _fits(number: float, parts: str, name: str, angle: float) -> None:
     """Raise ValueError where pads overlap, or grooves leave no pad."""
     most = _TURN / number
     # Pads may meet in an edge, which is then a groove without width.
-    if angle > most * (1.0 + 1e-12) or (parts == "grooves" and math.isclose(angle, most)):
+    if angle > most * (1.0 + 1e-12) or (parts != "pads" and math.isclose(angle, most)):
         raise ValueError(
             f"{name} = {angle:.6g} rad ({math.degrees(angle):.4g}°): for {number:g} {parts} it "
             f"must be less than {most:.6g} rad ({math.degrees(most):.4g}°)"

@@ -182,7 +182,8 @@ def film_limit(bearing: JournalBearing) -> FilmCurves:
     Raises
     ------
     ValueError
-        Where whirl has no such end: the film feeds it at no load, or at the heaviest too.
+        Where whirl has no such end: the film feeds it at no load, or at the heaviest too; or where
+        the film depends on more than σ.
 
     Examples
     --------
@@ -193,6 +194,10 @@ def film_limit(bearing: JournalBearing) -> FilmCurves:
     film = film_of(bearing)
     if not film.can_whirl:
         raise ValueError(f"bearing = {bearing.geometry.kind}: its film feeds a whirl at no load")
+    if film.curve is None:
+        raise ValueError(
+            f"bearing = {bearing.geometry.kind}: the limit of its whirl depends on more than σ"
+        )
     # A heavily loaded film cannot whirl, a lightly loaded one can: the limit lies between.
     low, high = film.sommerfeld_range
     # Each pass narrows the bracket a thousandfold in ln σ, to a few hundred roundings in the end.
@@ -221,7 +226,8 @@ def lowest_threshold(bearing: JournalBearing) -> float:
     Returns
     -------
     float
-        ε [-] at the least p_s over σ (Fig. 5.8); NaN where p_s has no least value inside.
+        ε [-] at the least p_s over σ (Fig. 5.8); NaN where p_s has no least value inside, or is no
+        function of σ alone.
 
     Examples
     --------
@@ -233,6 +239,8 @@ def lowest_threshold(bearing: JournalBearing) -> float:
     def threshold(log_sigma: float) -> float:
         return float(film_curves(bearing, np.exp(log_sigma)).onset.threshold_speed)
 
+    if film_of(bearing).curve is None:
+        return float("nan")
     scan = np.log(np.geomspace(*film_of(bearing).sommerfeld_range, 60))
     found = film_curves(bearing, np.exp(scan)).onset.threshold_speed
     least = int(np.argmin(found))

@@ -14,6 +14,7 @@ from rotorcalc.arrays import Array
 from rotorcalc.films import short
 from rotorcalc.films.dynamics import FilmDynamics, reduced
 from rotorcalc.films.finite import CoarseFilm, FiniteFilm
+from rotorcalc.films.hydrostatic import CoarseHydrostaticFilm, HydrostaticFilm
 from rotorcalc.films.lobes import LobesFilm
 from rotorcalc.films.model import Film, FilmMotion, InnerMotion
 from rotorcalc.films.ring import RingFilm
@@ -61,6 +62,8 @@ MODELS.update({(kind, "coarse"): CoarseFilm for kind, model in list(MODELS) if m
 # A ring's film takes the model of its two films from the bearing.
 for _model in ("short", "finite", "coarse"):
     MODELS["floating-ring", _model] = RingFilm
+MODELS["hydrostatic", "finite"] = HydrostaticFilm
+MODELS["hydrostatic", "coarse"] = CoarseHydrostaticFilm
 
 
 @checked

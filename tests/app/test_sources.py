@@ -108,7 +108,7 @@ def test_the_report_cites_what_the_film_names(name: str) -> None:
     text = page[: page.index("<script>")]
     assert numbers(text) - ON_ANY_FILM - own(name) == set()
     # The films made for the tests know nothing of pressure, flow or drag.
-    gives_all = name in {"short", *FINITE, *SHORT_PADS, *RINGS}
+    gives_all = name in {"short", "hydrostatic", *FINITE, *SHORT_PADS, *RINGS}
     assert ("The model of this bearing&#x27;s film does not give it." in text) == (not gives_all)
     assert ("This film cannot whirl" in text) == (name == "sprung")
     assert ('id="power"' in text) == gives_all

@@ -27,6 +27,7 @@ from rotorcalc.geometry import (
     Elliptical,
     FloatingRing,
     Geometry,
+    Hydrostatic,
     Lobes,
     MultiDam,
     OffsetHalves,
@@ -461,6 +462,8 @@ SHORT_PADS = {
 # Those whose film has a force on a journal in any motion.
 MOVING = [name for name in BEARINGS | SHORT_PADS | SHORT_RINGS if name != "lossy"]
 BEARINGS |= FINITE | SHORT_PADS | RINGS
+# A supply that carries every load of the tests; linear motions only.
+BEARINGS["hydrostatic"] = replace(_PLAIN, geometry=Hydrostatic(supply_pressure=15e6))
 
 
 def points(bearing, sigma, *, viscosity=0.0127, speed=600.0):

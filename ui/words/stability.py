@@ -183,8 +183,10 @@ def balance(computed: Computed, units: Units) -> str:
 
 def _film_limit(curves: FilmCurves, bearing: JournalBearing) -> FilmCurves | None:
     """Return the film at which whirl ends, None where heavy loads whirl too, or none does."""
-    if film_of(bearing).frequency_dependent:
-        return None  # the limit is then not that of the coefficients at the running frequency
+    film = film_of(bearing)
+    if film.frequency_dependent or film.curve is None:
+        # Not that of the coefficients at the running frequency, or not one for all speeds.
+        return None
     whirls = curves.onset.whirl_ratio > 0.0
     return None if whirls[0] or not whirls.any() else _end_of_whirl(bearing)
 

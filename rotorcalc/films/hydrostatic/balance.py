@@ -1,0 +1,276 @@
+"""Static equilibrium of a journal on recesses, and the film's stiffness and damping there.
+
+The unknowns are the journal's position and the flow Q_k = q y_k through each restrictor, over that
+at zero recess pressure, q. A capillary passes Q = q (1 − P), an orifice Q = q √(1 − P): in y both
+are smooth, P = 1 − y and P = 1 − y|y|, also where the film's rotation pumps oil back, P > 1. What
+passes the restrictor leaves the recess over the lands (`influence`), and the film carries the load:
+
+    q y = G P − 12 S g w,    gᵀ P + 12 S D w = (W, 0),    w = (y, −x)/2,    W = F_o/(p_s R L)
+
+solved by Newton's method for all operating points at once. The restrictors are sized so that the
+recesses of the centred bearing at rest have the pressure β p_s.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rotorcalc.arrays import Array
+from rotorcalc.films.hydrostatic.influence import Influence
+from rotorcalc.films.hydrostatic.table import THINNEST, Table
+
+# Newton's steps; the size of the last, in C; the longest over the smallest film.
+_MOST_STEPS, _SETTLED, _LONGEST = 60, 1e-12, 0.7
+# The smallest film on the way to an equilibrium, in C: just inside the table's outermost ring.
+_CLOSEST = 0.021
+# Eccentricities of the load's curve at rest, and the share of its highest load that is answered
+# for: close to it the film gives way, and a little rotation can lower it.
+_PLACES, _SURE = 65, 0.9
+# Rotation acts on the film as the velocity w = (y, −x)/2 does.
+_TURN = np.array([[0.0, 0.5], [-0.5, 0.0]])
+
+
+@dataclass(frozen=True)
+class Restrictors:
+    """The restrictors before the recesses.
+
+    Attributes
+    ----------
+    kind : "capillary" or "orifice"
+        How the flow depends on the pressure.
+    pressure_ratio : float
+        Recess pressure of the centred bearing at rest over the supply pressure, β [-].
+    """
+
+    kind: str
+    pressure_ratio: float
+
+    def size(self, outflow: float) -> float:
+        """Return q from the outflow of a recess at the supply pressure, in the centre at rest."""
+        beta = self.pressure_ratio
+        left = 1.0 - beta
+        return outflow * beta / (left if self.kind == "capillary" else np.sqrt(left))
+
+    @property
+    def centred_flow(self) -> float:
+        """The unknown y of the centred bearing at rest."""
+        left = 1.0 - self.pressure_ratio
+        return left if self.kind == "capillary" else float(np.sqrt(left))
+
+    def pressure(self, y: Array) -> Array:
+        """Return the recess pressure behind a restrictor that passes q y, P = p/p_s."""
+        return 1.0 - (y if self.kind == "capillary" else y * np.abs(y))
+
+    def slope(self, y: Array) -> Array:
+        """Return dP/dy."""
+        return -np.ones_like(y) if self.kind == "capillary" else -2.0 * np.abs(y)
+
+
+@dataclass(frozen=True, eq=False)
+class Balance:
+    """Journals in equilibrium, n of them.
+
+    Attributes
+    ----------
+    position : array, (n, 2)
+        The journal's centre, in C.
+    pressure : array, (n, N)
+        The recesses', in p_s.
+    flow : array, (n, N)
+        Through the restrictors, of which the sum is in (L/D) p_s C³/(6μ).
+    stiffness : array, (n, 2, 2)
+        In p_s R L/C.
+    damping : array, (n, 2, 2)
+        In μR³L/C³.
+    """
+
+    position: Array
+    pressure: Array
+    flow: Array
+    stiffness: Array
+    damping: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Bearing:
+    """Lands and restrictors together.
+
+    Attributes
+    ----------
+    table : Table
+        The lands' matrices.
+    restrictors : Restrictors
+        The restrictors.
+    size : float
+        Flow through a restrictor at zero recess pressure, q.
+    eccentricity, load : array, (k,)
+        Rising eccentricity ratios of the journal at rest and its loads, in p_s R L, to the highest.
+    """
+
+    table: Table
+    restrictors: Restrictors
+    size: float
+    eccentricity: Array
+    load: Array
+
+    @property
+    def heaviest(self) -> float:
+        """The heaviest load that is answered for, F_o/(p_s R L)."""
+        return _SURE * float(self.load[-1])
+
+
+def bearing_of(table: Table, restrictors: Restrictors) -> Bearing:
+    """Return lands with restrictors, and the loads that they carry at rest."""
+    q = restrictors.size(table.outflow_in_centre)
+    eps = np.linspace(0.0, 1.0 - THINNEST, _PLACES)
+    bearing = Bearing(table, restrictors, q, eps, eps)
+    force, _ = held(bearing, np.zeros(_PLACES), np.stack([eps, 0.0 * eps], axis=-1))
+    load = -force[:, 0]
+    # Beyond its highest load a journal at rest falls onto the land.
+    last = int(np.argmax(load)) + 1
+    return replace(bearing, eccentricity=eps[:last], load=np.maximum.accumulate(load[:last]))
+
+
+def held(bearing: Bearing, S: Array, place: Array) -> tuple[Array, Balance]:
+    """Return the film's force on journals held at places, and recesses and coefficients there.
+
+    Parameters
+    ----------
+    bearing : Bearing
+        The bearing.
+    S : array, (n,)
+        μΩ(R/C)²/p_s [-].
+    place : array, (n, 2)
+        The journals' centres, in C.
+
+    Returns
+    -------
+    force : array, (n, 2)
+        In p_s R L.
+    balance : Balance
+        With the flows of the recesses balanced.
+
+    Raises
+    ------
+    RuntimeError
+        Where no balance of the flows is found.
+    """
+    N = bearing.table.lands.recesses
+    y = np.full((len(S), N), bearing.restrictors.centred_flow)
+    for _ in range(_MOST_STEPS):
+        left, J, _ = _balances(bearing, S, place, y)
+        step = _solved(J[:, :N, :N], left[:, :N])
+        y = y - step
+        if np.abs(step).max(initial=0.0) < _SETTLED:
+            return -left[:, N:], _answer(bearing, S, place, y)
+    raise RuntimeError("no balance of the recesses' flows found")
+
+
+def balanced(bearing: Bearing, S: Array, load: Array) -> Balance:
+    """Return the journals' equilibria.
+
+    Parameters
+    ----------
+    bearing : Bearing
+        The bearing.
+    S : array, (n,)
+        μΩ(R/C)²/p_s [-].
+    load : array, (n,)
+        F_o/(p_s R L) [-], at most `heaviest`.
+
+    Returns
+    -------
+    Balance
+        With stiffness and damping.
+
+    Raises
+    ------
+    RuntimeError
+        Where no equilibrium is found with a film thicker than `THINNEST`.
+    """
+    place = _start(bearing, S, load)
+    y = np.full((len(S), bearing.table.lands.recesses), bearing.restrictors.centred_flow)
+    for _ in range(_MOST_STEPS):
+        left, J, _ = _balances(bearing, S, place, y)
+        left[:, -2] -= load
+        step = _solved(J, left)
+        place, y, size = _stepped(place, y, step)
+        if size.max(initial=0.0) < _SETTLED:
+            break
+    else:
+        raise RuntimeError("no equilibrium of the journal found")
+    if np.hypot(place[:, 0], place[:, 1]).max(initial=0.0) > 1.0 - THINNEST:
+        raise RuntimeError("the film is thinner than the table reaches")
+    return _answer(bearing, S, place, y)
+
+
+def _start(bearing: Bearing, S: Array, load: Array) -> Array:
+    """Return positions near the equilibria: the film is a spring that rotation turns."""
+    rest = np.interp(load, bearing.load, bearing.eccentricity)
+    first = bearing.load[1] / bearing.eccentricity[1]
+    spring = np.where(rest > 1e-6, load / np.maximum(rest, 1e-6), first)
+    at, _, _ = bearing.table.at(np.stack([rest, 0.0 * rest], axis=-1))
+    # Of a rigid film without recess pressures; the cross stiffness is half of its damping.
+    cross = 6.0 * S * at.squeeze[:, 1, 1]
+    z = load / (spring - 1j * cross)
+    return np.stack([z.real, z.imag], axis=-1)
+
+
+def _balances(bearing: Bearing, S: Array, place: Array, y: Array) -> tuple[Array, Array, Influence]:
+    """Return the balances of flow and the force against the load, (n, N + 2).
+
+    And their derivatives by y and by the position, (n, N + 2, N + 2), and the lands' matrices.
+    """
+    (n, N), restrictors, q = y.shape, bearing.restrictors, bearing.size
+    P, dP = restrictors.pressure(y), restrictors.slope(y)
+    at, *along = bearing.table.at(place)
+    G, g, D = at.conductance, at.pumping, at.squeeze
+    pump, w = 12.0 * S[:, None], place @ _TURN.T
+    left, J = np.empty((n, N + 2)), np.empty((n, N + 2, N + 2))
+    left[:, :N] = q * y - _times(G, P) + pump * _times(g, w)
+    left[:, N:] = _times(g.swapaxes(1, 2), P) + pump * _times(D, w)
+    J[:, :N, :N] = q * np.eye(N) - G * dP[:, None, :]
+    J[:, N:, :N] = g.swapaxes(1, 2) * dP[:, None, :]
+    # By the position: through w, and through the matrices along x and y.
+    J[:, :N, N:] = pump[..., None] * (g @ _TURN)
+    J[:, N:, N:] = pump[..., None] * (D @ _TURN)
+    for j, by in enumerate(along, start=N):
+        J[:, :N, j] += pump * _times(by.pumping, w) - _times(by.conductance, P)
+        J[:, N:, j] += pump * _times(by.squeeze, w) + _times(by.pumping.swapaxes(1, 2), P)
+    return left, J, at
+
+
+def _solved(matrix: Array, right: Array) -> Array:
+    return np.asarray(np.linalg.solve(matrix, right[..., None])[..., 0], dtype=float)
+
+
+def _times(matrix: Array, vector: Array) -> Array:
+    return (matrix @ vector[..., None])[..., 0]
+
+
+def _stepped(place: Array, y: Array, step: Array) -> tuple[Array, Array, Array]:
+    """Return unknowns after a step, cut short where it crosses most of the film, and its size."""
+    N = y.shape[1]
+    moves = step[:, N:]
+    room = 1.0 - np.hypot(place[:, 0], place[:, 1])
+    size = np.hypot(moves[:, 0], moves[:, 1])
+    share = np.minimum(1.0, _LONGEST * room / np.maximum(size, 1e-300))[:, None]
+    place, y = place - share * moves, y - share * step[:, :N]
+    far = np.hypot(place[:, 0], place[:, 1])
+    place = place * np.minimum(1.0, (1.0 - _CLOSEST) / np.maximum(far, 1e-300))[:, None]
+    return place, y, np.maximum(size, np.abs(step[:, :N]).max(axis=1))
+
+
+def _answer(bearing: Bearing, S: Array, place: Array, y: Array) -> Balance:
+    """Return the equilibria with stiffness and damping, flows balanced in every motion."""
+    N = y.shape[1]
+    _, J, at = _balances(bearing, S, place, y)
+    moved = np.concatenate([J[:, :N, N:], 12.0 * at.pumping], axis=2)
+    changed = J[:, N:, :N] @ np.linalg.solve(J[:, :N, :N], -moved)
+    return Balance(
+        position=place,
+        pressure=bearing.restrictors.pressure(y),
+        flow=bearing.size * y,
+        stiffness=J[:, N:, N:] + changed[:, :, :2],
+        damping=12.0 * at.squeeze + changed[:, :, 2:],
+    )

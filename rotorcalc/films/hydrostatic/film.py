@@ -1,0 +1,283 @@
+"""The film of a hydrostatic bearing as a film model (interface in `films.model`).
+
+Reynolds' equation of the full film on the lands, without cavitation; each recess has one pressure,
+fed through a capillary or an orifice. The oil in the recesses is incompressible and without drag.
+"""
+
+import functools
+from collections.abc import Hashable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import ClassVar, cast
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rotorcalc.arrays import Array
+from rotorcalc.films.dynamics import NO_INERTIA, FilmDynamics
+from rotorcalc.films.hydrostatic.balance import (
+    Balance,
+    Bearing,
+    Restrictors,
+    balanced,
+    bearing_of,
+)
+from rotorcalc.films.hydrostatic.drag import shear
+from rotorcalc.films.hydrostatic.mesh import Lands, mesh
+from rotorcalc.films.hydrostatic.pressure import SHOWN, Extremes, extremes, nodal
+from rotorcalc.films.hydrostatic.pressure import field as pressure_at
+from rotorcalc.films.hydrostatic.sources import SOURCES
+from rotorcalc.films.hydrostatic.table import THINNEST, Table, finer, table
+from rotorcalc.films.model import Accuracy, FilmMotion, Limit, Source
+from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
+from rotorcalc.frames import vector
+from rotorcalc.geometry import Hydrostatic
+from rotorcalc.machine import JournalBearing
+
+# The share of the heaviest load at which the accuracy is measured.
+_A_THIRD = 1.0 / 3.0
+
+
+@dataclass(frozen=True)
+class HydrostaticFilm:
+    """The film of one hydrostatic bearing.
+
+    Attributes
+    ----------
+    bearing : JournalBearing
+        The bearing, of a `Hydrostatic` geometry.
+    """
+
+    bearing: JournalBearing
+
+    inner: int = field(default=0, init=False)
+    frequency_dependent: bool = field(default=False, init=False)
+    can_whirl: bool = field(default=True, init=False)
+    curve: Hashable = field(default=None, init=False)
+    # At rest and at any speed there is an equilibrium, and whirl at about half speed.
+    sommerfeld_range: tuple[float, float] = field(default=(1e-3, 1e3), init=False)
+    least_sommerfeld: float = field(default=0.0, init=False)
+    limits: tuple[Limit, ...] = field(default=(), init=False)
+    _coarse: ClassVar[bool] = False
+
+    @property
+    def sources(self) -> Mapping[str, Source]:
+        """What was solved."""
+        return SOURCES
+
+    @property
+    def shape(self) -> Hydrostatic:
+        """The bearing's geometry."""
+        return cast("Hydrostatic", self.bearing.geometry)
+
+    @cached_property
+    def lands(self) -> Lands:
+        """The lands."""
+        shape = self.shape
+        ratio = self.bearing.diameter / self.bearing.length
+        return Lands(int(shape.recesses), shape.land_ratio, shape.land_angle, ratio**2)
+
+    @cached_property
+    def _bearing(self) -> Bearing:
+        return self._on(table(self.lands, coarse=self._coarse))
+
+    def _on(self, made: Table) -> Bearing:
+        return bearing_of(made, Restrictors(self.shape.restrictor, self.shape.pressure_ratio))
+
+    def balance(self, points: OperatingPoints) -> tuple[Balance, Array]:
+        """Return the equilibria at operating points, flattened to (n,), and μΩ(R/C)²/p_s.
+
+        Raises
+        ------
+        ValueError
+            Where the load is too heavy for the supply pressure.
+        """
+        one, p_s = self.bearing, self.shape.supply_pressure
+        number = points.viscosity * points.speed * (one.radius / one.radial_clearance) ** 2 / p_s
+        load = points.load / (p_s * one.radius * one.length)
+        S, W, _ = np.broadcast_arrays(number, load, points.sommerfeld)
+        self._check(W)
+        try:
+            found = _balanced(self._bearing, S.tobytes(), W.tobytes())
+        except RuntimeError as error:
+            raise ValueError(
+                f"static load = {np.max(points.load):.4g} N: on recesses supplied at "
+                f"{p_s / 1e6:.4g} MPa no equilibrium was found in which the smallest film is at "
+                f"least {THINNEST} of the clearance"
+            ) from error
+        return found, S.ravel()
+
+    def _check(self, W: Array) -> None:
+        heaviest = self._bearing.heaviest
+        if W.size and W.max() > heaviest:
+            one, p_s = self.bearing, self.shape.supply_pressure
+            unit = p_s * one.radius * one.length
+            raise ValueError(
+                f"static load = {W.max() * unit:.4g} N: must be at most {heaviest * unit:.4g} N on "
+                f"recesses supplied at {p_s / 1e6:.4g} MPa, F/(p_s L D) = {heaviest / 2.0:.3g}; a "
+                "heavier load presses the journal at rest onto the land, as the recess under it "
+                "is at nearly the supply pressure"
+            )
+
+    def state(self, points: OperatingPoints) -> FilmState:
+        """Return the film in static equilibrium.
+
+        Raises
+        ------
+        ValueError
+            Where the load is too heavy for the supply pressure.
+        """
+        found, S = self.balance(points)
+        shape = _shape(points)
+        dynamic, (drag, flow) = self.dynamics(points), self.drag_and_flow(points)
+        highest = extremes(self.lands, found, S)
+        position = found.position.reshape(*shape, 2)
+        return FilmState(
+            sommerfeld=np.broadcast_to(points.sommerfeld, shape),
+            position=position,
+            attitude_angle=_direction(position, dynamic.stiffness),
+            minimum_thickness=self.gap(position),
+            stiffness=dynamic.stiffness,
+            damping=dynamic.damping,
+            side_flow=flow,
+            drag=drag,
+            peak_pressure=(self._slender / S * highest.highest).reshape(shape),
+            peak_angle=highest.angle.reshape(shape),
+        )
+
+    @property
+    def _slender(self) -> float:
+        """(R/L)²: p_s over S is μΩ(R/C)², the film's units have L for R."""
+        return (self.bearing.radius / self.bearing.length) ** 2
+
+    def extremes(self, points: OperatingPoints) -> Extremes:
+        """Return the highest and the lowest pressure at operating points, in p_s, (n,)."""
+        return extremes(self.lands, *self.balance(points))
+
+    def dynamics(self, points: OperatingPoints) -> FilmDynamics:
+        """Return stiffness and damping only.
+
+        Raises
+        ------
+        ValueError
+            Where the load is too heavy for the supply pressure.
+        """
+        found, S = self.balance(points)
+        shape = (*_shape(points), 2, 2)
+        return FilmDynamics(
+            stiffness=(self._slender / S[:, None, None] * found.stiffness).reshape(shape),
+            damping=(self._slender * found.damping).reshape(shape),
+            inertia=NO_INERTIA,
+        )
+
+    def drag_and_flow(self, points: OperatingPoints) -> tuple[Array, Array]:
+        """Return drag and side flow only: what the supply delivers leaves at both ends."""
+        found, S = self.balance(points)
+        shape = _shape(points)
+        W = 4.0 * points.sommerfeld  # S/W = 4σ(R/L)²
+        pressure_flow = 0.5 * found.position[:, 1].reshape(shape) / (W * self._slender)
+        drag = shear(self.lands, found.position).reshape(shape) + pressure_flow
+        return drag, (found.flow.sum(axis=1) / (12.0 * S)).reshape(shape)
+
+    def field(self, points: OperatingPoints, *, angle: ArrayLike, zeta: ArrayLike) -> FilmField:
+        """Return thickness and pressure in static equilibrium, recesses included.
+
+        The thickness is that of the lands' film; a recess is much deeper.
+
+        Raises
+        ------
+        ValueError
+            Where ζ lies outside the bearing, or the load is too heavy for the supply pressure.
+        """
+        angle, zeta = np.asarray(angle, dtype=float), np.asarray(zeta, dtype=float)
+        if not np.all(np.abs(zeta) <= 0.5):
+            raise ValueError("zeta = z/L: must lie within the bearing, -0.5 to 0.5")
+        found, S = self.balance(points)
+        shape = np.broadcast_shapes(_shape(points), angle.shape, zeta.shape)
+        which = np.broadcast_to(np.arange(len(S)).reshape(_shape(points)), shape)
+        angle, zeta = np.broadcast_to(angle, shape), np.broadcast_to(zeta, shape)
+        grid = mesh(self.lands, SHOWN)
+        nodes = nodal(grid, found, S) * (self._slender / S[:, None, None])
+        pressure = np.empty(shape)
+        for k in range(len(S)):
+            here = which == k
+            pressure[here] = pressure_at(grid, nodes[k], angle[here], zeta[here])
+        x, y = found.position[which, 0], found.position[which, 1]
+        return FilmField(
+            angle=angle,
+            zeta=zeta,
+            thickness=1.0 - x * np.cos(angle) - y * np.sin(angle),
+            pressure=pressure,
+            cavitated=np.zeros(shape, dtype=bool),
+        )
+
+    def added_mass(self, points: OperatingPoints) -> Array:  # noqa: ARG002 - the seam's
+        """Refuse: the added mass of lands and recesses is not computed."""
+        raise ValueError(
+            "bearing = hydrostatic: its added mass is not computed; that of the short bearing is"
+        )
+
+    def motion(self) -> FilmMotion:
+        """Refuse: only small motions about the equilibrium are computed."""
+        raise ValueError(
+            "bearing = hydrostatic: nonlinear orbits are not computed on it, only small motions "
+            "about the equilibrium"
+        )
+
+    def accuracy(self, sommerfeld: float) -> Accuracy:
+        """Return the table's mesh, and its distance from one with half as large cells.
+
+        At a third of the heaviest load; the speed, against the supply, is that of σ.
+        """
+        made = self._bearing.table
+        W = np.array([_A_THIRD * self._bearing.heaviest])
+        S = 4.0 * W * min(sommerfeld, 1e9) * self._slender
+        one, other = balanced(self._bearing, S, W), balanced(self._on(finer(self.lands)), S, W)
+        cells = made.cells
+        return Accuracy(
+            f"{cells.recess} and {2 * cells.recess} cells over each recess, {cells.land} and "
+            f"{2 * cells.land} over each land, extrapolated, at {made.positions} positions of the "
+            "journal",
+            place=float(np.hypot(*(one.position - other.position)[0])),
+            stiffness=_apart(one.stiffness, other.stiffness),
+            damping=_apart(one.damping, other.damping),
+        )
+
+    def gap(self, position: ArrayLike) -> Array:
+        """Return the minimum film thickness, 1 − ε."""
+        place = np.asarray(position, dtype=float)
+        return 1.0 - np.hypot(place[..., 0], place[..., 1])
+
+    def outline(self, angle: ArrayLike) -> Array:
+        """Return the clearance circle, of radius 1."""
+        return vector(np.cos(angle), np.sin(angle))
+
+
+@dataclass(frozen=True)
+class CoarseHydrostaticFilm(HydrostaticFilm):
+    """The same on a mesh so coarse that C is known to some 1 % only: for drafts."""
+
+    _coarse: ClassVar[bool] = True
+
+
+# A sweep asks state, coefficients and flow at the same points one after another.
+@functools.lru_cache(maxsize=64)
+def _balanced(bearing: Bearing, S: bytes, load: bytes) -> Balance:
+    return balanced(bearing, np.frombuffer(S), np.frombuffer(load))
+
+
+def _shape(points: OperatingPoints) -> tuple[int, ...]:
+    return np.broadcast_shapes(
+        points.sommerfeld.shape, points.viscosity.shape, points.speed.shape, points.load.shape
+    )
+
+
+def _direction(position: Array, K: Array) -> Array:
+    """Return the direction of positions, at the centre that in which a small load moves it."""
+    x, y = position[..., 0], position[..., 1]
+    limit = np.arctan2(-K[..., 1, 0], K[..., 1, 1])
+    return np.where(np.hypot(x, y) < 1e-12, limit, np.arctan2(y, x))
+
+
+def _apart(one: Array, other: Array) -> float:
+    return float(np.abs(one - other).max() / np.abs(other).max())
