@@ -43,7 +43,10 @@ def diagram(found: Campbell, units: Units, *, running_speed: float) -> Chart:
         *(trace for i in range(found.frequency.shape[1]) for trace in _mode(found, i, units)),
         *_crossings(found, units, y["range"][1]),
     ]
-    chart = style.chart(traces, x, y, shapes=[_at(running_speed, units)])
+    chart = style.chart(
+        _named_once(traces, "unstable"), x, y,
+        shapes=[_at(running_speed, units)], margin={"l": 64, "r": 28, "t": 64, "b": 52},
+    )  # fmt: skip
     return cursor.over_speed(chart, running_speed, units)
 
 
@@ -66,7 +69,7 @@ def _mode(found: Campbell, i: int, units: Units) -> list[Trace]:
     parts = [
         (forward, _line(found, i, f"{name}, forward", colour, units)),
         (swings & ~forward, _line(found, i, f"{name}, backward", colour, units, dash="dashdot")),
-        (grows, _line(found, i, "unstable", style.UNSTABLE, units, width=4.0, showlegend=False)),
+        (grows, _line(found, i, "unstable", style.UNSTABLE, units, width=4.0)),
     ]
     return [
         {**line, "y": np.where(taken, line["y"], np.nan)} for taken, line in parts if np.any(taken)
@@ -85,13 +88,22 @@ def _line(
     )  # fmt: skip
 
 
+def _named_once(traces: list[Trace], name: str) -> list[Trace]:
+    """Return traces of which only the first of a name is in the legend."""
+    places = [i for i, trace in enumerate(traces) if trace["name"] == name]
+    return [
+        {**trace, "showlegend": False} if i in places[1:] else trace
+        for i, trace in enumerate(traces)
+    ]
+
+
 def _crossings(found: Campbell, units: Units, top: float) -> list[Trace]:
     """Return marks where a mode's frequency is the running speed."""
     place = units.speed.of(found.crossing_speed)
     place = place[place <= top]
     if not place.size:
         return []
-    mark = style.mark(place, place, style.symbols("ω = Ω") + ": critical speed", style.OCHRE)
+    mark = style.mark(place, place, style.symbols("ω = Ω") + ": critical speed", style.GREY)
     return [{**mark, "marker": {**mark["marker"], "symbol": "diamond"}}]
 
 
