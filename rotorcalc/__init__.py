@@ -43,9 +43,17 @@ from rotorcalc.nonlinear.limit_cycles import Bifurcation, bifurcation
 from rotorcalc.nonlinear.measured_onset import Onsets, measured_growth, onsets
 from rotorcalc.nonlinear.transient import Start, Transient, TransientError, simulate, start_on_mode
 from rotorcalc.oils import iso_oil
-from rotorcalc.onset import Onset, onset_speed
+from rotorcalc.onset import (
+    ModeOnset,
+    Onset,
+    RingWhirl,
+    mode_onsets,
+    onset_speed,
+    ring_whirl,
+)
 from rotorcalc.onset.whirl import WhirlOnset, whirl_onset
 from rotorcalc.presets import PRESETS, Preset
+from rotorcalc.ring import RingEquilibrium, ring_equilibrium, ring_speed
 from rotorcalc.tolerances.statistics import Influence, Probability
 from rotorcalc.tolerances.study import Tolerance, tolerance
 from rotorcalc.unbalance_curves import unstable_ranges
@@ -77,6 +85,7 @@ __all__ = [
     "LevelOne",
     "Lobes",
     "Machine",
+    "ModeOnset",
     "MultiDam",
     "OffsetHalves",
     "Oil",
@@ -88,6 +97,8 @@ __all__ = [
     "Preset",
     "PressureDam",
     "Probability",
+    "RingEquilibrium",
+    "RingWhirl",
     "Rotor",
     "Start",
     "Supply",
@@ -114,6 +125,7 @@ __all__ = [
     "level_one",
     "load_for",
     "measured_growth",
+    "mode_onsets",
     "modes",
     "oils",
     "onset_map",
@@ -122,6 +134,9 @@ __all__ = [
     "orbit_ellipse",
     "read_machines",
     "response_peaks",
+    "ring_equilibrium",
+    "ring_speed",
+    "ring_whirl",
     "rpm",
     "sensitivities",
     "signals",

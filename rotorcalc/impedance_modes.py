@@ -81,6 +81,7 @@ def impedance_modes(rotor: Rotor, film: FilmDynamics, *, flexible: bool = True) 
         vectors=np.moveaxis(vectors, 0, -1),
         disk=_own(shapes.disk.swapaxes(-1, -2), place[..., None, :]).swapaxes(-1, -2),
         journal=_own(shapes.journal.swapaxes(-1, -2), place[..., None, :]).swapaxes(-1, -2),
+        inner=np.empty((*values.shape, 0), dtype=complex),
     )
 
 

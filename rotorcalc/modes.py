@@ -49,12 +49,15 @@ class ModeShapes(Result):
         unit of the scaling, velocities in that unit per second.
     disk, journal : complex array, (..., n, 2)
         Phasors of X and Y [-], a row a mode; the same for a rigid rotor.
+    inner : complex array, (..., n, i)
+        Phasors of the film's inner coordinates [-], a row a mode.
     """
 
     eigenvalues: ComplexArray
     vectors: ComplexArray
     disk: ComplexArray
     journal: ComplexArray
+    inner: ComplexArray
 
     def ordered(self, order: NDArray[np.intp]) -> "ModeShapes":
         """Return the modes of these indices, shape (m,), in their order."""
@@ -63,6 +66,7 @@ class ModeShapes(Result):
             vectors=self.vectors[..., order],
             disk=self.disk[..., order, :],
             journal=self.journal[..., order, :],
+            inner=self.inner[..., order, :],
         )
 
 
@@ -158,12 +162,33 @@ def mode_shapes(
     vectors = vectors / np.take_along_axis(positions, largest, axis=-2)
     disk = vectors[..., :2, :].swapaxes(-1, -2)
     journal = disk if rigid else vectors[..., 2:4, :].swapaxes(-1, -2)
+    inner = vectors[..., (2 if rigid else 4) : positions.shape[-2], :].swapaxes(-1, -2)
     return ModeShapes(
         eigenvalues=values.astype(complex),
         vectors=vectors.astype(complex),
         disk=disk.astype(complex),
         journal=journal.astype(complex),
+        inner=inner.astype(complex),
     )
+
+
+@checked
+def inner_share(shapes: ModeShapes) -> Array:
+    """Return how much of each mode is motion of the film's own parts, pads or a ring.
+
+    Parameters
+    ----------
+    shapes : ModeShapes
+        The modes.
+
+    Returns
+    -------
+    array, (..., n)
+        Sum of squares of the amplitudes of the inner coordinates over that of these and the
+        journal's [-]: 0 where the parts rest, or the film has none, 1 where the journal rests.
+    """
+    parts, journal = (np.sum(np.abs(one) ** 2, axis=-1) for one in (shapes.inner, shapes.journal))
+    return parts / (parts + journal)
 
 
 @checked

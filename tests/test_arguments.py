@@ -17,6 +17,12 @@ from tests.machines import RPM, SHEET
 SPEEDS = np.linspace(1000, 12000, 12) * RPM
 SWEEP = rc.analyse(SHEET, SPEEDS)
 K, C = SWEEP.stiffness[5], SWEEP.damping[5]
+RING = replace(
+    SHEET,
+    bearing=replace(
+        SHEET.bearing, geometry=rc.FloatingRing.around(0.150, 0.050, 60e-6), film="short"
+    ),
+)
 WARM = replace(SHEET, temperature=None, supply=rc.Supply(temperature=40.0))
 
 
@@ -59,8 +65,9 @@ GOOD: dict[str, Any] = {
     "viscosities": (0.02, 0.01), "values": {"load": 1e3}, "vary": "load", "target": 900.0,
     "low": 1e3, "high": 2e3, "xs": [1e3, 2e3], "ys": [0.1], "path": np.ones((300, 2)), "step": 0.1,
     "dynamics": FilmDynamics, "frequency": 1.0, "power_loss": 100.0, "side_flow": 1e-5,
+    "shapes": rc.analyse(SHEET, 600.0).mode_shapes(),
     "cross_coupling": 1e6, "power": 1e6, "diameter": 0.4, "width": 0.02,
-    "amplification_factor": 5.0, "above": True,
+    "amplification_factor": 5.0, "above": True, "whirl_ratio": 0.5,
 }  # fmt: skip
 # Where a name means something else.
 ITS_OWN: dict[str, dict[str, Any]] = {
@@ -69,6 +76,10 @@ ITS_OWN: dict[str, dict[str, Any]] = {
     "criteria.permissible_eccentricity": {"grade": "G 2.5"},
     "onset_map": {"x": "load", "y": "temperature"},
     "response_peaks": {"speed": SPEEDS},
+    "mode_onsets": {"machine": RING},
+    "ring_equilibrium": {"machine": RING},
+    "ring_speed": {"machine": RING},
+    "ring_whirl": {"machine": RING},
     "coefficients.rising_speed": {"speed": SPEEDS},
     "heat.hottest_speed": {"machine": WARM},
     "heat.heat_curves": {"machine": WARM},

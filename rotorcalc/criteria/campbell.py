@@ -82,6 +82,7 @@ def campbell(machine: Machine, speed: ArrayLike, *, flexible: bool = True) -> Ca
         vectors=shapes.vectors[-1],
         disk=shapes.disk[-1],
         journal=shapes.journal[-1],
+        inner=shapes.inner[-1],
     )
     locus = root_locus(
         sweep.speed,

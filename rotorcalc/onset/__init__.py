@@ -7,15 +7,20 @@ polynomial in floats, and in sixty digits where floats are not conclusive.
 from rotorcalc.arguments import checked
 from rotorcalc.machine import Machine
 from rotorcalc.onset.closed_form import closed_form_onset, covers
+from rotorcalc.onset.ring_modes import ModeOnset, RingWhirl, mode_onsets, ring_whirl
 from rotorcalc.onset.search import searched_onset
 from rotorcalc.onset.whirl import Method, Onset, WhirlOnset, flexible_threshold, whirl_onset
 
 __all__ = [
     "Method",
+    "ModeOnset",
     "Onset",
+    "RingWhirl",
     "WhirlOnset",
     "flexible_threshold",
+    "mode_onsets",
     "onset_speed",
+    "ring_whirl",
     "whirl_onset",
 ]
 

@@ -76,7 +76,7 @@ def searched_onset(machine: Machine, flexible: bool = True) -> Onset:
     return found
 
 
-def _where_film(machine: Machine, values: Callable[[Array], Array]) -> Callable[[Array], Array]:
+def where_film(machine: Machine, values: Callable[[Array], Array]) -> Callable[[Array], Array]:
     """Return a function of speeds that is `_NO_FILM` where a supply leaves the film no answer."""
     if machine.supply is None:
         return values
@@ -97,7 +97,7 @@ def _onset_by_polynomial(machine: Machine, flexible: bool, speeds: Array) -> Ons
     def most(speeds: Array) -> Array:
         return routh.margin_bounds(polynomial(machine, speeds, flexible))[1]
 
-    bracket = first_crossing(_where_film(machine, most), speeds)
+    bracket = first_crossing(where_film(machine, most), speeds)
     if bracket is None:
         return _no_onset("polynomial")
     found = _in_floats(machine, flexible, *bracket)
@@ -108,7 +108,7 @@ def _onset_by_polynomial(machine: Machine, flexible: bool, speeds: Array) -> Ons
 
 def _onset_in_many_digits(machine: Machine, flexible: bool, speeds: Array) -> Onset:
     exact = ExactPolynomial(machine, flexible)
-    margins = _where_film(machine, exact.margins)
+    margins = where_film(machine, exact.margins)
     bracket = first_crossing(margins, speeds, block=_EXACT_BLOCK)
     if bracket is None:
         return _no_onset("extended precision")
@@ -117,7 +117,7 @@ def _onset_in_many_digits(machine: Machine, flexible: bool, speeds: Array) -> On
 
 
 def _onset_by_growth(machine: Machine, flexible: bool, speeds: Array) -> Onset:
-    grows = _where_film(machine, lambda speed: growth(machine, speed, flexible))
+    grows = where_film(machine, lambda speed: growth(machine, speed, flexible))
     bracket = first_crossing(grows, speeds)
     if bracket is None:
         return _no_onset("eigenvalues")

@@ -144,6 +144,8 @@ def flexible_threshold(
     """
     k_eq = real_array("equivalent_stiffness", equivalent_stiffness)
     softening = 1.0 + k_eq * real_array("sag_ratio", sag_ratio)
+    # So negative a stiffness leaves a rigid rotor's threshold at 0 or infinity, which stays.
+    softening = np.where(softening > 0.0, softening, 1.0)
     return real_array("threshold_speed", threshold_speed) / np.sqrt(softening)
 
 

@@ -8,13 +8,23 @@ import numpy as np
 import pytest
 from scipy.optimize import fsolve
 
-from rotorcalc import FloatingRing, JournalBearing, Machine, Oil, Rotor, analyse, onset_speed
+from rotorcalc import (
+    FloatingRing,
+    JournalBearing,
+    Machine,
+    Oil,
+    Rotor,
+    analyse,
+    onset_speed,
+    ring_equilibrium,
+    ring_speed,
+)
 from rotorcalc.coefficients import dynamics, equilibrium, film_field
 from rotorcalc.films import FilmUnits, film_of, film_state
 from rotorcalc.films.ring import balance
 from rotorcalc.films.short import motion
 from tests.films.models import RINGS, points
-from tests.machines import RPM
+from tests.machines import RPM, SHEET
 
 # Journal and ring of a small turbocharger.
 SMALL = JournalBearing(
@@ -164,6 +174,59 @@ def test_a_second_program_finds_the_same(bearing, speed):
     found = dynamics(machine, speed)
     assert found.stiffness == pytest.approx(K, abs=1e-8 * np.abs(K).max())
     assert found.damping == pytest.approx(D, abs=1e-8 * np.abs(D).max())
+
+
+@BOTH
+def test_the_equilibrium_of_the_ring_has_both_films_with_dimensions(bearing):
+    machine = on(bearing)
+    found, second = ring_equilibrium(machine, SPEED), Second(machine, SPEED)
+    _, r, inside, outside = films(bearing, float(equilibrium(machine, SPEED).film.sommerfeld))
+    x, y, p, q, spin = second.solved(1.01 * np.array([*inside.position, *outside.position, r]))
+    assert float(found.ring_speed) == pytest.approx(spin, rel=1e-9)
+    assert float(ring_speed(machine, SPEED)) == float(found.ring_speed)
+    assert float(found.speed_ratio) == pytest.approx(spin / SPEED, rel=1e-9)
+    K, C = second.coefficients(np.array([x, y, p, q]), spin)
+    torque = second.torque(second.outer, spin, 0.0, (p, q), inner_surface=True)
+    parts = (
+        (found.inner, (x, y), -K[:2, 2:], -C[:2, 2:], second.inner[3]),
+        (found.outer, (p, q), K[2:, 2:] - K[:2, :2], C[2:, 2:] - C[:2, :2], second.outer[3]),
+    )
+    for part, place, stiffness, damping, clearance in parts:
+        assert part.position == pytest.approx(place, abs=1e-9 * clearance)
+        eps = math.hypot(*place) / clearance
+        assert float(part.eccentricity_ratio) == pytest.approx(eps, abs=1e-9)
+        assert float(part.attitude_angle) == pytest.approx(math.atan2(place[1], place[0]), abs=1e-8)
+        thinnest = clearance * (1.0 - eps)
+        assert float(part.minimum_film_thickness) == pytest.approx(thinnest, rel=1e-8)
+        assert part.stiffness == pytest.approx(stiffness, abs=1e-7 * np.abs(stiffness).max())
+        assert part.damping == pytest.approx(damping, abs=1e-7 * np.abs(damping).max())
+    whole = equilibrium(machine, SPEED)
+    assert float(found.inner.drag_torque) == pytest.approx(float(whole.drag_torque), rel=1e-12)
+    assert float(found.outer.drag_torque) == pytest.approx(torque, rel=1e-8)
+    for name in ("power_loss", "side_flow"):
+        both = getattr(found.inner, name) + getattr(found.outer, name)
+        assert float(both) == pytest.approx(float(getattr(whole, name)), rel=1e-9)
+    assert float(found.inner.peak_pressure) == pytest.approx(float(whole.peak_pressure), rel=1e-12)
+
+
+def test_a_ring_has_the_shape_of_the_speeds():
+    speeds = np.array([[600.0, 900.0], [1200.0, 2000.0]])
+    spins, found = ring_speed(MACHINE, speeds), ring_equilibrium(MACHINE, speeds)
+    assert spins.shape == found.outer.power_loss.shape == (2, 2)
+    assert found.inner.position.shape == (2, 2, 2)
+    assert found.outer.stiffness.shape == (2, 2, 2, 2)
+    assert ring_speed(MACHINE, 900.0).shape == ()
+    for function in (ring_speed, ring_equilibrium):
+        with pytest.raises(ValueError, match="bearing = plain: has no floating ring"):
+            function(SHEET, 600.0)
+
+
+def test_without_load_the_equilibrium_of_the_ring_is_finite():
+    found = ring_equilibrium(replace(MACHINE, load=0.0), np.array([600.0, 2000.0]))
+    for part in (found.inner, found.outer):
+        assert np.all(part.position == 0.0)
+        assert np.all(np.isfinite(part.stiffness))
+        assert np.all(part.power_loss > 0.0)
 
 
 @pytest.mark.parametrize("film", ["short", "finite"])

@@ -6,6 +6,7 @@ which both films' torques on it are equal. One temperature stands for both films
 viscosities for their difference. Both carry the journal's load: the ring's weight is left out.
 """
 
+from rotorcalc.films.ring import balance
 from rotorcalc.films.ring.film import RingFilm
 
-__all__ = ["RingFilm"]
+__all__ = ["RingFilm", "balance"]

@@ -122,6 +122,15 @@ class RingFilm:
         ratio = self.speed_ratio(points)
         return ratio, *self.pair.sommerfeld(points.sommerfeld, ratio)
 
+    def states(self, points: OperatingPoints) -> tuple[FilmState, FilmState]:
+        """Return the inner and the outer film in static equilibrium, each in its own units.
+
+        Of μ_i, Ω + Ω_R, R, L, C inside, and of μ_o, Ω_R, R_o, L_o, C_o outside.
+        """
+        _, inner, outer = self.films_at(points)
+        inside = self.pair.inside.state(replace(points, sommerfeld=inner))
+        return inside, self.pair.outside.state(replace(points, sommerfeld=outer))
+
     def state(self, points: OperatingPoints) -> FilmState:
         """Return the film in static equilibrium; pressure and its place are the inner film's.
 

@@ -31,6 +31,8 @@ class PlainFilm(Protocol):
     """What a ring asks of the film of a plain bearing; see `films.model.Film`."""
 
     @property
+    def bearing(self) -> JournalBearing: ...  # noqa: D102
+    @property
     def least_sommerfeld(self) -> float: ...  # noqa: D102
     @property
     def sommerfeld_range(self) -> tuple[float, float]: ...  # noqa: D102
