@@ -213,6 +213,7 @@ _PLAIN: dict[Any, _Kind] = {
     float: _Kind(_is_number, "a number", (float, int)),
     int: _Kind(_is_whole, "a whole number", (int,)),
     str: _Kind(_of(str), "a text", (str,)),
+    bytes: _Kind(_of(bytes), "bytes", (bytes,)),
     np.ndarray: _Kind(_is_array, "an array of numbers"),
     Callable: _Kind(callable, "a function"),
     Mapping: _Kind(_of(Mapping), "a mapping of names to values", (dict,)),

@@ -51,6 +51,7 @@ def public() -> dict[str, Callable]:
 
 
 # Good values of arguments, by their names: one alone of each call is spoiled.
+CASE = rc.read_machines("speed [rpm]\n6000", SHEET).cases[0]
 GOOD: dict[str, Any] = {
     "machine": SHEET, "bearing": SHEET.bearing, "rotor": SHEET.rotor, "sweep": SWEEP,
     "oil": SHEET.oil,
@@ -68,6 +69,8 @@ GOOD: dict[str, Any] = {
     "shapes": rc.analyse(SHEET, 600.0).mode_shapes(),
     "cross_coupling": 1e6, "power": 1e6, "diameter": 0.4, "width": 0.02,
     "amplification_factor": 5.0, "above": True, "whirl_ratio": 0.5,
+    "spreads": {"load": ("uniform", 1e3, 2e3)}, "natural_frequency": 100.0,
+    "text": "speed [rpm]\n6000", "cases": [CASE], "results": [], "columns": {"line": [2]},
 }  # fmt: skip
 # Where a name means something else.
 ITS_OWN: dict[str, dict[str, Any]] = {
@@ -88,8 +91,12 @@ ITS_OWN: dict[str, dict[str, Any]] = {
 }
 # A text where a machine is meant, nothing, a bearing or a dict: what a user has at hand.
 HOSTILE = {"text": "x", "None": None, "dict": {}, "bearing": SHEET.bearing, "list": ["x", 1.0]}
-# What is good for one argument: an empty change, a call that is told nothing.
-HARMLESS = {("varied", "values", "dict")}
+# What is good for one argument: an empty change, an empty table, a file's text.
+HARMLESS = {
+    ("varied", "values", "dict"),
+    *((f"batch.to_{form}", "columns", "dict") for form in ("csv", "json", "report")),
+    *((f"{where}read_machines", "text", "text") for where in ("", "batch.")),
+}
 # A building block whose argument is a word of its own error.
 OWN_WORDS = {("coefficients.rising_speed", "name"), ("modes.rotor_terms", "number")}
 

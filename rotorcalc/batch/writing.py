@@ -10,6 +10,7 @@ import json
 import math
 from collections.abc import Mapping, Sequence
 
+from rotorcalc.arguments import checked
 from rotorcalc.batch.results import Value
 
 _FORMULAS = ("=", "+", "-", "@", "\t", "\r")
@@ -17,6 +18,7 @@ _FORMULAS = ("=", "+", "-", "@", "\t", "\r")
 _WIDTH = 44
 
 
+@checked
 def to_csv(columns: Mapping[str, Sequence[Value]]) -> str:
     """Return a table as CSV: a comma, a decimal point, lines as RFC 4180 has them.
 
@@ -37,6 +39,7 @@ def to_csv(columns: Mapping[str, Sequence[Value]]) -> str:
     return text.getvalue()
 
 
+@checked
 def to_json(columns: Mapping[str, Sequence[Value]]) -> str:
     """Return a table as a JSON list of objects; no value is null, infinity the text "inf"."""
     records = [
@@ -46,6 +49,7 @@ def to_json(columns: Mapping[str, Sequence[Value]]) -> str:
     return json.dumps(records, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
 
 
+@checked
 def to_report(columns: Mapping[str, Sequence[Value]]) -> str:
     """Return a table as a report: a paragraph for each machine, a line for each value."""
     return "\n".join(

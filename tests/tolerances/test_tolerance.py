@@ -299,6 +299,15 @@ def test_the_error_of_an_index_is_its_scatter() -> None:
     assert np.mean(errors) == pytest.approx(np.std(indices), rel=0.35)
 
 
+def test_an_input_without_effect_has_no_index_on_average() -> None:
+    """A polynomial explains some of any scatter, which the degrees of freedom take out again."""
+    found = []
+    for seed in range(60):
+        a, y = np.random.default_rng(seed).random((2, 130))
+        found.append(statistics.influence("a", a, y).index)
+    assert abs(np.mean(found)) < 0.012
+
+
 def test_the_index_is_that_of_a_plain_binned_variance() -> None:
     """Another estimator: the variance of the means of bins, over the whole."""
     found = rc.tolerance(SHEET, SPREADS, 8000, 3)
