@@ -56,7 +56,8 @@ OWN: dict[str, str | None] = {
     "name": None, "speed": "rad/s", "oil": None, KIND: None, "eccentricity_ratio": "-",
     "sommerfeld": "-", "classical_sommerfeld": "-", "natural_frequency": "rad/s",
 }  # fmt: skip
-_HEADER = re.compile(r"\s*([^\[\]]*?)\s*(?:\[([^\[\]]*)\])?\s*")
+# Characters of a header at most.
+LONGEST = 200
 
 
 @dataclass(frozen=True)
@@ -89,10 +90,7 @@ def column_of(header: str) -> Column:
     ValueError
         Where there is no such input or unit, or the unit is missing.
     """
-    match = _HEADER.fullmatch(header)
-    if match is None:
-        raise ValueError(f"{header[:80]!r}: must be a name, and a unit in brackets: 'load [N]'")
-    name, given = match[1].strip(), match[2]
+    name, given = _name_and_unit(header)
     if name in OWN:
         unit = OWN[name]
         return Column(header.strip(), (name,), _unit(name, unit, given))
@@ -100,6 +98,15 @@ def column_of(header: str) -> Column:
     bound = rule if isinstance(rule, Bound) else None
     unit = _unit(name, None if bound is None else bound.unit, given)
     return Column(header.strip(), path, unit, infinite=bound is not None and bound.infinite)
+
+
+def _name_and_unit(header: str) -> tuple[str, str | None]:
+    """Return the two parts of "load [N]"; no unit where there are no brackets."""
+    name, bracket, rest = header.strip().partition("[")
+    unit, end, beyond = rest.partition("]")
+    if len(header) > LONGEST or beyond or (bracket and not end) or "]" in name:
+        raise ValueError(f"{header[:80]!r}: must be a name, and a unit in brackets: 'load [N]'")
+    return name.strip(), unit if bracket else None
 
 
 def units_of(si: str) -> dict[str, Unit]:

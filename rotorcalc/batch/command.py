@@ -7,10 +7,11 @@ results name too, and with 2 where the file or the command cannot be used.
 import argparse
 import math
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
+from functools import partial
 from multiprocessing import get_context
 from pathlib import Path
 from typing import cast
@@ -21,7 +22,6 @@ from rotorcalc.batch.reading import MOST_BYTES, Case, MachineFile, read_machines
 from rotorcalc.batch.results import CaseResult, Spread, results, table, tolerance_result, within
 from rotorcalc.batch.writing import FORMATS
 from rotorcalc.machine import Machine
-from rotorcalc.numerics.parts import in_parts
 from rotorcalc.records import parsed
 from rotorcalc.units import Unit, rpm
 
@@ -119,10 +119,18 @@ def _tolerances(
 ) -> list[CaseResult]:
     """Return the tolerances of machines, one after the other: a pool computes the samples."""
 
-    def one(case: Case) -> CaseResult:
-        return tolerance_result(case, spread, pool)
+    def each() -> Iterator[CaseResult]:
+        for place, case in enumerate(cases):
+            told = progress and partial(_share_of_all, progress, place, len(cases))
+            yield tolerance_result(case, spread, pool, told)
 
-    return within(in_parts(one, cases, progress=progress), cases, seconds=seconds)
+    return within(each(), cases, seconds=seconds)
+
+
+def _share_of_all(
+    progress: Callable[[float], object], place: int, number: int, share: float
+) -> None:
+    progress((place + share) / number)
 
 
 def _pool(processes: int) -> AbstractContextManager[Executor | None]:
@@ -166,12 +174,14 @@ def _text(name: str) -> str:
 
 
 def _write(name: str | None, text: str) -> None:
-    # The lines of a table already end as they must, so nothing may be changed on the way.
+    # The lines of a table already end as they must, so nothing may be changed on the way. JSON may
+    # hold halves of characters, which no encoding has.
+    raw = text.encode("utf-8", "backslashreplace")
     if name is None:
-        sys.stdout.buffer.write(text.encode())
+        sys.stdout.buffer.write(raw)
         sys.stdout.buffer.flush()
     else:
-        Path(name).write_bytes(text.encode())
+        Path(name).write_bytes(raw)
 
 
 def _format_of(name: str | None) -> str:

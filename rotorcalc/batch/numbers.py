@@ -14,6 +14,8 @@ _POINT = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,4})?", re.ASCII)
 _COMMA = re.compile(r"[+-]?(\d+,?\d*|,\d+)([eE][+-]?\d{1,4})?", re.ASCII)
 # Groups of three digits, of which the first does not begin with zero: perhaps thousands.
 _THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+", re.ASCII)
+# Characters of a number at most; the smallest and largest have 330 digits when written in full.
+LONGEST = 400
 INFINITE = ("inf", "infinite", "rigid", "∞")
 
 
@@ -30,7 +32,7 @@ def decimal_mark(cells: Iterable[str]) -> Mark:
     ".", "," or ""
         What most numbers have that can be read in one way only.
     """
-    given = [cell.strip() for cell in cells]
+    given = [cell.strip() for cell in cells if len(cell) <= LONGEST]
     points = sum("." in cell and bool(_POINT.fullmatch(cell)) for cell in given)
     commas = [cell for cell in given if "," in cell and _COMMA.fullmatch(cell)]
     sure = sum(not _THOUSANDS.fullmatch(cell) for cell in commas)
@@ -67,6 +69,8 @@ def number(cell: str, mark: Mark, *, infinite: bool) -> float:
     shown = repr(text[:40])
     if text[:1] in ("=", "@"):
         raise ValueError(f"{shown}: a formula, which is not run; write its value")
+    if len(text) > LONGEST:
+        raise ValueError(f"{shown}: is no number, with {len(text)} characters")
     if "," in text and _COMMA.fullmatch(text):
         return _with_comma(text, mark)
     if not _POINT.fullmatch(text):

@@ -112,7 +112,12 @@ class Spread:
     seed: int
 
 
-def tolerance_result(case: Case, spread: Spread, executor: Executor | None = None) -> CaseResult:
+def tolerance_result(
+    case: Case,
+    spread: Spread,
+    executor: Executor | None = None,
+    progress: Callable[[float], object] | None = None,
+) -> CaseResult:
     """Return the onset of a machine within tolerances.
 
     Parameters
@@ -123,6 +128,8 @@ def tolerance_result(case: Case, spread: Spread, executor: Executor | None = Non
         Of its inputs.
     executor : concurrent.futures.Executor, optional
         Computes samples at the same time.
+    progress : callable, optional
+        Called with the share that is done, from above 0 to 1.
 
     Returns
     -------
@@ -132,8 +139,9 @@ def tolerance_result(case: Case, spread: Spread, executor: Executor | None = Non
     speed = None if math.isnan(case.speed) else case.speed
     try:
         found = tolerance(
-            case.machine, spread.spreads, spread.samples, spread.seed, executor, speed=speed
-        )
+            case.machine, spread.spreads, spread.samples, spread.seed, executor,
+            speed=speed, progress=progress,
+        )  # fmt: skip
     except ValueError as error:
         return CaseResult(case.line, case.name, refusal=str(error))
     known = found.onset[~np.isnan(found.onset)]

@@ -158,6 +158,9 @@ def test_json_is_one_machine_or_many() -> None:
         (b"\x81\x8d\x90", "no text in UTF-8"),
         (b"\xff\xfe\x00", "no text in UTF-8"),
         ("load\n1", "load: has no unit; write it in brackets, 'load [N]'"),
+        ("load [N\n1", "must be a name, and a unit in brackets"),
+        ("load [N] 2\n1", "must be a name, and a unit in brackets"),
+        (f"a{' ' * 100_000}[[\n1", "must be a name, and a unit in brackets"),
         ("load [m]\n1", "no unit of this; known are N, kN, lbf"),
         ("clearance [m]\n1", "'clearance': no input of a machine; known are"),
         ("name [m]\n1", "is a text and has no unit"),
@@ -169,7 +172,7 @@ def test_json_is_one_machine_or_many() -> None:
         ("[" * 100000, "no JSON text"),
         (",".join(["name"] * 300), "more than 200 columns"),
     ],
-    ids=range(16),
+    ids=range(19),
 )
 def test_a_file_of_which_nothing_can_be_read_says_why(text: str | bytes, words: str) -> None:
     with pytest.raises(ValueError, match=re.escape(words)):
@@ -185,6 +188,8 @@ def test_a_file_of_which_nothing_can_be_read_says_why(text: str | bytes, words: 
         (",60,272", ",=30*2,272", "radial_clearance [µm]", "a formula, which is not run"),
         (",60,272", ',"60,5",272', "radial_clearance [µm]", "has a comma, where other"),
         (",60,272", ",1e999,272", "radial_clearance [µm]", "too large for a number"),
+        (",60,272", f",{'9' * 100_000}x,272", "radial_clearance [µm]", "1000 characters"),
+        (",60,272", f",{'9' * 900}x,272", "radial_clearance [µm]", "with 901 characters"),
         (",60,272", ",٦٠,272", "radial_clearance [µm]", "is no number"),
         (",60,272", ",,272", "radial_clearance [µm]", "radial_clearance: missing"),
         (",1e8,", ",-inf,", "shaft_stiffness [N/m]", "is no number"),
@@ -194,7 +199,7 @@ def test_a_file_of_which_nothing_can_be_read_says_why(text: str | bytes, words: 
         (",12\n", "\n", "", "has 11 cells, the header 12"),
         ("sheet", "s" * 1001, "name", "more than 1000 characters"),
     ],
-    ids=range(14),
+    ids=range(16),
 )
 def test_a_wrong_line_is_named_and_costs_no_other(
     old: str, new: str, column: str, words: str
@@ -392,6 +397,14 @@ def test_a_wrong_line_ends_with_1_and_is_in_the_results(
     assert first["onset [rad/s]"] == rc.onset_speed(SHEET).speed
     assert second["problem"] == capsys.readouterr().err.strip()
     assert second["problem"].startswith("line 3, column mass [kg]: mass = -272.1422 kg")
+
+
+def test_half_a_character_in_a_name_costs_nothing(machines: Path) -> None:
+    document = json.loads(SHEET.to_json()) | {"app": {"name": "\ud800"}}
+    machines.write_text(json.dumps(document), "utf-8")
+    out = machines.with_suffix(".txt")
+    assert command.main([str(machines), "--out", str(out)]) == 0
+    assert out.read_text("utf-8").startswith("line 1: \\ud800\n")
 
 
 def test_tolerances_from_the_command_line(machines: Path, tmp_path: Path) -> None:
