@@ -53,6 +53,7 @@ from rotorcalc.onset import (
 )
 from rotorcalc.onset.whirl import WhirlOnset, whirl_onset
 from rotorcalc.presets import PRESETS, Preset
+from rotorcalc.recesses import RecessEquilibrium, recess_equilibrium, recess_pressure
 from rotorcalc.ring import RingEquilibrium, ring_equilibrium, ring_speed
 from rotorcalc.tolerances.statistics import Influence, Probability
 from rotorcalc.tolerances.study import Tolerance, tolerance
@@ -97,6 +98,7 @@ __all__ = [
     "Preset",
     "PressureDam",
     "Probability",
+    "RecessEquilibrium",
     "RingEquilibrium",
     "RingWhirl",
     "Rotor",
@@ -133,6 +135,8 @@ __all__ = [
     "onsets",
     "orbit_ellipse",
     "read_machines",
+    "recess_equilibrium",
+    "recess_pressure",
     "response_peaks",
     "ring_equilibrium",
     "ring_speed",

@@ -10,6 +10,7 @@ from typing import Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.constants import atmosphere
 
 from rotorcalc import heat
 from rotorcalc.analysis import Sweep
@@ -17,6 +18,8 @@ from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
 from rotorcalc.display import Result, in_brief
 from rotorcalc.films import film_of
+from rotorcalc.geometry import Hydrostatic
+from rotorcalc.recesses import recess_equilibrium
 from rotorcalc.unbalance_response import orbit_ellipse
 
 Level: TypeAlias = Literal["good", "caution", "outside"]
@@ -84,7 +87,8 @@ def validity(sweep: Sweep) -> tuple[Check, ...]:
         41.1√(R/C) (Taylor 1923), with turbulence at 2000; the smallest film against an assumed
         roughness of 1 µm, full film above 3 of it, and against the clearance; the journal's
         imbalance orbit and the rotor's static sag against the clearance; the rise of the oil in
-        the film against that by which its viscosity halves (`HEAT`). Numbers and verdicts have the
+        the film against that by which its viscosity halves (`HEAT`); on recesses the lowest
+        pressure of the film against the atmospheric one. Numbers and verdicts have the
         shape (...).
     """
     machine = sweep.machine
@@ -111,8 +115,19 @@ def validity(sweep: Sweep) -> tuple[Check, ...]:
                "linear coefficients hold for small orbits; at the limit it touches the wall"),
         _above("Static sag over clearance, Γ/C", machine.static_sag / C * everywhere, 1.0, 10.0,
                "so flexible a shaft is inclined in its bearings, which the model assumes aligned"),
+        *_suction(sweep),
         *_heat(sweep),
     )  # fmt: skip
+
+
+def _suction(sweep: Sweep) -> tuple[Check, ...]:
+    """Return the check of a full film's lowest pressure, of bearings that do not cavitate."""
+    machine = sweep.machine
+    if not isinstance(machine.bearing.geometry, Hydrostatic):
+        return ()
+    suction = -recess_equilibrium(machine, sweep.speed).lowest_pressure / atmosphere
+    return (_above("Suction in the film over atmospheric pressure, −p/p_a", suction, 0.1, 1.0,
+                   "the oil cavitates there, where the model takes the film as full"),)  # fmt: skip
 
 
 def _heat(sweep: Sweep) -> tuple[Check, ...]:

@@ -23,6 +23,7 @@ RING = replace(
         SHEET.bearing, geometry=rc.FloatingRing.around(0.150, 0.050, 60e-6), film="short"
     ),
 )
+RECESSED = replace(SHEET, bearing=replace(SHEET.bearing, geometry=rc.Hydrostatic()))
 WARM = replace(SHEET, temperature=None, supply=rc.Supply(temperature=40.0))
 
 
@@ -80,6 +81,8 @@ ITS_OWN: dict[str, dict[str, Any]] = {
     "onset_map": {"x": "load", "y": "temperature"},
     "response_peaks": {"speed": SPEEDS},
     "mode_onsets": {"machine": RING},
+    "recess_equilibrium": {"machine": RECESSED},
+    "recess_pressure": {"machine": RECESSED},
     "ring_equilibrium": {"machine": RING},
     "ring_speed": {"machine": RING},
     "ring_whirl": {"machine": RING},

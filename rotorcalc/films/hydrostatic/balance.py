@@ -11,11 +11,13 @@ solved by Newton's method for all operating points at once. The restrictors are 
 recesses of the centred bearing at rest have the pressure β p_s.
 """
 
+import functools
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
-from rotorcalc.arrays import Array
+from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.films.hydrostatic.influence import Influence
 from rotorcalc.films.hydrostatic.table import THINNEST, Table
 
@@ -23,9 +25,14 @@ from rotorcalc.films.hydrostatic.table import THINNEST, Table
 _MOST_STEPS, _SETTLED, _LONGEST = 60, 1e-12, 0.7
 # The smallest film on the way to an equilibrium, in C: just inside the table's outermost ring.
 _CLOSEST = 0.021
-# Eccentricities of the load's curve at rest, and the share of its highest load that is answered
-# for: close to it the film gives way, and a little rotation can lower it.
-_PLACES, _SURE = 65, 0.9
+# Eccentricities of the load's curve at rest.
+_PLACES = 65
+# Where the heaviest load is sought: eccentricities, directions, and speeds over that at which
+# rotation turns the force by 45° in the centre; and the share of it that is answered for.
+_ECCENTRICITIES, _DIRECTIONS = np.linspace(0.4, 0.95, 12), np.linspace(0.0, 0.5 * np.pi, 17)
+_SPEEDS, _SURE = np.array([0.01, 0.03, 0.08, 0.2, 0.5]), 0.93
+# Shares of a load by which an equilibrium is followed that Newton's method misses.
+_SHARES = (0.4, 0.6, 0.75, 0.85, 0.93, 1.0)
 # Rotation acts on the film as the velocity w = (y, −x)/2 does.
 _TURN = np.array([[0.0, 0.5], [-0.5, 0.0]])
 
@@ -113,12 +120,13 @@ class Bearing:
     eccentricity: Array
     load: Array
 
-    @property
+    @cached_property
     def heaviest(self) -> float:
-        """The heaviest load that is answered for, F_o/(p_s R L)."""
-        return _SURE * float(self.load[-1])
+        """The heaviest load that is carried at every speed, F_o/(p_s R L)."""
+        return _SURE * min(float(self.load[-1]), _carried_in_rotation(self))
 
 
+@functools.lru_cache(maxsize=64)
 def bearing_of(table: Table, restrictors: Restrictors) -> Bearing:
     """Return lands with restrictors, and the loads that they carry at rest."""
     q = restrictors.size(table.outflow_in_centre)
@@ -129,6 +137,35 @@ def bearing_of(table: Table, restrictors: Restrictors) -> Bearing:
     # Beyond its highest load a journal at rest falls onto the land.
     last = int(np.argmax(load)) + 1
     return replace(bearing, eccentricity=eps[:last], load=np.maximum.accumulate(load[:last]))
+
+
+def _carried_in_rotation(bearing: Bearing) -> float:
+    """Return the lowest of the highest loads at some speeds, in p_s R L.
+
+    A slowly turning journal gives way towards the land beside the recess that carries it, where the
+    film holds it less.
+    """
+    eps, gamma = np.meshgrid(_ECCENTRICITIES, _DIRECTIONS, indexing="ij")
+    place = np.stack([eps * np.cos(gamma), eps * np.sin(gamma)], axis=-1).reshape(-1, 2)
+    _, centred = held(bearing, np.zeros(1), np.zeros((1, 2)))
+    turning = 2.0 * centred.stiffness[0, 0, 0] / centred.damping[0, 0, 0]
+    loads = [_highest(held(bearing, np.full(len(place), S), place)[0].reshape(*eps.shape, 2))
+             for S in turning * _SPEEDS]  # fmt: skip
+    return min(loads)
+
+
+def _highest(force: Array) -> float:
+    """Return the highest load before it first falls with eccentricity, of forces over ε and γ."""
+    sideways = force[..., 1]
+    # On the load line rotation drives the journal aside, at 90° the film holds it back.
+    after = np.argmax(sideways < 0.0, axis=1)
+    rows = np.arange(len(force))
+    before = np.maximum(after - 1, 0)
+    a, b = sideways[rows, before], sideways[rows, after]
+    share = np.where(a > b, a / np.where(a > b, a - b, 1.0), 0.0)
+    load = -(force[rows, before, 0] * (1.0 - share) + force[rows, after, 0] * share)
+    falls = np.flatnonzero(np.diff(load) < 0.0)
+    return float(load[falls[0] if falls.size else -1])
 
 
 def held(bearing: Bearing, S: Array, place: Array) -> tuple[Array, Balance]:
@@ -188,24 +225,44 @@ def balanced(bearing: Bearing, S: Array, load: Array) -> Balance:
     RuntimeError
         Where no equilibrium is found with a film thicker than `THINNEST`.
     """
-    place = _start(bearing, S, load)
-    y = np.full((len(S), bearing.table.lands.recesses), bearing.restrictors.centred_flow)
-    for _ in range(_MOST_STEPS):
-        left, J, _ = _balances(bearing, S, place, y)
-        left[:, -2] -= load
-        step = _solved(J, left)
-        place, y, size = _stepped(place, y, step)
-        if size.max(initial=0.0) < _SETTLED:
-            break
-    else:
-        raise RuntimeError("no equilibrium of the journal found")
+    place, y, good = _settled(bearing, S, load, _start(bearing, S, load))
+    if not good.all():
+        bad = np.flatnonzero(~good)
+        place[bad], y[bad] = _followed(bearing, S[bad], load[bad])
     if np.hypot(place[:, 0], place[:, 1]).max(initial=0.0) > 1.0 - THINNEST:
         raise RuntimeError("the film is thinner than the table reaches")
     return _answer(bearing, S, place, y)
 
 
-def _start(bearing: Bearing, S: Array, load: Array) -> Array:
-    """Return positions near the equilibria: the film is a spring that rotation turns."""
+def _settled(
+    bearing: Bearing, S: Array, load: Array, start: tuple[Array, Array]
+) -> tuple[Array, Array, BoolArray]:
+    """Return positions and flows by Newton's method, and whether they are in equilibrium."""
+    place, y = start
+    good = np.zeros(len(S), dtype=bool)
+    for _ in range(_MOST_STEPS):
+        left, J, _ = _balances(bearing, S, place, y)
+        left[:, -2] -= load
+        place, y, size = _stepped(place, y, _solved(J, left))
+        good = size < _SETTLED
+        if good.all():
+            break
+    return place, y, good
+
+
+def _followed(bearing: Bearing, S: Array, load: Array) -> tuple[Array, Array]:
+    """Return positions and flows in equilibrium, from a lighter load step by step."""
+    start, good = _start(bearing, S, _SHARES[0] * load), np.zeros(len(S), dtype=bool)
+    for share in _SHARES:
+        place, y, good = _settled(bearing, S, share * load, start)
+        start = place, y
+    if not good.all():
+        raise RuntimeError("no equilibrium of the journal found")
+    return start
+
+
+def _start(bearing: Bearing, S: Array, load: Array) -> tuple[Array, Array]:
+    """Return positions near the equilibria, the film a spring that rotation turns, and flows."""
     rest = np.interp(load, bearing.load, bearing.eccentricity)
     first = bearing.load[1] / bearing.eccentricity[1]
     spring = np.where(rest > 1e-6, load / np.maximum(rest, 1e-6), first)
@@ -213,7 +270,8 @@ def _start(bearing: Bearing, S: Array, load: Array) -> Array:
     # Of a rigid film without recess pressures; the cross stiffness is half of its damping.
     cross = 6.0 * S * at.squeeze[:, 1, 1]
     z = load / (spring - 1j * cross)
-    return np.stack([z.real, z.imag], axis=-1)
+    flow = np.full((len(S), bearing.table.lands.recesses), bearing.restrictors.centred_flow)
+    return np.stack([z.real, z.imag], axis=-1), flow
 
 
 def _balances(bearing: Bearing, S: Array, place: Array, y: Array) -> tuple[Array, Array, Influence]:

@@ -115,8 +115,8 @@ class HydrostaticFilm:
             raise ValueError(
                 f"static load = {W.max() * unit:.4g} N: must be at most {heaviest * unit:.4g} N on "
                 f"recesses supplied at {p_s / 1e6:.4g} MPa, F/(p_s L D) = {heaviest / 2.0:.3g}; a "
-                "heavier load presses the journal at rest onto the land, as the recess under it "
-                "is at nearly the supply pressure"
+                "heavier load presses the journal onto the land at rest or at a low speed, as the "
+                "recess under it is at nearly the supply pressure"
             )
 
     def state(self, points: OperatingPoints) -> FilmState:
@@ -130,7 +130,7 @@ class HydrostaticFilm:
         found, S = self.balance(points)
         shape = _shape(points)
         dynamic, (drag, flow) = self.dynamics(points), self.drag_and_flow(points)
-        highest = extremes(self.lands, found, S)
+        highest = self.extremes(points)
         position = found.position.reshape(*shape, 2)
         return FilmState(
             sommerfeld=np.broadcast_to(points.sommerfeld, shape),
@@ -152,7 +152,8 @@ class HydrostaticFilm:
 
     def extremes(self, points: OperatingPoints) -> Extremes:
         """Return the highest and the lowest pressure at operating points, in p_s, (n,)."""
-        return extremes(self.lands, *self.balance(points))
+        found, S = self.balance(points)
+        return _extremes(self.lands, found, S.tobytes())
 
     def dynamics(self, points: OperatingPoints) -> FilmDynamics:
         """Return stiffness and damping only.
@@ -264,6 +265,12 @@ class CoarseHydrostaticFilm(HydrostaticFilm):
 @functools.lru_cache(maxsize=64)
 def _balanced(bearing: Bearing, S: bytes, load: bytes) -> Balance:
     return balanced(bearing, np.frombuffer(S), np.frombuffer(load))
+
+
+# Of the same equilibria: a sweep's state asks, and then the check of its validity.
+@functools.lru_cache(maxsize=16)
+def _extremes(lands: Lands, found: Balance, S: bytes) -> Extremes:
+    return extremes(lands, found, np.frombuffer(S))
 
 
 def _shape(points: OperatingPoints) -> tuple[int, ...]:
