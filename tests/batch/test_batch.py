@@ -96,6 +96,15 @@ def test_every_unit_goes_there_and_back(si: str) -> None:
         assert float(unit.of(unit.to_si(12.5))) == pytest.approx(12.5, rel=1e-13)
 
 
+def test_every_number_of_every_bearing_has_a_column() -> None:
+    for path, rule in columns._inputs().items():
+        name = ".".join(path)
+        unit = getattr(rule, "unit", None)
+        found = columns.column_of(name if unit is None else f"{name} [{unit}]")
+        assert found.path == path
+        assert (found.unit is None) == (unit is None)
+
+
 def test_bores_are_named_and_have_their_own_columns() -> None:
     text = with_column("bearing,preload [%],groove_width [°]", "elliptical,40,15", ",,")
     first, second = (case.machine.bearing.geometry for case in rc.read_machines(text).cases)
