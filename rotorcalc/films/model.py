@@ -89,6 +89,13 @@ class InnerMotion:
     loaded : callable or None
         The same under a static load per bearing [N], where what does not move in a motion depends
         on it, as the speed of rotation of a floating ring does; without it there is no load.
+    beside : callable or None
+        Inner states from which a motion may start with the journal at rest at places (..., 2), in
+        C: those of `rest`, or where they would leave the journal no film, others. None for those of
+        `rest` at any place.
+    gap : callable or None
+        Thinnest film, in C, from the journal's places (..., 2), and the inner states; None where
+        the journal's place alone says it.
     """
 
     states: int
@@ -96,6 +103,8 @@ class InnerMotion:
     force: InnerRates
     velocity: InnerRates
     loaded: "Callable[[float], InnerMotion] | None" = None
+    beside: Callable[[OperatingPoints, Array], Array] | None = None
+    gap: Callable[[Array, Array], Array] | None = None
 
 
 @dataclass(frozen=True)

@@ -26,7 +26,7 @@ from rotorcalc.arrays import Array, real_array, shown
 from rotorcalc.coefficients import operating_points
 from rotorcalc.display import Result
 from rotorcalc.films import FilmUnits, InnerMotion, film_of
-from rotorcalc.machine import Machine
+from rotorcalc.machine import JournalBearing, Machine
 from rotorcalc.numerics.roots import clenshaw
 
 # The derivatives of a state at an angle of rotation.
@@ -152,14 +152,19 @@ class Equations:
     def _inner_start(self, inner: _Inner, start: Start) -> Array:
         """Return the film's inner states at a start, in equilibrium where it gives none."""
         if start.inner is None:
-            return inner.film.rest(operating_points(self.machine, self.first))
+            return inner_rest(self.machine, self.first, start.journal)
         found = real_array("start.inner", start.inner)
         if found.shape[-1:] != (inner.film.states,) or not np.all(np.isfinite(found)):
             raise ValueError(
                 f"start.inner = {shown(start.inner)}: must be {inner.film.states} numbers, the "
                 "film's own states, or None"
             )
-        return found / self._inner_units(inner)
+        found = found / self._inner_units(inner)
+        if film_gap(self.machine.bearing, start.journal / self.C, found).min() <= 0.0:
+            raise ValueError(
+                f"start.inner = {shown(start.inner)}: leaves no film around the journal"
+            )
+        return found
 
     def _inner_units(self, inner: _Inner) -> Array:
         """Return the units of the film's inner states, C and CΩ_0."""
@@ -298,6 +303,11 @@ class Equations:
 
         return both
 
+    def gap(self, states: Array) -> Array:
+        """Return the thinnest film in states, in C."""
+        inner = None if self.inner is None else states[..., self.own_states :]
+        return film_gap(self.machine.bearing, self.journal(states), inner)
+
     def journal(self, states: Array) -> Array:
         """Return the journal's positions in states, in C."""
         return states[..., 4:6] if self.flexible else states[..., :2]
@@ -353,6 +363,57 @@ def resting(machine: Machine, position: Array) -> Start:
     still = np.zeros(2)
     sag = np.array([machine.static_sag, 0.0])
     return Start(journal=position, disk=position + sag, journal_velocity=still, disk_velocity=still)
+
+
+def inner_rest(machine: Machine, speed: float, journal: Array) -> Array:
+    """Return the film's inner states at rest beside a journal at rest.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : float
+        Running speed [rad/s].
+    journal : array, (..., 2)
+        The journal's position, in X, Y from the bearing's centre [m].
+
+    Returns
+    -------
+    array, (..., states)
+        In C and CΩ; none where the film has no inner coordinates.
+    """
+    motion = film_of(machine.bearing).motion()
+    if not isinstance(motion, InnerMotion):
+        return np.empty(0)
+    points = operating_points(machine, speed)
+    if motion.beside is None:
+        return motion.rest(points)
+    return motion.beside(points, journal / machine.bearing.radial_clearance)
+
+
+def film_gap(bearing: JournalBearing, journal: Array, inner: Array | None) -> Array:
+    """Return the thinnest film around a journal and the film's own parts, in C.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing.
+    journal : array, (..., 2)
+        The journal's places, in C.
+    inner : array, (..., states), or None
+        The film's inner states, in C.
+
+    Returns
+    -------
+    array, (...)
+        Where the film has no inner states, or they do not matter, that of the journal alone.
+    """
+    film = film_of(bearing)
+    if inner is not None:
+        motion = film.motion()
+        if isinstance(motion, InnerMotion) and motion.gap is not None:
+            return motion.gap(journal, inner)
+    return film.gap(journal)
 
 
 def integrated(

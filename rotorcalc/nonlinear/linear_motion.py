@@ -20,7 +20,7 @@ from rotorcalc.arrays import Array, ComplexArray, IntArray
 from rotorcalc.coefficients import dynamics, equilibrium, operating_points
 from rotorcalc.films import InnerMotion, film_of
 from rotorcalc.machine import Machine
-from rotorcalc.nonlinear.equations import Start, resting
+from rotorcalc.nonlinear.equations import Start, inner_rest, resting
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,8 +190,11 @@ def _inner_away(machine: Machine, speed: float, start: Start) -> tuple[Array, Ar
     """Return the same of the film's inner coordinates; zero where the start gives none."""
     film = film_of(machine.bearing)
     still = np.zeros(film.inner)
-    if start.inner is None or film.inner == 0:
+    if film.inner == 0:
         return still, still
+    if start.inner is None:
+        beside = inner_rest(machine, speed, start.journal)[: film.inner]
+        return machine.bearing.radial_clearance * beside - _inner_rest(machine, speed), still
     velocities = still.copy()
     velocities[dynamics(machine, speed).inertia > 0.0] = start.inner[film.inner :]
     return start.inner[: film.inner] - _inner_rest(machine, speed), velocities

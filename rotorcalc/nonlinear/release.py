@@ -16,7 +16,7 @@ from rotorcalc.coefficients import equilibrium
 from rotorcalc.display import Result
 from rotorcalc.films import film_of
 from rotorcalc.machine import JournalBearing, Machine
-from rotorcalc.nonlinear.equations import resting
+from rotorcalc.nonlinear.equations import film_gap, resting
 from rotorcalc.nonlinear.linear_motion import linear_theory, motion_of
 from rotorcalc.nonlinear.signals import Spectrum, poincare_points, spectrum
 from rotorcalc.nonlinear.transient import TOLERANCE, Transient, TransientError, simulate
@@ -169,6 +169,7 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
         if len(error.partial.time) <= 16 * samples_per_revolution:
             raise
         motion, stopped = error.partial, str(error)
+    inner = None if motion.inner is None else motion.inner / C
     theory = linear_theory(machine, speed)
     linear = motion_of(theory, machine, speed, start, motion.time)
     return Release(
@@ -179,7 +180,7 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
         linear=rest + _drawn(linear, rest, machine.bearing),
         ellipse=rest + orbit_points(*theory.forced[theory.journal]),
         whirl=theory.whirl,
-        film=C * film_of(machine.bearing).gap(motion.journal / C),
+        film=C * film_gap(machine.bearing, motion.journal / C, inner),
         # Fewer revolutions make no spectrum, see `signals.spectrum`.
         spectrum=spectrum(motion, last=max(int(_SETTLED * revolutions), 4)),
         points=poincare_points(motion),

@@ -319,9 +319,8 @@ def _stretch(
     # Two angles are left: the failure lies between them.
     if message:
         return state[None, :], message
-    film = film_of(model.machine.bearing)
     # The film's force is kept finite at the wall, so an integration can pass it without an error.
-    good = np.isfinite(states).all(axis=1) & (film.gap(model.journal(states)) > model.thinnest)
+    good = np.isfinite(states).all(axis=1) & (model.gap(states) > model.thinnest)
     reached = int(np.argmin(good)) if not good.all() else len(states)
     if reached < len(states):
         return states[: max(reached, 1)], _too_close(model.thinnest)

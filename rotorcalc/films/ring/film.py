@@ -15,6 +15,7 @@ from rotorcalc.films.ring.motion import RingInMotion
 from rotorcalc.films.ring.pair import Pair
 from rotorcalc.films.ring.series import in_series, synchronous
 from rotorcalc.films.ring.sources import SOURCES
+from rotorcalc.films.ring.starts import RingStarts, thinnest
 from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
 from rotorcalc.films.units import FilmUnits
 from rotorcalc.frames import vector
@@ -151,7 +152,7 @@ class RingFilm:
             sommerfeld=points.sommerfeld,
             position=position,
             attitude_angle=np.where(centred, inside.attitude_angle, direction),
-            minimum_thickness=np.minimum(_thinnest(place), self.pair.wider * _thinnest(place_o)),
+            minimum_thickness=np.minimum(thinnest(place), self.pair.wider * thinnest(place_o)),
             stiffness=K,
             damping=C,
             side_flow=self._flow(ratio, *flows),
@@ -230,25 +231,16 @@ class RingFilm:
         return self._motion(0.0)
 
     def _motion(self, load: float) -> InnerMotion:
-        moving = RingInMotion(self.pair, load)
+        moving, starts = RingInMotion(self.pair, load), RingStarts(self.pair)
         return InnerMotion(
             states=moving.states,
-            rest=self._rest,
+            rest=starts.rest,
             force=moving.force,
             velocity=moving.velocity,
             loaded=self._motion,
+            beside=starts.beside,
+            gap=starts.gap,
         )
-
-    def _rest(self, points: OperatingPoints) -> Array:
-        """Return the ring's place, and its velocity of none where it has a mass."""
-        _, inner, outer = self.films_at(points)
-        _, place, *_ = self.pair.places_and_flows(inner, outer)
-        still = (
-            np.zeros_like(place)
-            if self.pair.ring.ring_mass > 0.0
-            else np.empty((*place.shape[:-1], 0))
-        )
-        return np.concatenate([self.pair.wider * place, still], axis=-1)
 
     def accuracy(self, sommerfeld: float) -> Accuracy | None:
         """Return the distance of both films' tables from finer solutions; None for short films."""
@@ -278,8 +270,3 @@ class RingFilm:
     def outline(self, angle: ArrayLike) -> Array:
         """Return the circle of both clearances together."""
         return (1.0 + self.pair.wider) * vector(np.cos(angle), np.sin(angle))
-
-
-def _thinnest(place: Array) -> Array:
-    """Return the thinnest film around a journal at a place, in its own C."""
-    return 1.0 - np.hypot(place[..., 0], place[..., 1])

@@ -26,7 +26,7 @@ from rotorcalc.films.short import motion as short
 from rotorcalc.films.units import FilmUnits
 
 # Loads per decade at which r is known, between which a run-up has it from a spline, to some 1e-8.
-_PER_DECADE, _LIGHT = 60, 1e5
+_PER_DECADE, _LIGHT = 40, 1e8
 # A force so small in film units that no motion comes of it.
 _NOTHING = 1e-9
 
@@ -52,8 +52,8 @@ class RingInMotion:
     _slip: list[float] = field(default_factory=list[float])
     _drift: list[float] = field(default_factory=list[float])
     _held: list[float] = field(default_factory=list[float])
-    # σ and r of the first point: those of all points of a motion at one speed.
-    _first: list[float] = field(default_factory=list[float])
+    # Viscosity, speed and r of the last point; at one speed those of all.
+    _last: list[float] = field(default_factory=list[float])
 
     def __reduce__(self) -> tuple[type, tuple[Pair, float]]:
         """Return what another process makes it from again."""
@@ -70,13 +70,15 @@ class RingInMotion:
 
     def _ratio(self, viscosity: float, speed: float) -> float:
         """Return r = Ω_R/Ω in static equilibrium."""
-        unit = float(FilmUnits(self.pair.bearing, viscosity, speed).force)
-        sigma = 0.25 * unit / self.load if self.load > 0.0 else math.inf
-        if not self._first:
-            self._first[:] = sigma, float(balance.speed_ratio(self.pair, np.array(sigma)))
-        if sigma == self._first[0]:
-            return self._first[1]
-        return math.exp(self._over_sigma(math.log(sigma)))
+        if self._last[:2] != [viscosity, speed]:
+            unit = float(FilmUnits(self.pair.bearing, viscosity, speed).force)
+            sigma = 0.25 * unit / self.load if self.load > 0.0 else math.inf
+            if not self._last:
+                ratio = float(balance.speed_ratio(self.pair, np.array(sigma)))
+            else:
+                ratio = math.exp(self._over_sigma(math.log(sigma)))
+            self._last[:] = viscosity, speed, ratio
+        return self._last[2]
 
     @cached_property
     def _over_sigma(self) -> Callable[[float], float]:
