@@ -24,6 +24,7 @@ from rotorcalc import (
 )
 from rotorcalc.analysis import Axes, FilmCurves, ForceCoefficients, force_coefficients
 from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.bearing_parts import Parts, bearing_parts
 from rotorcalc.coefficients import (
     AddedMass,
     Equilibrium,
@@ -41,8 +42,7 @@ from rotorcalc.coefficients import (
 )
 from rotorcalc.figures.equilibrium import Path
 from rotorcalc.figures.machine import OtherSpeeds
-from rotorcalc.films import film_of
-from rotorcalc.films.finite import draft
+from rotorcalc.films import draft, film_of
 from rotorcalc.numerics.first_answer import from_first_answer
 from rotorcalc.oils import by_other_law
 from rotorcalc.root_locus import Locus, root_locus
@@ -216,6 +216,11 @@ class Computed:
     def other_speeds(self) -> OtherSpeeds:
         """What the bearing's drawing shows at other speeds."""
         return _other_speeds(self.machine, self.speed, self.top_speed)
+
+    @cached_property
+    def parts(self) -> Parts | None:
+        """The bearing's parts that move or are supplied, at the running speed."""
+        return bearing_parts(self.machine, self.speed)
 
     @property
     def path(self) -> Path:
@@ -475,6 +480,7 @@ def _other_speeds(machine: Machine, speed: float, top_speed: float) -> OtherSpee
         pressure=middle_pressure(machine, some, angle=_COARSE),
         modes_speed=modes_speed,
         modes=analyse(machine, modes_speed).mode_shapes(),
+        parts=bearing_parts(machine, some),
     )
 
 

@@ -7,8 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotorcalc.arrays import Array
+from rotorcalc.bearing_parts import recess_ends
 from rotorcalc.figures import style
 from rotorcalc.films.pads import Pad, pads_of
+from rotorcalc.geometry import FloatingRing, Geometry, Hydrostatic
 from rotorcalc.machine import JournalBearing
 
 # Clearance over the bore's radius in a small picture, and the deepest pocket drawn there, in C.
@@ -16,6 +18,7 @@ _SHOWN, _DEEPEST = 0.3, 1.0
 # Depth of a groove as drawn, over the radius there.
 _GROOVE = 0.07
 _STEP, _LEAST = math.radians(2.0), 1e-6
+_TURN, _MIDDLE = 2.0 * math.pi, np.zeros(2)
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,7 +121,7 @@ def picture(bearing: JournalBearing) -> str:
     Parameters
     ----------
     bearing : JournalBearing
-        A bearing of fixed pads.
+        The bearing.
 
     Returns
     -------
@@ -128,18 +131,36 @@ def picture(bearing: JournalBearing) -> str:
     Raises
     ------
     ValueError
-        Where the bearing has no fixed pads.
+        Where nothing is known of the bore's shape.
     """
     journal = 1.0 - _SHOWN
-    lines = pad_lines(pads_of(bearing), journal=journal, gap=_SHOWN, deepest=_DEEPEST)
-    strokes = [_path(one.surface, style.GREY, 0.07) for one in lines]
-    strokes += [_path(one.pocket, style.UNSTABLE, 0.05) for one in lines if len(one.pocket)]
     return (
         '<svg xmlns="http://www.w3.org/2000/svg" viewBox="-1.4 -1.4 2.8 2.8" width="96" '
         f'height="96" fill="none" stroke-linejoin="round"><circle r="{journal:g}" '
         f'fill="{style.JOURNAL}" fill-opacity="0.25" stroke="{style.JOURNAL}" stroke-width="0.04"/>'
-        f"{''.join(strokes)}</svg>"
+        f"{''.join(_strokes(bearing.geometry, bearing))}</svg>"
     )
+
+
+@functools.singledispatch
+def _strokes(_geometry: Geometry, bearing: JournalBearing) -> list[str]:
+    """Return the lines of a bore of fixed pads, as SVG."""
+    lines = pad_lines(pads_of(bearing), journal=1.0 - _SHOWN, gap=_SHOWN, deepest=_DEEPEST)
+    strokes = [_path(one.surface, style.GREY, 0.07) for one in lines]
+    return strokes + [_path(one.pocket, style.UNSTABLE, 0.05) for one in lines if len(one.pocket)]
+
+
+@_strokes.register
+def _ringed(_geometry: FloatingRing, _bearing: JournalBearing) -> list[str]:
+    circles = ((0.84, 0.05), (0.96, 0.05), (1.12, 0.07))
+    return [_path(_arc(_MIDDLE, radius, 0.0, _TURN), style.GREY, wide) for radius, wide in circles]
+
+
+@_strokes.register
+def _recessed(geometry: Hydrostatic, _bearing: JournalBearing) -> list[str]:
+    circle = _path(_arc(_MIDDLE, 1.0, 0.0, _TURN), style.GREY, 0.05)
+    recesses = [_arc(_MIDDLE, 1.12, *ends) for ends in recess_ends(geometry).tolist()]
+    return [circle, *(_path(one, style.UNSTABLE, 0.09) for one in recesses)]
 
 
 def _path(places: Array, colour: str, width: float) -> str:

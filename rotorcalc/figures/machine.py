@@ -10,14 +10,16 @@ from numpy.typing import ArrayLike
 
 from rotorcalc.analysis import Sweep
 from rotorcalc.arrays import Array
+from rotorcalc.bearing_parts import Parts
 from rotorcalc.coefficients import PressureField
 from rotorcalc.display import Result
 from rotorcalc.figures import cursor, style, text
 from rotorcalc.figures.bore import PadLines, closed, pad_lines
+from rotorcalc.figures.parts import RECESS, RING, moving, still
 from rotorcalc.figures.style import Chart, Trace
 from rotorcalc.films import film_of
 from rotorcalc.films.pads import Pad, pads_of
-from rotorcalc.geometry import PartialArc
+from rotorcalc.geometry import FloatingRing, PartialArc
 from rotorcalc.machine import JournalBearing
 from rotorcalc.modes import ModeShapes, leading_place
 from rotorcalc.unbalance_response import orbit_ellipse
@@ -29,7 +31,7 @@ EXAGGERATED = 0.3
 _ARC = 0.55
 _ANGLES = np.linspace(0.0, 2.0 * np.pi, 181)
 _AROUND = np.linspace(0.0, 2.0 * np.pi, 361)  # a square bore's corners are among these
-_BLUISH = "rgba(43,123,186,0.16)"
+_BLUISH, _GREYISH = "rgba(43,123,186,0.16)", "rgba(128,128,128,0.22)"
 _CROSS = {"symbol": "cross-thin", "size": 9, "line": {"color": style.GREY, "width": 1.6}}
 _SMALL_CROSS = {"symbol": "x-thin", "size": 6, "line": {"color": style.GREY, "width": 1.4}}
 # The deepest pocket in the exaggerated drawing, in C: a deeper one would reach the load's arrow.
@@ -59,6 +61,8 @@ class OtherSpeeds(Result):
         Speeds of the modes [rad/s], the running speed among them.
     modes : ModeShapes
         The free motions there.
+    parts : Parts, optional
+        The parts that move, at the speeds of the pressure.
     """
 
     sweep: Sweep
@@ -67,15 +71,17 @@ class OtherSpeeds(Result):
     pressure: Array
     modes_speed: Array
     modes: ModeShapes
+    parts: Parts | None = None
 
 
-def cross_section(
+def cross_section(  # noqa: PLR0913 - the drawing has what each of these shows
     point: Sweep,
     film: PressureField,
     units: Units,
     *,
     to_scale: bool = False,
     others: OtherSpeeds | None = None,
+    parts: Parts | None = None,
 ) -> Chart:
     """Return the bearing seen along the shaft: X, the load, points down; the journal turns X to Y.
 
@@ -91,24 +97,27 @@ def cross_section(
         Whether to draw the film to scale; otherwise the clearance is drawn as 30 % of the bore.
     others : OtherSpeeds, optional
         The machine at other speeds, for a drawing that can show them and the journal's whirl.
+    parts : Parts, optional
+        The parts of the bearing that move or are supplied, at the running speed.
 
     Returns
     -------
     Chart
         Lengths in radii of the bore, where it is widest.
     """
-    bore = _Bore.of(point, to_scale=to_scale)
+    bore = _Bore.of(point, parts, to_scale=to_scale)
     centre = point.journal_position / point.machine.bearing.radial_clearance * bore.gap
     pressure = film.pressure[:, np.argmin(np.abs(film.axial_position))]
     notes = {
         **_load_arrow(point.machine.static_load, units),
         **_rotation_arrow(centre, 0.5 * bore.journal),
         **_names(point, centre, bore),
-        **_readings(point, units),
+        **_readings(point, units, parts),
+        **_recess_names(parts),
     }
     traces = [
         *_pressure(film.theta - film.load_theta, pressure, bore),
-        *_walls(bore),
+        *_walls(bore, parts),
         _ring(centre + _circle(bore.journal, _ANGLES), "journal", style.JOURNAL, fill=_BLUISH),
         *_turning(centre, bore),
         *_attitude(point, bore),
@@ -178,18 +187,21 @@ class _Bore:
     pads: tuple[PadLines, ...] = ()
     # Whether the journal can touch the rest of a circle beside a single pad.
     is_open: bool = False
+    # Thickness of a ring between journal and bore, as drawn.
+    ring: float = 0.0
 
     @classmethod
-    def of(cls, point: Sweep, *, to_scale: bool) -> "_Bore":
+    def of(cls, point: Sweep, parts: Parts | None, *, to_scale: bool) -> "_Bore":
         bearing = point.machine.bearing
         outline = film_of(bearing).outline(_AROUND)
         widest = float(np.hypot(*outline.T).max())
         C = bearing.radial_clearance
-        gap = C / (bearing.radius + widest * C) if to_scale else EXAGGERATED / widest
-        journal = 1.0 - gap * widest
-        return cls(
-            outline, gap, journal, *_pads(bearing, journal, gap, math.inf if to_scale else _POCKET)
-        )
+        thick = _ring_thickness(bearing, parts)
+        gap = C / (bearing.radius + thick + widest * C) if to_scale else EXAGGERATED / widest
+        ring = 0.0 if thick == 0.0 else gap * thick / C if to_scale else RING
+        journal = 1.0 - gap * widest - ring
+        pads, is_open = _pads(bearing, journal, gap, math.inf if to_scale else _POCKET)
+        return cls(outline, gap, journal, pads, is_open, ring)
 
     def wall(self, angles: Array) -> Array:
         """Return the wall where its normal points in these directions, (n, 2)."""
@@ -197,7 +209,18 @@ class _Bore:
         if np.ptp(np.hypot(*self.outline.T)) < 1e-9:  # round, as most are: nothing to look for
             return normal
         touched = self.outline[np.argmax(normal @ self.outline.T, axis=-1)]
-        return self.gap * touched + self.journal * normal
+        return self.gap * touched + (self.journal + self.ring) * normal
+
+    def moving(self, parts: Parts, at: int) -> dict[str, Array]:
+        """Return the lines of what moves, at one of the parts' speeds."""
+        return moving(parts, at, journal=self.journal, gap=self.gap, ring=self.ring)
+
+
+def _ring_thickness(bearing: JournalBearing, parts: Parts | None) -> float:
+    """Return the thickness of a floating ring [m], 0 where there is none."""
+    if parts is None or parts.ring is None or not isinstance(bearing.geometry, FloatingRing):
+        return 0.0
+    return bearing.geometry.outer_radius - bearing.radius - bearing.radial_clearance
 
 
 def _pads(
@@ -211,8 +234,20 @@ def _pads(
     return lines, isinstance(bearing.geometry, PartialArc)
 
 
-def _walls(bore: _Bore) -> Iterator[Trace]:
+# Lines of parts: colours and widths, by the names of their traces.
+_PARTS = {
+    "pads": (style.GREY, 3.6), "pivots": (style.PURPLE, 3.0), "housing": (style.GREY, 1.2),
+    "ring": (style.GREY, 1.6), "recesses": (style.PURPLE, 2.0), "foil": (style.GREY, 2.4),
+    "bumps": (style.GREY, 1.0), "slit": (style.PURPLE, 2.0),
+}  # fmt: skip
+
+
+def _walls(bore: _Bore, parts: Parts | None) -> Iterator[Trace]:
     """Yield the bore: its surface, and of a bore with grooves pads, pockets and centres."""
+    if parts is not None:
+        yield from _part_lines(bore, parts)
+        if parts.pads is not None or parts.foil is not None:
+            return
     if not bore.pads:
         yield _ring(bore.wall(_ANGLES), "bearing", style.GREY, fill=None)
         return
@@ -229,6 +264,26 @@ def _walls(bore: _Bore) -> Iterator[Trace]:
     if np.any(centres != 0.0):
         name = "centres of the pads' curvature"
         yield style.mark(*_drawn(centres), name, marker=_SMALL_CROSS, hoverinfo="name")
+
+
+def _part_lines(bore: _Bore, parts: Parts) -> Iterator[Trace]:
+    """Yield the lines of the parts that move, and of what stands around them."""
+    for name, places in (
+        still(parts, journal=bore.journal, gap=bore.gap) | bore.moving(parts, 0)
+    ).items():
+        colour, width = _PARTS[name]
+        filled = {"fill": "toself", "fillcolor": _GREYISH} if name == "ring" else {}
+        x, y = _drawn(places)
+        yield style.line(x, y, name, colour, width=width, hoverinfo="name", **filled)
+    if parts.ring is not None:
+        mark = bore.gap * parts.ring[0] + _ring_mark(bore)
+        yield style.line(*_drawn(mark), "ring key", style.GREY, width=4, hoverinfo="skip")
+
+
+def _ring_mark(bore: _Bore) -> Array:
+    """Return a line across the ring, which turns with it, about the ring's centre."""
+    inside = bore.journal + bore.gap
+    return np.array([[inside, 0.0], [inside + bore.ring, 0.0]])
 
 
 def _several(parts: list[Array], name: str, colour: str, *, width: float) -> Trace:
@@ -339,20 +394,34 @@ class _Reading:
         return f"{style.symbols(self.symbol)} = {text.amount(self.unit, value)}"
 
 
-def _read(sweep: Sweep, units: Units) -> list[_Reading]:
-    """Return what is read off the drawing, at a speed or over speed."""
+def _read(sweep: Sweep, units: Units, parts: Parts | None) -> list[_Reading]:
+    """Return what is read off the drawing, at a speed or over the sweep's."""
     e = sweep.eccentricity_ratio * sweep.machine.bearing.radial_clearance
     return [
         _Reading("φ", units.angle, sweep.attitude_angle),
         _Reading("e", units.film, e),
         _Reading("h_min", units.film, sweep.minimum_film_thickness),
         _Reading("p_max", units.pressure, sweep.peak_pressure),
+        *_read_parts(sweep, units, parts),
     ]
 
 
-def _readings(point: Sweep, units: Units) -> dict[str, Item]:
+def _read_parts(sweep: Sweep, units: Units, parts: Parts | None) -> Iterator[_Reading]:
+    """Yield what is read off the parts: the ring's speed, the recesses' pressures."""
+    if parts is None:
+        return
+    if parts.ring_ratio is not None:
+        ratio = np.interp(sweep.speed, parts.speed, parts.ring_ratio)
+        yield _Reading("Ω_R", units.speed, ratio * sweep.speed)
+    if parts.recess_pressure is not None:
+        for i in range(parts.recess_pressure.shape[-1]):
+            values = np.interp(sweep.speed, parts.speed, parts.recess_pressure[:, i])
+            yield _Reading(f"p_{i + 1}", units.pressure, values)
+
+
+def _readings(point: Sweep, units: Units, parts: Parts | None) -> dict[str, Item]:
     """Return the numbers of the drawing, one below the other at its left edge."""
-    rows = {one.symbol: one.words(float(one.values)) for one in _read(point, units)}
+    rows = {one.symbol: one.words(float(one.values)) for one in _read(point, units, parts)}
     if not math.isfinite(float(point.peak_pressure)):
         rows["p_max"] = f"{style.symbols('p_max')} not known"
     return {
@@ -361,6 +430,17 @@ def _readings(point: Sweep, units: Units) -> dict[str, Item]:
         )
         for i, (symbol, words) in enumerate(rows.items())
     }  # fmt: skip
+
+
+def _recess_names(parts: Parts | None) -> dict[str, Item]:
+    """Return the number of each recess, beside it."""
+    if parts is None or parts.recesses is None:
+        return {}
+    middles = _circle(RECESS + 0.09, parts.recesses.mean(axis=-1))
+    return {
+        f"recess {i}": _label(f"{i}", place, font={"color": style.PURPLE})
+        for i, place in enumerate(middles, start=1)
+    }
 
 
 def _label(name: str, place: Array, **extra: Any) -> Item:
@@ -420,12 +500,17 @@ class _Drawing:
         x, y = _drawn(sweep.journal_position / C * self.bore.gap)
         return {
             "at": self.units.speed.of(sweep.speed), "x": x, "y": y,
+            "few": self.units.speed.of(self.others.pressure_speed),
             "angle": sweep.attitude_angle, "arc": _ARC * self.bore.journal,
             "name": (_ARC + 0.16) * self.bore.journal, "journal": self.bore.journal,
             "room": sweep.minimum_film_thickness / C * self.bore.gap,
             "notes": {name: place for place, name in enumerate(self.notes)},
-            "readings": [self._reading(one) for one in _read(sweep, self.units)],
+            "readings": [
+                self._reading(one) for one in _read(sweep, self.units, self.others.parts)
+            ],
             "pressure": self._pressure(),
+            "moving": self._moving(),
+            "ring": self._ring(),
             "whirl": self._whirl(),
             "thicker": self.bore.gap * point.machine.bearing.radius / C,
         }  # fmt: skip
@@ -443,8 +528,30 @@ class _Drawing:
         angle = self.others.angle
         x, y = _drawn(self.bore.wall(angle))
         return {
-            "at": self.units.speed.of(self.others.pressure_speed), "angle": angle, "x": x, "y": y,
+            "angle": angle, "x": x, "y": y,
             "shares": list(_PEAK * _shares(self.others.pressure)),
+        }  # fmt: skip
+
+    def _moving(self) -> dict[str, Any]:
+        """Return the lines of parts that move, at the speeds of the pressure, by their traces."""
+        parts = self.others.parts
+        if parts is None:
+            return {}
+        at = [self.bore.moving(parts, i) for i in range(len(parts.speed))]
+        return {
+            name: dict(zip("xy", zip(*(_drawn(one[name]) for one in at), strict=True), strict=True))
+            for name in at[0]
+        }
+
+    def _ring(self) -> dict[str, Any] | None:
+        """Return where a floating ring's centre is and how fast it turns, over some speeds."""
+        parts = self.others.parts
+        if parts is None or parts.ring is None:
+            return None
+        x, y = _drawn(self.bore.gap * parts.ring)
+        return {
+            "ratio": parts.ring_ratio, "x": x, "y": y,
+            "ends": _ring_mark(self.bore)[:, 0],
         }  # fmt: skip
 
     def _whirl(self) -> dict[str, Any]:

@@ -6,6 +6,7 @@
 
 import functools
 from collections.abc import Callable
+from dataclasses import replace
 
 from numpy.typing import ArrayLike
 
@@ -14,13 +15,16 @@ from rotorcalc.arrays import Array
 from rotorcalc.films import short
 from rotorcalc.films.dynamics import FilmDynamics, reduced
 from rotorcalc.films.finite import CoarseFilm, FiniteFilm
+from rotorcalc.films.finite.table import takes_long
 from rotorcalc.films.hydrostatic import CoarseHydrostaticFilm, HydrostaticFilm
 from rotorcalc.films.lobes import LobesFilm
 from rotorcalc.films.model import Film, FilmMotion, InnerMotion
+from rotorcalc.films.pads import pads_of
 from rotorcalc.films.ring import RingFilm
 from rotorcalc.films.short import ShortFilm
 from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
 from rotorcalc.films.units import FilmUnits
+from rotorcalc.geometry import FloatingRing, Hydrostatic
 from rotorcalc.machine import JournalBearing
 
 __all__ = [
@@ -33,6 +37,7 @@ __all__ = [
     "FilmUnits",
     "InnerMotion",
     "OperatingPoints",
+    "draft",
     "film_coefficients",
     "film_of",
     "film_state",
@@ -83,6 +88,31 @@ def film_of(bearing: JournalBearing) -> Film:
         Of the model that the bearing names.
     """
     return MODELS[bearing.geometry.kind, bearing.model](bearing)
+
+
+@checked
+def draft(bearing: JournalBearing) -> JournalBearing:
+    """Return a bearing on a coarse mesh where its own takes long; else as it is.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing.
+
+    Returns
+    -------
+    JournalBearing
+        The same bore, to draw while it changes.
+    """
+    if bearing.model != "finite" or not _takes_long(bearing):
+        return bearing
+    return replace(bearing, film="coarse")
+
+
+def _takes_long(bearing: JournalBearing) -> bool:
+    if isinstance(bearing.geometry, FloatingRing):  # two plain films
+        return False
+    return isinstance(bearing.geometry, Hydrostatic) or takes_long(pads_of(bearing))
 
 
 @checked

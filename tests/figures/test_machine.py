@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 
 from rotorcalc import PRESETS, analyse
+from rotorcalc.bearing_parts import bearing_parts
 from rotorcalc.coefficients import film_field, middle_pressure
 from rotorcalc.figures import SI, US, machine
 from rotorcalc.films import film_of
 from rotorcalc.films.pads import pads_of
+from rotorcalc.ring import ring_equilibrium
 from tests.figures.charts import check_plotly_takes_it
 from tests.films.models import BEARINGS
 from tests.machines import SHEET
@@ -23,6 +25,10 @@ def drawn(preset, units=SI, **changes):
     point = analyse(made, preset.speed)
     film = film_field(made, preset.speed, theta=THETA)
     return point, machine.cross_section(point, film, units)
+
+
+def on(name):
+    return replace(SHEET, bearing=BEARINGS[name])
 
 
 def trace(chart, name):
@@ -155,6 +161,7 @@ def other_speeds(made, speed):
         pressure=middle_pressure(made, SPEEDS, angle=THETA),
         modes_speed=speeds,
         modes=analyse(made, speeds).mode_shapes(),
+        parts=bearing_parts(made, SPEEDS),
     )
 
 
@@ -187,6 +194,53 @@ def test_at_another_speed_the_drawing_is_that_speeds_own(name):
         peak = np.hypot(*(wall * (1.0 + out[:, None])).T).max()
         band = trace(there, "pressure")
         assert peak == pytest.approx(np.hypot(band["x"], band["y"]).max(), rel=2e-3)
+
+
+WITH_PARTS = [name for name in BEARINGS if bearing_parts(on(name), 600.0) is not None]
+
+
+@pytest.mark.parametrize("to_scale", [False, True])
+@pytest.mark.parametrize("name", WITH_PARTS)
+def test_parts_at_another_speed_are_drawn_as_they_are_there(name, to_scale):
+    made, speed = on(name), float(SPEEDS[9])
+    here, there = (
+        machine.cross_section(
+            analyse(made, one), film_field(made, one, theta=THETA), SI, to_scale=to_scale,
+            parts=bearing_parts(made, one),
+            others=other_speeds(made, one) if one == 600.0 else None,
+        )
+        for one in (600.0, speed)
+    )  # fmt: skip
+    check_plotly_takes_it(here)
+    said = here["layout"]["meta"]["cursor"]["drawing"]
+    for part, lines in said["moving"].items():
+        shown = trace(there, part)
+        assert lines["x"][9] == pytest.approx(shown["x"], nan_ok=True, abs=1e-12)
+        assert lines["y"][9] == pytest.approx(shown["y"], nan_ok=True, abs=1e-12)
+    read = [note["text"] for note in there["layout"]["annotations"]]
+    for reading in said["readings"]:
+        (words,) = [one for one in read if one.startswith(reading["words"])]
+        number = float(words.removeprefix(reading["words"]).split()[0].removesuffix("°"))
+        over = other_speeds(made, 600.0).sweep.speed
+        assert number == pytest.approx(np.interp(speed, over, reading["values"]), rel=1e-3)
+
+
+def test_a_ring_floats_clear_of_journal_and_bore_and_turns_at_its_own_speed():
+    made = on("floating ring")
+    found = ring_equilibrium(made, 600.0)
+    chart = machine.cross_section(
+        analyse(made, 600.0), film_field(made, 600.0, theta=THETA), SI,
+        parts=bearing_parts(made, 600.0),
+    )  # fmt: skip
+    radius = {
+        name: np.ptp(trace(chart, name)["x"]) / 2.0 for name in ("journal", "ring", "bearing")
+    }
+    assert radius["journal"] < radius["ring"] < radius["bearing"]
+    rpm_there = float(SI.speed.of(found.ring_speed))
+    (said,) = [
+        n["text"] for n in chart["layout"]["annotations"] if "Ω" in n["text"] and "=" in n["text"]
+    ]
+    assert said.endswith(f"{rpm_there:.0f} rpm")
 
 
 def test_the_whirl_is_the_least_damped_modes():

@@ -92,6 +92,7 @@ export class Drawing {
       key: columns([0.8, 1].map((share) => onCircle(share * given.journal, motion.turn).map((one, i) => one + centre[i]))),
       whirl: columns([...motion.trail.map(([x, y]) => [rest[0] + x, rest[1] + y]), centre]),
       ...(place === undefined ? {} : this.atSpeed(place)),
+      ...this.ringKey(place),
     };
     const data = this.figure.data.map((trace) => (trace.name in changes ? { ...trace, ...changes[trace.name] } : trace));
     return { ...this.figure, data, layout: { ...this.figure.layout, annotations: this.notes(place, rest, by) } };
@@ -105,10 +106,9 @@ export class Drawing {
       "line of centres": columns([[0, 0], onCircle(1, phi)]),
       "attitude angle": columns(Array.from({ length: 49 }, (_, i) => onCircle(arc, (phi * i) / 48))),
     };
+    Object.assign(changes, this.parts(place));
     if (!pressure) return changes;
-    // Speeds beyond the first and last that have a pressure take theirs.
-    const [first, last] = [pressure.at[0], pressure.at.at(-1)];
-    const between = this.placeIn(pressure.at, Math.min(Math.max(this.itemAt(this.given.at, place), first), last));
+    const between = this.between(place);
     const [one, two] = [Math.floor, Math.ceil].map((side) => pressure.shares[side(between)]);
     const outer = pressure.angle.map((theta, i) => {
       const [x, y] = onCircle(one[i] + (two[i] - one[i]) * (between % 1), theta);
@@ -116,6 +116,33 @@ export class Drawing {
     });
     const wall = pressure.x.map((x, i) => [x, pressure.y[i]]).reverse();
     return { ...changes, pressure: columns([...outer, ...wall]) };
+  }
+
+  // The place of a speed among the few that have a pressure and moving parts; beyond their ends, the end.
+  between(place) {
+    const { at, few } = this.given;
+    return this.placeIn(few, Math.min(Math.max(this.itemAt(at, place), few[0]), few.at(-1)));
+  }
+
+  // Pads, ring or foil at a speed, between those at the speeds beside it.
+  parts(place) {
+    const between = this.between(place);
+    const mixed = (lists) => {
+      const [one, two] = [Math.floor, Math.ceil].map((side) => lists[side(between)]);
+      return Array.from(one, (from, i) => (Number.isFinite(from) ? from + (two[i] - from) * (between % 1) : null));
+    };
+    return Object.fromEntries(Object.entries(this.given.moving).map(([name, { x, y }]) => [name, { x: mixed(x), y: mixed(y) }]));
+  }
+
+  // The mark on a floating ring, which turns at its share of the speed.
+  ringKey(place) {
+    const { ring, few } = this.given;
+    if (!ring) return {};
+    const at = place === undefined ? this.placeIn(few, this.view.cursor.now) : this.between(place);
+    if (at === undefined) return {};
+    const [x, y, ratio] = ["x", "y", "ratio"].map((name) => this.itemAt(ring[name], at));
+    this.ratio = ratio;
+    return { "ring key": columns(Array.from(ring.ends, (end) => onCircle(end, this.motion.ringTurn ?? 0).map((one, i) => one + [x, y][i]))) };
   }
 
   notes(place, rest, by) {
@@ -210,7 +237,7 @@ export class Drawing {
 
   begin() {
     const size = (this.mode.growth > 0 ? GROWS : DECAYS)[0];
-    this.motion = { phase: 0, turn: this.motion.turn, x: 0, y: 0, trail: [], size };
+    this.motion = { phase: 0, turn: this.motion.turn, ringTurn: this.motion.ringTurn ?? 0, x: 0, y: 0, trail: [], size };
     this.tell();
   }
 
@@ -218,8 +245,9 @@ export class Drawing {
   advance(seconds) {
     const { mode, room } = this;
     const time = seconds / mode.factor;
-    const { turn, phase, size, trail } = this.motion;
-    const next = { turn: (turn + mode.speed * time) % (2 * Math.PI), phase: phase + mode.frequency * time, size: size * Math.exp(mode.growth * time) };
+    const { turn, ringTurn, phase, size, trail } = this.motion;
+    const turns = (angle, speed) => (angle + speed * time) % (2 * Math.PI);
+    const next = { turn: turns(turn, mode.speed), ringTurn: turns(ringTurn, mode.speed * (this.ratio ?? 0)), phase: phase + mode.frequency * time, size: size * Math.exp(mode.growth * time) };
     const [x, y] = [mode.x, mode.y].map(([re, im]) => room * next.size * (re * Math.cos(next.phase) - im * Math.sin(next.phase)));
     this.motion = { ...next, x, y, trail: [...trail.slice(1 - TRAIL), [x, y]] };
     if (mode.growth > 0 ? next.size > GROWS[1] : next.size < DECAYS[1]) this.begin();

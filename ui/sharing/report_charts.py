@@ -103,7 +103,7 @@ SECTIONS: dict[str, tuple[Figure, ...]] = {
     "Static equilibrium": (
         Figure(
             "cross_section", "Bearing",
-            lambda c, u: machine.cross_section(c.point, c.film, u),
+            lambda c, u: machine.cross_section(c.point, c.film, u, parts=c.parts),
             "Film exaggerated; pressure at mid-length.", ("pressure",), height=285,
         ),
         Figure(

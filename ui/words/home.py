@@ -19,11 +19,16 @@ def content(page: Page) -> None:
         scale = choose("Film drawn", ["exaggerated", "to scale"], "machine_scale", hidden=True)
         page.chart(
             lambda c: machine.cross_section(
-                c.point, c.middle_film, units, to_scale=scale == "to scale", others=c.other_speeds
+                c.point,
+                c.middle_film,
+                units,
+                to_scale=scale == "to scale",
+                others=c.other_speeds,
+                parts=c.parts,
             ),
             "cross_section",
             while_dragging=lambda c: machine.cross_section(
-                c.point, c.middle_film, units, to_scale=scale == "to scale"
+                c.point, c.middle_film, units, to_scale=scale == "to scale", parts=c.parts
             ),
             alt="Cross-section of the bearing with the journal, the load and the film's pressure",
             caption=lambda c: _bearing(c, to_scale=scale == "to scale"),

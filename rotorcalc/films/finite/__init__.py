@@ -6,6 +6,6 @@ vanish (Swift and Stieber). A bore's film depends on σ alone: it is tabulated o
 each geometry and L/D, and every result is read from the table.
 """
 
-from rotorcalc.films.finite.film import CoarseFilm, FiniteFilm, draft
+from rotorcalc.films.finite.film import CoarseFilm, FiniteFilm
 
-__all__ = ["CoarseFilm", "FiniteFilm", "draft"]
+__all__ = ["CoarseFilm", "FiniteFilm"]

@@ -1,7 +1,7 @@
 """The film of a fixed bore of finite length as a film model (interface in `films.model`)."""
 
 from collections.abc import Hashable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import ClassVar
 
@@ -14,7 +14,7 @@ from rotorcalc.films.finite.accuracy import accuracy
 from rotorcalc.films.finite.direct_motion import SOLVED_REVOLUTION, SolvedPadsInMotion
 from rotorcalc.films.finite.motion import REVOLUTION, SECONDS, THINNEST, FinitePadsInMotion
 from rotorcalc.films.finite.pressure import Pressures
-from rotorcalc.films.finite.table import FilmTable, table, takes_long
+from rotorcalc.films.finite.table import FilmTable, table
 from rotorcalc.films.model import Accuracy, FilmMotion, Limit, Source
 from rotorcalc.films.pads import gap, have_pockets, outline, pads_of, walls_of
 from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
@@ -228,21 +228,3 @@ class CoarseFilm(FiniteFilm):
     """The same on a mesh so coarse that K and C are known to some 4 % only: for drafts."""
 
     _coarse: ClassVar[bool] = True
-
-
-def draft(bearing: JournalBearing) -> JournalBearing:
-    """Return a bearing on a coarse mesh where its own takes long; else as it is.
-
-    Parameters
-    ----------
-    bearing : JournalBearing
-        The bearing.
-
-    Returns
-    -------
-    JournalBearing
-        The same bore, to draw while it changes.
-    """
-    if bearing.model != "finite" or not takes_long(pads_of(bearing)):
-        return bearing
-    return replace(bearing, film="coarse")

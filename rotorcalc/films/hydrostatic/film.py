@@ -102,7 +102,7 @@ class HydrostaticFilm:
         except RuntimeError as error:
             raise ValueError(
                 f"static load = {np.max(points.load):.4g} N: on recesses supplied at "
-                f"{p_s / 1e6:.4g} MPa no equilibrium was found in which the smallest film is at "
+                f"{p_s:.4g} Pa no equilibrium was found in which the smallest film is at "
                 f"least {THINNEST} of the clearance"
             ) from error
         return found, S.ravel()
@@ -114,7 +114,7 @@ class HydrostaticFilm:
             unit = p_s * one.radius * one.length
             raise ValueError(
                 f"static load = {W.max() * unit:.4g} N: must be at most {heaviest * unit:.4g} N on "
-                f"recesses supplied at {p_s / 1e6:.4g} MPa, F/(p_s L D) = {heaviest / 2.0:.3g}; a "
+                f"recesses supplied at {p_s:.4g} Pa, F/(p_s L D) = {heaviest / 2.0:.3g}; a "
                 "heavier load presses the journal onto the land at rest or at a low speed, as the "
                 "recess under it is at nearly the supply pressure"
             )
