@@ -15,7 +15,9 @@ from rotorcalc.display import Result
 from rotorcalc.geometry import (
     AxialGrooves,
     Elliptical,
+    FloatingRing,
     Geometry,
+    Hydrostatic,
     Lobes,
     MultiDam,
     OffsetHalves,
@@ -28,16 +30,18 @@ from rotorcalc.numerics.first_answer import from_first_answer
 from rotorcalc.onset import onset_speed
 from rotorcalc.unbalance_peaks import response_peaks
 
-# Every fixed kind at its defaults.
-KINDS: tuple[Geometry, ...] = (
-    Plain(),
-    PartialArc(),
-    AxialGrooves(),
-    Elliptical(),
-    OffsetHalves(),
-    Lobes(),
-    PressureDam(),
-    MultiDam(),
+# Every kind.
+KINDS: tuple[type[Geometry], ...] = (
+    Plain,
+    PartialArc,
+    AxialGrooves,
+    Elliptical,
+    OffsetHalves,
+    Lobes,
+    PressureDam,
+    MultiDam,
+    FloatingRing,
+    Hydrostatic,
 )
 # Speeds up to this share of the running speed, and as many, are searched for peaks.
 _TOP, _SPEEDS = 1.5, 240
@@ -111,7 +115,7 @@ def compare_bearings(
     machine : Machine
         The machine; the bearings have its journal, length, clearance and oil.
     geometries : sequence of Geometry, optional
-        The bores; by default every fixed kind at its defaults.
+        The bores; by default every kind at its usual proportions (`usual_bores`).
     speed : float
         Running speed, Ω [rad/s], positive.
     executor : concurrent.futures.Executor, optional
@@ -130,7 +134,8 @@ def compare_bearings(
         Where the speed is not positive and finite, or a geometry does not fit the bearing.
     """
     checked_speed(speed)
-    machines = [_with(machine, one) for one in (KINDS if geometries is None else geometries)]
+    bores = usual_bores(machine.bearing) if geometries is None else geometries
+    machines = [_with(machine, one) for one in bores]
     speeds = [speed] * len(machines)
     # Each is independent of the others, so any executor gives the same answer.
     each: Iterator[BearingResult] = (executor.map if executor else map)(
@@ -142,6 +147,24 @@ def compare_bearings(
         if progress is not None:
             progress(len(found) / len(machines))
     return tuple(found)
+
+
+@checked
+def usual_bores(bearing: JournalBearing) -> tuple[Geometry, ...]:
+    """Return a bore of every kind as is usual around a bearing's journal.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        Its diameter, length and clearance enter.
+
+    Returns
+    -------
+    tuple of Geometry
+        In the order of `KINDS`.
+    """
+    D, L, C = bearing.diameter, bearing.length, bearing.radial_clearance
+    return tuple(kind.around(D, L, C) for kind in KINDS)
 
 
 def _with(machine: Machine, geometry: Geometry) -> Machine:

@@ -10,7 +10,7 @@ is the machined one of a pad in every kind: the radius of its curvature less the
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Self
 
 from scipy.constants import degree
 
@@ -43,6 +43,11 @@ class Geometry(Kind):
     def implied(self, name: str, clearance: float) -> float:  # noqa: ARG002 - of some kinds' fields
         """Return the value that a field has when it is None, at a radial clearance C [m]."""
         raise ValueError(f"{name}: has no value of its own where it is None")
+
+    @classmethod
+    def around(cls, diameter: float, length: float, radial_clearance: float) -> Self:  # noqa: ARG003
+        """Return a bore of the usual proportions around a journal of D, L and C [m]."""
+        return cls()
 
     def check_around(self, radius: float) -> None:
         """Raise ValueError where the bore does not fit around a journal of a radius [m]."""
@@ -305,7 +310,7 @@ class FloatingRing(Geometry):
             )
 
     @classmethod
-    def around(cls, diameter: float, length: float, radial_clearance: float) -> "FloatingRing":
+    def around(cls, diameter: float, length: float, radial_clearance: float) -> Self:
         """Return a ring of the usual proportions around a journal.
 
         Parameters

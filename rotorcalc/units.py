@@ -71,6 +71,9 @@ class Units:
     flow: Unit
     pressure: Unit
     torque: Unit
+    rotational_stiffness: Unit
+    inertia: Unit
+    foundation: Unit
     speed: Unit = Unit("rpm", 1 / rpm)
     frequency: Unit = Unit("Hz", 1 / (2 * constants.pi))
     angle: Unit = Unit("°", 1 / constants.degree, in_si=constants.degree)
@@ -100,6 +103,9 @@ SI = Units(
     flow=Unit("l/min", minute / liter),
     pressure=Unit("MPa", 1e-6),
     torque=Unit("N·m"),
+    rotational_stiffness=Unit("N·m/rad"),
+    inertia=Unit("kg·m²"),
+    foundation=Unit("GN/m³", 1e-9),
 )
 
 US = Units(
@@ -126,6 +132,9 @@ US = Units(
     flow=Unit("gpm", minute / gallon),
     pressure=Unit("psi", 1 / psi),
     torque=Unit("lbf·in", 1 / (lbf * inch)),
+    rotational_stiffness=Unit("lbf·in/rad", 1 / (lbf * inch)),
+    inertia=Unit("lb·in²", 1 / (lb * inch**2)),
+    foundation=Unit("lbf/in³", inch**3 / lbf),
 )
 
 SYSTEMS = {"SI": SI, "US": US}

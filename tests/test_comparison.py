@@ -24,10 +24,10 @@ from tests.machines import RPM, SHEET, with_rotor
 SPEED = 6000 * RPM
 
 
-def test_every_fixed_kind_is_compared_on_the_same_journal():
+def test_every_kind_is_compared_on_the_same_journal():
     done = []
     found = compare_bearings(SHEET, speed=SPEED, progress=done.append)
-    assert [one.bearing.geometry for one in found] == list(KINDS)
+    assert [type(one.bearing.geometry) for one in found] == list(KINDS)
     assert all(one.refusal == "" for one in found)
     assert all(one.bearing.model == "finite" for one in found)
     for one in found:
@@ -37,7 +37,7 @@ def test_every_fixed_kind_is_compared_on_the_same_journal():
         assert one.minimum_film_thickness > 0.0
         assert one.power_loss > 0.0
         assert one.temperature == SHEET.temperature
-    assert done == pytest.approx(np.arange(1, 9) / 8)
+    assert done == pytest.approx(np.arange(1, len(KINDS) + 1) / len(KINDS))
 
 
 @pytest.mark.parametrize("geometry", [Plain(), Elliptical(), PressureDam()])

@@ -21,7 +21,14 @@ _TAKEN = frozenset((
     "L", "k", "u", "cs", "mj", "rpm", "rpm_max", "bearing", "film", "preset", "units", "tab",
     "present", "amplitude",
 ))  # fmt: skip
-_UNITS = {"rad": "angle", "m": "length", "Pa": "pressure", "m³/s": "flow", "kg": "mass"}
+_UNITS = {
+    "rad": "angle", "m": "length", "Pa": "pressure", "m³/s": "flow", "kg": "mass",
+    "N·m/rad": "rotational_stiffness", "kg·m²": "inertia", "N/m³": "foundation",
+}  # fmt: skip
+
+
+# What a bore is made around, and its units.
+_JOURNAL = {"D": "length", "L": "length", "C": "film"}
 
 
 @dataclass(frozen=True)
@@ -129,13 +136,25 @@ def bearing_values(bearing: JournalBearing) -> Values:
     }
 
 
-def defaults_of(kind: str) -> Values:
-    """Return the default values of a kind of bearing."""
+def defaults_of(kind: str, like: Mapping[str, Value]) -> Values:
+    """Return the default values of a kind of bearing; some follow from the journal of others."""
+    usual = _around(kind, like)
     return {KIND: kind, FILM: None} | {
-        key: field.kept(field.rule.default)
+        key: usual.get(key, field.kept(field.rule.default))
         for key, field in fields_of(kind).items()
-        if field.rule.default is not MISSING
+        if key in usual or field.rule.default is not MISSING
     }
+
+
+def _around(kind: str, like: Mapping[str, Value]) -> Values:
+    """Return what is usual around a journal for fields without defaults."""
+    fields = fields_of(kind)
+    needed = [key for key, field in fields.items() if field.rule.default is MISSING]
+    if not needed:
+        return {}
+    D, L, C = (getattr(SI, unit).to_si(like[key]) for key, unit in _JOURNAL.items())
+    found = kinds()[kind].around(D, L, C)
+    return {key: fields[key].kept(getattr(found, fields[key].name)) for key in needed}
 
 
 def without_shape(values: Mapping[str, Value]) -> Values:

@@ -8,6 +8,7 @@ other values: pads that overlap, or a pocket beyond its pad, make no bearing.
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 from ui.input_record import Input
 
@@ -26,11 +27,17 @@ NAMES = {
     "lobes": "Lobed",
     "pressure-dam": "Pressure dam",
     "multi-dam": "Multi-pocket dam",
+    "floating-ring": "Floating ring",
+    "hydrostatic": "Hydrostatic",
 }
 FILMS = {"short": "Short bearing", "finite": "Finite length", "coarse": "Coarse mesh"}
 
 # The narrowest pad, and the least land beside a pocket or between grooves [°].
 _LEAST_ARC, _LAND = 10.0, 2.0
+# The narrowest recess [°], and the thinnest ring: its outer radius over the journal's.
+_RECESS, _LEAST_RING = 10.0, 1.05
+# What lies beside each of some equal angles around the bore [°].
+_BESIDE = {"width": _LAND, "land_angle": _RECESS}
 # How far a single pad may lie beside the load line, over its arc: further it carries nothing.
 _ASIDE = 0.3
 
@@ -70,8 +77,16 @@ def _depth(label: str, follows: str) -> Input:
     )  # fmt: skip
 
 
-def _number(label: str, least: int, about: str, *parts: str) -> Pick:
-    return Pick("number", label, tuple(map(float, range(least, 7))), about, parts)
+def _number(label: str, least: int, about: str, *parts: str, key: str = "number") -> Pick:
+    return Pick(key, label, tuple(map(float, range(least, 7))), about, parts)
+
+
+def _amount(
+    key: str, label: str, kind: str, ends: tuple[float, float], about: str, **more: Any
+) -> Input:
+    """Return a quantity on a logarithmic slider."""
+    field = f"bearing.geometry.{key}"
+    return Input(key, field, label, more.pop("symbol", ""), kind, *ends, "Bearing", about, **more)
 
 
 _GROOVE = _angle(
@@ -143,6 +158,36 @@ BORES: dict[str, tuple[Input | Pick, ...]] = {
         _AXIAL,
         _LOAD,
     ),
+    "floating-ring": (
+        _amount("outer_radius", "Ring's outer radius", "length", (1.6, 1800),
+                "Radius of the ring's outer surface, on which the outer film runs.", symbol="Rₒ"),
+        _amount("outer_length", "Outer film's length", "length", (1, 1800),
+                "Axial length of the outer film.", symbol="Lₒ"),
+        _amount("outer_clearance", "Outer clearance", "film", (3, 5000),
+                "Radial clearance of the outer film; C is the inner film's.",
+                symbol="Cₒ"),
+        _amount("viscosity_ratio", "Viscosity, outer over inner", "number", (0.05, 20),
+                "Viscosity of the outer film's oil, often cooler, over that of the inner film's."),
+        _amount("ring_mass", "Ring mass", "mass", (0, 1000),
+                "Mass of the ring; 0 for a ring without mass.", least=1e-4),
+    ),
+    "hydrostatic": (
+        _number("Number of recesses", 3, "Number of equal recesses; the load points at one.",
+                "land_angle", key="recesses"),
+        _share("land_ratio", "Axial land over L", "a/L", (0.03, 0.45),
+               "Width of the land at each end of the bearing, over its length."),
+        _angle("land_angle", "Land between recesses", (5, 90),
+               "Angle of the land between two recesses."),
+        _amount("supply_pressure", "Supply pressure", "pressure", (0.05, 100),
+                "Pressure of the oil before the restrictors, above ambient.",
+                symbol="pₛ"),
+        _share("pressure_ratio", "Pressure ratio", "β", (0.1, 0.9),
+               "Pressure in the recesses over supply pressure, the journal centred and at rest: "
+               "it sizes the restrictors."),
+        Pick("restrictor", "Restrictor", ("capillary", "orifice"),
+             "What limits each recess's flow: a capillary's grows with the pressure drop, an "
+             "orifice's with its square root."),
+    ),
 }  # fmt: skip
 
 
@@ -165,11 +210,13 @@ def with_pick(values: Values, item: Pick, value: Value) -> Values:
     changed: Values = values | {item.key: value}
     if not item.parts:
         return changed
-    widest, least = _pitch(changed), _LAND if "width" in item.parts else 0.0
-    if _angle_of(values, item.parts[0]) <= widest - least:
+    widest = 360.0 / _number_of(changed, item.key)
+    room = widest - _BESIDE.get(item.parts[0], 0.0)
+    if _number_of(values, item.parts[0]) <= room:
         return changed
-    share = widest / _pitch(values)
-    return changed | {part: float(f"{_angle_of(values, part) * share:.10g}") for part in item.parts}
+    share = widest * _number_of(values, item.key) / 360.0
+    narrower = {part: min(share * _number_of(values, part), room) for part in item.parts}
+    return changed | {part: float(f"{angle:.10g}") for part, angle in narrower.items()}
 
 
 def _fitting(kind: str, item: Input | Pick, values: Mapping[str, Value]) -> Input | Pick:
@@ -182,7 +229,7 @@ def _fitting(kind: str, item: Input | Pick, values: Mapping[str, Value]) -> Inpu
 
 
 def _pitch(values: Mapping[str, Value]) -> float:
-    return 360.0 / _angle_of(values, "number")
+    return 360.0 / _number_of(values, "number")
 
 
 def _about(angle: float) -> tuple[float, float]:
@@ -190,22 +237,25 @@ def _about(angle: float) -> tuple[float, float]:
 
 
 def _half_without(values: Mapping[str, Value], key: str) -> float:
-    return 180.0 - _angle_of(values, key) - _LAND
+    return 180.0 - _number_of(values, key) - _LAND
 
 
-def _angle_of(values: Mapping[str, Value], key: str) -> float:
+def _number_of(values: Mapping[str, Value], key: str) -> float:
     value = values[key]
     return value if isinstance(value, float | int) else math.nan
 
 
 # Between which angles [°] the other values leave a bearing.
 _ROOMS: dict[tuple[str, str], Callable[[Mapping[str, Value]], tuple[float, float]]] = {
-    ("partial-arc", "arc"): lambda v: (abs(_angle_of(v, "centre")) / _ASIDE, math.inf),
-    ("partial-arc", "centre"): lambda v: _about(_ASIDE * _angle_of(v, "arc")),
+    ("partial-arc", "arc"): lambda v: (abs(_number_of(v, "centre")) / _ASIDE, math.inf),
+    ("partial-arc", "centre"): lambda v: _about(_ASIDE * _number_of(v, "arc")),
     ("axial-grooves", "width"): lambda v: (0.0, _pitch(v) - _LAND),
     ("lobes", "arc"): lambda v: (0.0, _pitch(v)),
-    ("multi-dam", "arc"): lambda v: (_angle_of(v, "pocket_arc") + _LAND, _pitch(v)),
-    ("multi-dam", "pocket_arc"): lambda v: (0.0, _angle_of(v, "arc") - _LAND),
+    ("floating-ring", "outer_radius"): lambda v: (_LEAST_RING * _number_of(v, "D") / 2.0, math.inf),
+    ("floating-ring", "outer_clearance"): lambda v: (0.0, 100.0 * _number_of(v, "outer_radius")),
+    ("hydrostatic", "land_angle"): lambda v: (0.0, 360.0 / _number_of(v, "recesses") - _RECESS),
+    ("multi-dam", "arc"): lambda v: (_number_of(v, "pocket_arc") + _LAND, _pitch(v)),
+    ("multi-dam", "pocket_arc"): lambda v: (0.0, _number_of(v, "arc") - _LAND),
     ("pressure-dam", "pocket_arc"): lambda v: (0.0, _half_without(v, "groove_width")),
     ("pressure-dam", "groove_width"): lambda v: (0.0, _half_without(v, "pocket_arc")),
 }

@@ -145,8 +145,11 @@ SUPPLY: Values = {"T_in": None, "flow": 0.0, "share": 1.0}
 OPTIONAL = frozenset(("load", "T", *SUPPLY))
 
 # Quantities that messages of the core have in SI, by their units there.
-_KINDS = {"rad/s": "speed", "m³/s": "flow", "°C": "temperature", "W": "power"}
-_QUANTITY = re.compile(rf"(-?\d[\d.]*(?:e[+-]?\d+)?) ({'|'.join(_KINDS)})(?!\w)")
+_KINDS = {
+    "rad/s": "speed", "m³/s": "flow", "°C": "temperature", "W": "power", "N": "force",
+    "Pa": "pressure",
+}  # fmt: skip
+_QUANTITY = re.compile(rf"(-?\d[\d.]*(?:e[+-]?\d+)?) ({'|'.join(_KINDS)})(?![\w·/])")
 
 # Inputs that are not part of a machine: the speeds at which it is analysed.
 _SPEEDS = ("speed", "top_speed")
@@ -192,7 +195,7 @@ def usual_values(preset: str, like: Values) -> Values:
     values = PRESET_VALUES[preset]
     kind = like[KIND]
     if values[KIND] != kind:
-        values = without_shape(values) | defaults_of(str(kind))
+        values = without_shape(values) | defaults_of(str(kind), values)
     return values | {"T": None} | SUPPLY if has_supply(like) else values
 
 

@@ -111,7 +111,7 @@ class Session:
 
     def set_kind(self, kind: str) -> None:
         """Take over a kind of bearing as it is by itself; diameter, length, clearance stay."""
-        self._set(without_shape(self.values) | defaults_of(kind))
+        self._set(without_shape(self.values) | defaults_of(kind, self.values))
 
     def set_bearing(self, bearing: JournalBearing) -> None:
         """Take over another bearing's bore and film model; diameter, length, clearance stay."""

@@ -15,9 +15,9 @@ from streamlit.delta_generator import DeltaGenerator
 from streamlit.elements.lib.column_types import ButtonColumnResult, ColumnConfig
 
 from rotorcalc import JournalBearing, Machine
-from rotorcalc.comparison import KINDS, BearingResult
+from rotorcalc.comparison import BearingResult, usual_bores
 from rotorcalc.figures import Units
-from rotorcalc.geometry import Geometry
+from rotorcalc.geometry import Geometry, Plain
 from ui.bearing import film_name
 from ui.bores import name_of
 from ui.format import amount, lower
@@ -114,6 +114,22 @@ _JUDGEMENTS = {
         "dimensions to get right.",
         (_LATER,),
     ),
+    "floating-ring": Judgement(
+        "Easy to make and cheap, for turbochargers above all; each of its two films feeds a whirl, "
+        "and such machines run on limit cycles, far above their onset.",
+        (
+            Claim("It loses less power than the plain bore", "power_loss", "power", more=False),
+            Claim("It whirls below the plain bore's onset", "onset", "speed", more=False),
+        ),
+    ),
+    "hydrostatic": Judgement(
+        "Stiff from rest on, with many dimensions to choose, and it suppresses whirl; it needs oil "
+        "at high pressure and damps critical speeds poorly.",
+        (
+            _LATER,
+            Claim("Its peak response is higher", "peak_response", "amplitude", more=True),
+        ),
+    ),
 }  # fmt: skip
 
 
@@ -164,7 +180,8 @@ class _SoFar(NamedTuple):
 def _asked(machine: Machine, speed: float) -> list[tuple[Machine, float, Geometry | None]]:
     """Return what is computed: the machine as it is, then on every kind of bore by itself."""
     # The last visitor's bore does not matter to the others: their results are then the same.
-    return [(machine, speed, None), *((_plain(machine), speed, geometry) for geometry in KINDS)]
+    bores = usual_bores(machine.bearing)
+    return [(machine, speed, None), *((_plain(machine), speed, one) for one in bores)]
 
 
 def _worded(one: BearingResult, page: Page) -> BearingResult:
@@ -174,7 +191,7 @@ def _worded(one: BearingResult, page: Page) -> BearingResult:
 
 
 def _plain(machine: Machine) -> Machine:
-    return replace(machine, bearing=replace(machine.bearing, geometry=KINDS[0], film="finite"))
+    return replace(machine, bearing=replace(machine.bearing, geometry=Plain(), film="finite"))
 
 
 @dataclass(frozen=True)
