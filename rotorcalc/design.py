@@ -10,6 +10,7 @@ Source: San Andrés, Notes 5.
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -68,7 +69,8 @@ class OnsetMap(Result):
     xs, ys : array, (n,), (m,)
         Their values.
     speed : array, (m, n)
-        Onset speed, Ω_s [rad/s]; NaN where the values are not a valid machine.
+        Onset speed, Ω_s [rad/s]; NaN where the values are not a valid machine, or its film has no
+        answer.
     """
 
     x: str
@@ -111,7 +113,8 @@ class Sensitivities(Result):
         The input that moves the onset most comes first.
     left_out : tuple of str
         Inputs that could not be varied: those at infinity, or at a zero with which no reference
-        value can be compared, and those for which a varied value is not a valid machine.
+        value can be compared, and those for which a varied value is not a valid machine or leaves
+        the film no answer.
     """
 
     onset: float
@@ -132,7 +135,7 @@ class OnsetSolution(Result):
     solutions : array, (k,)
         All values that give it, rising; empty where the onset never equals the target.
     values : array, (n,)
-        Values over the range that was searched.
+        Values over the range that was searched, without those for which the film has no answer.
     onset : array, (n,)
         The onset there [rad/s].
     """
@@ -242,7 +245,7 @@ def sensitivities(
     inputs : iterable of str, optional
         The inputs, by default those of `inputs_of`. Any other at zero, and one at infinity, is left
         out; so is one for which a varied value is not a valid machine, such as a journal mass near
-        half the rotor's.
+        half the rotor's, or leaves the film no answer, such as a load near the heaviest.
 
     Returns
     -------
@@ -253,7 +256,7 @@ def sensitivities(
     Raises
     ------
     ValueError
-        Where there is no such input, or the share is not between 0 and 1.
+        Where there is no such input, the share is not between 0 and 1, or the film has no answer.
     """
     if not 0.0 < share < 1.0:
         raise ValueError(
@@ -270,14 +273,17 @@ def sensitivities(
     ]
     steps = [step for step, pair in pairs if None not in pair]
     machines = [one for _, pair in pairs if None not in pair for one in pair if one is not None]
-    onset, *onsets = onset_speeds([machine, *machines])
-    known = {step[0] for step in steps}
+    onset, *onsets = _onsets_or_nan([machine, *machines])
+    if np.isnan(onset):
+        onset_speeds([machine])  # raises the film's reason
     found = [
         Sensitivity(field, low, high, float(onset_low), float(onset_high))
         for (field, low, high), onset_low, onset_high in zip(
             steps, onsets[::2], onsets[1::2], strict=True
         )
+        if not np.isnan(onset_low + onset_high)
     ]
+    known = {one.field for one in found}
     return Sensitivities(
         onset=float(onset),
         inputs=tuple(sorted(found, key=lambda one: _movement(one, float(onset)), reverse=True)),
@@ -313,8 +319,8 @@ def solve_onset(
     Raises
     ------
     ValueError
-        Where there is no such input, the range is empty or an end is not a valid machine, or the
-        target is not positive and finite.
+        Where there is no such input, the range is empty or an end is not a valid machine, the
+        target is not positive and finite, or the film has no answer over the whole range.
     """
     if not 0.0 < target < np.inf:
         raise ValueError(f"target = {target} rad/s: must be positive and finite")
@@ -331,8 +337,12 @@ def solve_onset(
         return _beside(onset(value), target)
 
     values = _scan_values(machine, vary, low, high)
-    onsets = onset_speeds([varied(machine, {vary: float(value)}) for value in values])
-    values, onsets = _with_extremes(values, onsets, onset)
+    machines = [varied(machine, {vary: float(value)}) for value in values]
+    onsets = _onsets_or_nan(machines)
+    answered = ~np.isnan(onsets)
+    if not answered.any():
+        onset_speeds(machines)  # raises the film's reason
+    values, onsets = _with_extremes(values[answered], onsets[answered], onset)
     above = onsets >= target
     # The absolute tolerance serves ranges that include zero, the relative one those over decades.
     roots = [
@@ -359,8 +369,19 @@ def _machine_or_none(machine: Machine, values: Mapping[tuple[str, ...], float]) 
 def _onsets_where_made(rows: Sequence[Sequence[Machine | None]]) -> Array:
     made = np.array([[one is not None for one in row] for row in rows], dtype=bool)
     speed = np.full(made.shape, np.nan)
-    speed[made] = onset_speeds([one for row in rows for one in row if one is not None])
+    speed[made] = _onsets_or_nan([one for row in rows for one in row if one is not None])
     return speed
+
+
+def _onsets_or_nan(machines: Sequence[Machine]) -> Array:
+    """Return the onsets of machines, NaN where a film has no answer at any speed."""
+    with suppress(ValueError):
+        return onset_speeds(machines)
+    found = np.full(len(machines), np.nan)
+    for i, one in enumerate(machines):
+        with suppress(ValueError):
+            found[i] = onset_speeds([one])[0]
+    return found
 
 
 def _moved(machine: Machine, field: str, share: float) -> tuple[str, float, float]:

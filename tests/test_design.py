@@ -450,3 +450,38 @@ def test_an_input_that_cannot_be_solved_for_is_named(wrong: dict[str, float], me
 def test_a_share_that_leaves_nothing_of_an_input_is_refused(share):
     with pytest.raises(ValueError, match=r"share = .*: must be between 0 and 1"):
         design.sensitivities(SHEET, share=share)
+
+
+# --- Films without an answer ----------------------------------------------------------------
+
+# Recesses that carry half the rotor's weight, 1334 N, and not three times that.
+RECESSED = replace(SHEET, bearing=replace(BEARINGS["hydrostatic"], film="coarse"))
+SUPPLIED = variation.varied(RECESSED, {"supply_pressure": 1e6})
+
+
+def test_a_map_is_empty_where_a_film_has_no_answer() -> None:
+    found = design.onset_map(
+        SUPPLIED, x="load", xs=[500.0, 5e3], y="supply_pressure", ys=[1e6, 4e6]
+    )
+    assert np.isnan(found.speed).tolist() == [[False, True], [False, False]]
+    alone = onset_speed(variation.varied(SUPPLIED, {"load": 500.0})).speed
+    assert found.speed[0, 0] == pytest.approx(alone, rel=1e-12)
+
+
+def test_an_input_whose_other_value_leaves_no_answer_is_left_out() -> None:
+    heavy = variation.varied(SUPPLIED, {"load": 2200.0})
+    found = design.sensitivities(heavy, share=0.2, inputs=["load", "mass"])
+    assert found.left_out == ("load",)
+    assert [one.field for one in found.inputs] == ["mass"]
+    with pytest.raises(ValueError, match="static load"):
+        design.sensitivities(variation.varied(SUPPLIED, {"load": 1e4}), inputs=["mass"])
+
+
+def test_a_wanted_onset_is_sought_where_the_film_answers() -> None:
+    target = onset_speed(variation.varied(SUPPLIED, {"load": 1e3})).speed
+    found = design.solve_onset(SUPPLIED, vary="load", target=target, low=200.0, high=1e4)
+    assert found.values[-1] < 1e4
+    assert np.isfinite(found.onset).all()
+    assert found.solutions == pytest.approx([1e3], rel=1e-6)
+    with pytest.raises(ValueError, match="static load"):
+        design.solve_onset(SUPPLIED, vary="load", target=target, low=1e4, high=2e4)
