@@ -78,7 +78,8 @@ def _paired(values: ComplexArray, certain: ComplexArray) -> ComplexArray:
     found = certain.copy()
     for place in np.argwhere(np.any(certain != values, axis=-1)):
         one, other = values[*place][:, None], certain[*place][None, :]
-        distance = np.abs(one - other) / (np.abs(one) + np.abs(other))
+        size = np.abs(one) + np.abs(other)
+        distance = np.abs(one - other) / np.where(size == 0.0, 1.0, size)
         found[*place] = certain[*place][linear_sum_assignment(distance)[1]]
     return found
 

@@ -13,13 +13,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotorcalc import modes
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, ComplexArray
 from rotorcalc.coefficients import checked_speed, dynamics
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine
 from rotorcalc.numerics.roots import narrow_root
+from rotorcalc.onset.eigenvalues import certain_mode_shapes
 from rotorcalc.onset.search import first_crossing, search_speeds, where_film
 from rotorcalc.ring import ring_film, ring_speed
 
@@ -184,10 +184,7 @@ def _growing(machine: Machine, mode: str, speed: Array, flexible: bool) -> Compl
 
 def _whirls(machine: Machine, speed: Array, flexible: bool) -> tuple[ComplexArray, BoolArray]:
     """Return λ/Ω of all modes, NaN where they do not oscillate, and whether the journal moves."""
-    film = dynamics(machine, speed)
-    shapes = modes.mode_shapes(
-        machine.rotor, film.stiffness, film.damping, inertia=film.inertia, flexible=flexible
-    )
+    shapes = certain_mode_shapes(machine, speed, dynamics(machine, speed), flexible=flexible)
     in_ring, of_ring = (
         np.sum(np.abs(one) ** 2, axis=-1) for one in (shapes.journal - shapes.inner, shapes.inner)
     )
