@@ -21,10 +21,13 @@ from rotorcalc.batch import read_machines
 from rotorcalc.comparison import BearingResult, compare_bearings
 from rotorcalc.criteria import Amplification, LevelOne, amplification, level_one
 from rotorcalc.design import onset_map, sensitivities, solve_onset
+from rotorcalc.foils import foil_deflection, lift_off_speed
+from rotorcalc.gas import Gas
 from rotorcalc.geometry import (
     AxialGrooves,
     Elliptical,
     FloatingRing,
+    Foil,
     Hydrostatic,
     Lobes,
     MultiDam,
@@ -78,6 +81,8 @@ __all__ = [
     "EnergyBalance",
     "FilmCurves",
     "FloatingRing",
+    "Foil",
+    "Gas",
     "HeatBalance",
     "Hopf",
     "Hydrostatic",
@@ -119,12 +124,14 @@ __all__ = [
     "energy_balance",
     "film_curves",
     "films",
+    "foil_deflection",
     "frames",
     "heat",
     "heat_balance",
     "hopf",
     "iso_oil",
     "level_one",
+    "lift_off_speed",
     "load_for",
     "measured_growth",
     "mode_onsets",

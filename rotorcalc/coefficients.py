@@ -25,7 +25,7 @@ from rotorcalc.films import (
     reduced,
 )
 from rotorcalc.films.dynamics import Impedance
-from rotorcalc.machine import Machine
+from rotorcalc.machine import Machine, oil_of
 
 # Factors α_m of the film's inertia: 6/5 for a parabolic velocity profile, 1 for a flat one.
 LAMINAR, BULK_FLOW = 6.0 / 5.0, 1.0
@@ -490,9 +490,9 @@ def added_mass(machine: Machine, speed: ArrayLike, *, factor: float = LAMINAR) -
     """
     state = equilibrium(machine, speed)
     bearing = machine.bearing
+    inertia = film_of(bearing).added_mass(operating_points(machine, speed))
     # α_m ρRL³/(12C), independent of viscosity and speed.
-    unit = factor * FilmUnits(bearing, 1.0, 1.0).added_mass(machine.oil.density)
-    M = unit * film_of(bearing).added_mass(operating_points(machine, speed))
+    M = factor * FilmUnits(bearing, 1.0, 1.0).added_mass(oil_of(machine).density) * inertia
     return AddedMass(
         speed=state.speed,
         mass=M,

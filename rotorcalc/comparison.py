@@ -223,8 +223,7 @@ def _largest_peak(machine: Machine, speed: float) -> tuple[float, float]:
     """Return size and speed of the largest peak of the disk's orbit, NaN where there is none."""
     top = _TOP * speed
     speeds = np.linspace(top / _SPEEDS, top, _SPEEDS)
-    if machine.supply is not None:
-        speeds = speeds[heat.has_film(machine, speeds)]
+    speeds = speeds[heat.has_film(machine, speeds)]
     carried = from_first_answer(lambda some: equilibrium(machine, some).speed, speeds)
     found = response_peaks(machine, carried)
     if not found.amplitude.size:

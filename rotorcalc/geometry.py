@@ -12,7 +12,7 @@ import math
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, Self
 
-from scipy.constants import degree
+from scipy.constants import atmosphere, degree
 
 from rotorcalc.records import Bound, Choice, Kind
 
@@ -34,6 +34,8 @@ class Geometry(Kind):
     """The shape of a bore; every kind of bearing is a subclass."""
 
     models: ClassVar[tuple[str, ...]] = ()
+    # "oil", or "gas" where the film is one of gas.
+    lubricant: ClassVar[str] = "oil"
 
     @property
     def assembled_share(self) -> float:
@@ -379,6 +381,68 @@ class Hydrostatic(Geometry):
         super().__post_init__()
         # Lands that meet would leave no recess, as grooves that meet leave no pad.
         _fits(self.recesses, "recesses", "land_angle", self.land_angle)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Foil(Geometry):
+    """A bore of thin foil on a springy foundation, slit once, with a film of gas.
+
+    Parameters
+    ----------
+    foundation_stiffness : float
+        Pressure that presses the foil back by a unit of length, k_f [N/m³]; `usual` has one.
+    loss_factor : float
+        Loss factor of the foundation, η [-]: it answers a whirl with the stiffness k_f(1 + iη).
+    ambient_pressure : float
+        Absolute pressure around the bearing, p_a [Pa].
+    slit : float
+        Angle from the load line to the slit between the foil's ends, at ambient pressure [rad].
+    """
+
+    kind: ClassVar[str] = "foil"
+    models: ClassVar[tuple[str, ...]] = _FINITE
+    lubricant: ClassVar[str] = "gas"
+
+    foundation_stiffness: Annotated[float, Bound("N/m³", above=0.0)]
+    loss_factor: Annotated[float, Bound("-", at_least=0.0)] = 0.15
+    ambient_pressure: Annotated[float, Bound("Pa", above=0.0)] = atmosphere
+    slit: Annotated[float, Bound("rad", at_least=-_TURN, below=_TURN)] = 180 * degree
+
+    @classmethod
+    def usual(
+        cls,
+        radial_clearance: float,
+        *,
+        compliance: float = 1.0,
+        ambient_pressure: float = atmosphere,
+    ) -> "Foil":
+        """Return a foil bearing with a compliance α = p_a/(C k_f), usually about 1.
+
+        Parameters
+        ----------
+        radial_clearance : float
+            C [m], positive.
+        compliance : float
+            Deflection of the foil under the ambient pressure over the clearance, α [-], positive.
+        ambient_pressure : float
+            p_a [Pa], positive.
+
+        Returns
+        -------
+        Foil
+            With k_f = p_a/(C α), the other fields at their defaults.
+
+        Examples
+        --------
+        >>> f"{Foil.usual(30e-6).foundation_stiffness:.3e}"
+        '3.378e+09'
+        """
+        stiffness = ambient_pressure / (radial_clearance * compliance)
+        return cls(foundation_stiffness=stiffness, ambient_pressure=ambient_pressure)
+
+    def compliance(self, radial_clearance: float) -> float:
+        """Return α = p_a/(C k_f) [-] at a radial clearance C [m]."""
+        return self.ambient_pressure / (radial_clearance * self.foundation_stiffness)
 
 
 def _fits(number: float, parts: str, name: str, angle: float) -> None:

@@ -28,8 +28,8 @@ from scipy.special import wrightomega
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, checked_speed, real_array
 from rotorcalc.display import Result
-from rotorcalc.films import FilmUnits, OperatingPoints, film_of
-from rotorcalc.machine import HOTTEST, Machine, Supply
+from rotorcalc.films import FilmUnits, OperatingPoints, film_of, turning_bounds
+from rotorcalc.machine import HOTTEST, Machine, Supply, oil_of
 
 # A step of θ below this share of it is the last: it leaves an error about a hundred thousand times
 # smaller. Halving alone would end in half as many steps as this.
@@ -167,7 +167,9 @@ def has_film(machine: Machine, speed: ArrayLike) -> BoolArray:
     """
     speeds = checked_speed(speed)
     if machine.temperature is not None:
-        return np.asarray(machine.viscosity >= _thinnest(machine, speeds))
+        least, largest = turning_bounds(machine.bearing, machine.static_load)
+        turning = machine.viscosity * speeds
+        return np.asarray((turning >= least) & (turning <= largest))
     return ~np.isnan(_temperatures(machine, speeds))
 
 
@@ -336,7 +338,7 @@ def lone_rise(machine: Machine, power_loss: ArrayLike, side_flow: ArrayLike) -> 
     """
     P, Q = real_array("power_loss", power_loss), real_array("side_flow", side_flow)
     with np.errstate(divide="ignore"):
-        return np.asarray(P / (machine.oil.volumetric_heat * Q))
+        return np.asarray(P / (oil_of(machine).volumetric_heat * Q))
 
 
 @checked
@@ -369,7 +371,7 @@ def flow_for_rise(machine: Machine, speed: ArrayLike, *, rise: float = USUAL_RIS
     share = 1.0 if supply is None else supply.heat_share
     T = machine.temperature if supply is None else supply.temperature + 0.5 * rise
     P, Q = _loss_and_flow(machine, speeds, np.full(speeds.shape, T))
-    return np.maximum(share * P / (machine.oil.volumetric_heat * rise) - Q, 0.0)
+    return np.maximum(share * P / (oil_of(machine).volumetric_heat * rise) - Q, 0.0)
 
 
 def _loss_and_flow(machine: Machine, speed: Array, T: Array) -> tuple[Array, Array]:
@@ -384,13 +386,13 @@ def _loss_and_flow(machine: Machine, speed: Array, T: Array) -> tuple[Array, Arr
 def _half_rise(machine: Machine, supply: Supply, P: Array, Q: Array) -> Array:
     """Return (T_out − T_in)/2 [K], infinite where heat is made and no oil passes."""
     with np.errstate(divide="ignore", invalid="ignore"):
-        rise = 0.5 * supply.heat_share * P / (machine.oil.volumetric_heat * (Q + supply.flow))
+        rise = 0.5 * supply.heat_share * P / (oil_of(machine).volumetric_heat * (Q + supply.flow))
     return np.where(supply.heat_share == 0.0, 0.0, rise)
 
 
 def _carried(machine: Machine, Q: Array, rise: Array) -> Array:
     flow = machine.supply.flow if machine.supply else 0.0
-    return machine.oil.volumetric_heat * (Q + flow) * rise
+    return oil_of(machine).volumetric_heat * (Q + flow) * rise
 
 
 def _temperatures(machine: Machine, speed: Array) -> Array:
@@ -422,14 +424,12 @@ def _highest(machine: Machine, speed: Array) -> Array:
     """Return the highest temperature at speeds at which oil and film have an answer [°C]."""
     # A little above the film's limit, so that rounding does not pass it.
     thinnest = (1.0 + 1e-9) * _thinnest(machine, speed)
-    return np.minimum(machine.oil.temperature(thinnest), HOTTEST)
+    return np.minimum(oil_of(machine).temperature(thinnest), HOTTEST)
 
 
 def _thinnest(machine: Machine, speed: Array) -> Array:
     """Return the least viscosity with which the film carries the load at speeds [Pa·s]."""
-    # σ of Eq. 5.8 is proportional to the viscosity.
-    least = 4.0 * machine.static_load * film_of(machine.bearing).least_sommerfeld
-    return np.asarray(least / FilmUnits(machine.bearing, 1.0, speed).force)
+    return turning_bounds(machine.bearing, machine.static_load)[0] / speed
 
 
 def _half_rises(machine: Machine, speed: Array, room: Array) -> Array:
@@ -447,7 +447,7 @@ def _half_rises(machine: Machine, speed: Array, room: Array) -> Array:
     none = ~np.isfinite(half)
     # About the centre of a circular bore the loss goes as μ, the side flow as 1/μ.
     own = flow / np.where(flow > 0.0, flow + supply.flow, 1.0)
-    slope = secant = np.maximum(machine.oil.thinning(supply.temperature) * (1.0 + own), _FLAT)
+    slope = secant = np.maximum(oil_of(machine).thinning(supply.temperature) * (1.0 + own), _FLAT)
     found, before = none | (half == 0.0), np.full(speed.shape, np.nan)
     for _ in range(_MOST_STEPS):
         step = np.where(found, theta, _next(theta, half, slope))

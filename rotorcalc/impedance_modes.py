@@ -9,17 +9,26 @@ import numpy as np
 
 from rotorcalc import modes
 from rotorcalc.arguments import checked
-from rotorcalc.arrays import Array, ComplexArray, IntArray
+from rotorcalc.arrays import Array, BoolArray, ComplexArray, IntArray
 from rotorcalc.films.dynamics import FilmDynamics, reduced
 from rotorcalc.machine import Rotor
 
 # Steps at most, and the difference of |λ| and ω, as a share of |λ|, that ends them.
-_STEPS, _SETTLED = 60, 1e-13
+_STEPS, _SETTLED = 90, 1e-13
 # A mode that still differs by more than this has not converged.
 _UNSETTLED = 1e-9
 # Slope of |λ| − ω over ω: −1 where the coefficients do not depend on the frequency, and between
 # these bounds where they do. A step by another slope could leave the mode.
 _SLOPES = (-1.5, -0.5)
+# Longest step of a frequency, as a ratio: the modes at the next one must be told from each other.
+_LONGEST = 1.25
+# A motion whose |Im λ| is a smaller share of |λ| hardly oscillates.
+_OSCILLATES = 0.3
+# The high frequency, over that amid the modes. A massless journal on a gas film dies still faster.
+_HIGH = 1e6
+# A whirl as many times as fast as the slowest is a fast one.
+_FAST = 5.0
+_TINY = float(np.finfo(float).tiny)
 
 
 @checked
@@ -41,21 +50,77 @@ def impedance_eigenvalues(
     -------
     complex array, (..., n)
         λ [1/s], in no particular order, n as in `modes.state_matrix`; NaN where the substitution
-        does not converge.
+        does not converge. A massless journal on a gas film dies faster than any frequency; such a
+        motion is given as it is with the coefficients of a very high one.
     """
-    values = modes.eigenvalues(rotor, film.stiffness, film.damping, flexible=flexible)
-    frequency = np.abs(values)
+    return _own_modes(rotor, film, flexible)[0]
+
+
+def _own_modes(rotor: Rotor, film: FilmDynamics, flexible: bool) -> tuple[ComplexArray, Array]:
+    """Return eigenvalues (..., n) and the frequency of the coefficients of each."""
+    values, frequency = _starts(rotor, film, flexible)
+    # A motion faster than the high frequency at which it was sought stays as it is there.
+    lost = ~_swings(values) & (np.abs(values) > frequency)
     step = difference = np.zeros_like(frequency)
+    left = ~lost
     for _ in range(_STEPS):
-        found = modes.eigenvalues(rotor, *_at_frequencies(film, frequency), flexible=flexible)
-        values = _own(found, _nearest(found, values))
+        # Modes first, as the film takes frequencies; only those that are left are solved.
+        own, some = np.moveaxis(values, -1, 0), np.moveaxis(left, -1, 0)
+        K, C = _at_frequencies(film, frequency)
+        found = modes.eigenvalues(rotor, K[some], C[some], flexible=flexible)
+        own[some] = _nearest_to(own[some], found)
         before, difference = difference, np.abs(values) - frequency
-        if np.all(np.abs(difference) <= _SETTLED * np.abs(values)):
+        left &= np.abs(difference) > _SETTLED * np.abs(values)
+        if not left.any():
             break
-        step = -difference / _slope(difference - before, step)
-        frequency = frequency + step
-    settled = np.abs(difference) <= _UNSETTLED * np.abs(values)
-    return np.where(settled, values, complex(np.nan, np.nan))
+        after = frequency - difference / _slope(difference - before, step)
+        near = np.clip(after, frequency / _LONGEST, frequency * _LONGEST)
+        after = np.where(left, np.where(_swings(values), near, np.abs(after)), frequency)
+        step, frequency = after - frequency, after
+    settled = lost | (np.abs(difference) <= _UNSETTLED * np.abs(values))
+    return np.where(settled, values, complex(np.nan, np.nan)), frequency
+
+
+def _starts(rotor: Rotor, film: FilmDynamics, flexible: bool) -> tuple[ComplexArray, Array]:
+    """Return eigenvalues (..., n) near the modes' own, and the frequencies of their coefficients.
+
+    Of coefficients at one frequency each mode is another one for certain; two of coefficients at
+    two frequencies may be one. So motions that die are taken at a high frequency, fast whirls, as
+    those of light journals, at one amid them, and the others at one amid these.
+    """
+
+    def at(frequency: Array) -> ComplexArray:
+        values = modes.eigenvalues(rotor, *reduced(film, frequency), flexible=flexible)
+        return np.take_along_axis(values, np.argsort(-np.abs(values), axis=-1), axis=-1)
+
+    known = modes.eigenvalues(rotor, film.stiffness, film.damping, flexible=flexible)
+    high = _HIGH * _mean(np.abs(known), np.isfinite(known))
+    first = at(high)
+    dies = ~_swings(first)
+    first = np.take_along_axis(first, np.argsort(~dies, axis=-1, kind="stable"), axis=-1)
+    # In this order: those that die, the fast whirls, the others.
+    size: Array = np.abs(first)
+    whirls = np.sort(~dies, axis=-1)
+    fast: BoolArray = whirls & (size > _FAST * size[..., -1:])
+    slow: BoolArray = whirls & ~fast
+    values, frequency = first, np.broadcast_to(high[..., None], first.shape)
+    for some in (fast, slow):
+        amid = np.where(some.any(axis=-1), _mean(size, some), high)
+        values = np.where(some, at(amid), values)
+        frequency = np.where(some, amid[..., None], frequency)
+    return values, frequency
+
+
+def _mean(sizes: Array, counted: BoolArray) -> Array:
+    """Return the geometric mean of the sizes (..., n) that are counted; 1 of none."""
+    total = (np.log(np.maximum(sizes, _TINY)) * counted).sum(axis=-1)
+    return np.asarray(np.exp(total / np.maximum(counted.sum(axis=-1), 1)))
+
+
+def _nearest_to(values: ComplexArray, found: ComplexArray) -> ComplexArray:
+    """Return of modes (k, n) the one nearest to each λ (k,)."""
+    place = np.abs(found - values[:, None]).argmin(axis=-1)
+    return found[np.arange(len(values)), place]
 
 
 @checked
@@ -72,8 +137,8 @@ def impedance_modes(rotor: Rotor, film: FilmDynamics, *, flexible: bool = True) 
     ModeShapes
         λ as `impedance_eigenvalues` gives it, each with the shape of its own coefficients.
     """
-    values = impedance_eigenvalues(rotor, film, flexible=flexible)
-    shapes = modes.mode_shapes(rotor, *_at_frequencies(film, np.abs(values)), flexible=flexible)
+    values, frequency = _own_modes(rotor, film, flexible)
+    shapes = modes.mode_shapes(rotor, *_at_frequencies(film, frequency), flexible=flexible)
     place = _nearest(shapes.eigenvalues, values)
     vectors: ComplexArray = np.take_along_axis(shapes.vectors, place[..., None, :], axis=-1)[..., 0]
     return modes.ModeShapes(
@@ -83,6 +148,11 @@ def impedance_modes(rotor: Rotor, film: FilmDynamics, *, flexible: bool = True) 
         journal=_own(shapes.journal.swapaxes(-1, -2), place[..., None, :]).swapaxes(-1, -2),
         inner=np.empty((*values.shape, 0), dtype=complex),
     )
+
+
+def _swings(values: ComplexArray) -> BoolArray:
+    """Return which motions oscillate, rather than die."""
+    return np.abs(values.imag) > _OSCILLATES * np.abs(values)
 
 
 def _slope(change: Array, step: Array) -> Array:

@@ -9,13 +9,14 @@ import json
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Annotated, Any, Self, cast
+from typing import Annotated, Any, ClassVar, Self, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.constants import g, zero_Celsius
 
 from rotorcalc.arrays import Array, real_array, shown
+from rotorcalc.gas import Gas, Lubricant
 from rotorcalc.geometry import WIDEST, Geometry, Plain
 from rotorcalc.records import Bound, Choice, Record, from_tree, parsed, to_tree
 
@@ -29,7 +30,7 @@ COLDEST, HOTTEST = -70.0, 370.0
 
 
 @dataclass(frozen=True, kw_only=True)
-class Oil(Record):
+class Oil(Lubricant):
     """A lubricant whose viscosity falls with temperature by one of two laws.
 
     Both laws have the viscosity μ_R and the slope α = −d ln μ/dT at the reference temperature. The
@@ -59,6 +60,8 @@ class Oil(Record):
         Naming the field, its value and its bound; also where Walther's law does not apply, at a
         kinematic viscosity of 0.3 mm²/s or less.
     """
+
+    kind: ClassVar[str] = "oil"
 
     reference_viscosity: Annotated[float, Bound("Pa·s", above=0.0)]
     # Absolute zero, −273.15 °C.
@@ -356,8 +359,8 @@ class Machine(Record):
 
     Parameters
     ----------
-    oil : Oil
-        The lubricant.
+    oil : Oil or Gas
+        The lubricant: a gas in a foil bearing, an oil in every other.
     bearing : JournalBearing
         Either of the two bearings.
     rotor : Rotor
@@ -377,7 +380,7 @@ class Machine(Record):
         supply are given, or the temperature leaves the oil with no finite viscosity.
     """
 
-    oil: Oil
+    oil: Annotated[Oil | Gas, Lubricant]
     bearing: JournalBearing
     rotor: Rotor
     temperature: Annotated[float | None, Bound("°C", at_least=-zero_Celsius)] = None
@@ -386,6 +389,7 @@ class Machine(Record):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        self._check_lubricant()
         if self.temperature is None and self.supply is None:
             raise ValueError(
                 "temperature = None: must be a number in °C, or a supply be given from which the "
@@ -406,8 +410,19 @@ class Machine(Record):
         if not 0.0 < viscosity < math.inf:
             given = self.temperature if supply is None else supply.temperature
             raise ValueError(
-                f"{name} = {given!r} °C: gives the oil a viscosity of "
+                f"{name} = {given!r} °C: gives the {self.oil.kind} a viscosity of "
                 f"{viscosity} Pa·s, must be positive and finite"
+            )
+
+    def _check_lubricant(self) -> None:
+        geometry, is_gas = self.bearing.geometry, isinstance(self.oil, Gas)
+        if is_gas != (geometry.lubricant == "gas"):
+            given, wanted = ("a Gas", "an Oil") if is_gas else ("an Oil", "a Gas")
+            raise ValueError(f"oil = {given}: a bearing of kind {geometry.kind!r} takes {wanted}")
+        if is_gas and self.supply is not None:
+            raise ValueError(
+                "supply: is one of oil, whose flow cools the film; a bearing on gas is cooled by "
+                "other means, so give the temperature of its film"
             )
 
     @cached_property
@@ -474,6 +489,31 @@ class Machine(Record):
         if version == 1:
             _drop_the_one_film(document)
         return from_tree(cls, document, where="")
+
+
+def oil_of(machine: Machine) -> Oil:
+    """Return a machine's oil.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+
+    Returns
+    -------
+    Oil
+        Its lubricant.
+
+    Raises
+    ------
+    ValueError
+        Where that is a gas.
+    """
+    if isinstance(machine.oil, Oil):
+        return machine.oil
+    raise ValueError(
+        "oil = a Gas: must be an Oil here; heat, density and law of viscosity are those of oils"
+    )
 
 
 def _drop_the_one_film(document: dict[str, Any]) -> None:

@@ -112,7 +112,7 @@ class Record:
                 continue
             if isinstance(rule.check, type):
                 if not isinstance(value, rule.check):
-                    raise ValueError(f"{name} = {shown(value)}: must be {rule.check.__name__}")
+                    raise ValueError(f"{name} = {shown(value)}: must be {_names(rule.check)}")
             else:
                 # Past the frozen dataclass: an integer or a NumPy number is stored as a float.
                 object.__setattr__(self, name, rule.check.check(name, value))
@@ -123,9 +123,13 @@ R = TypeVar("R", bound=Record)
 
 @dataclass(frozen=True, kw_only=True)
 class Kind(Record):
-    """A record that comes in several kinds, distinguished in files by the word in `kind`."""
+    """A record that comes in several kinds, distinguished in files by the word in `kind`.
+
+    Of the kind that `unwritten` names, which was once the only one, files do not hold it.
+    """
 
     kind: ClassVar[str] = ""
+    unwritten: ClassVar[str] = ""
 
     @classmethod
     def kinds(cls) -> "dict[str, type[Self]]":
@@ -134,6 +138,13 @@ class Kind(Record):
         for below in cls.__subclasses__():
             found |= below.kinds()
         return found
+
+
+def _names(record: type[Record]) -> str:
+    """Return the names of the classes that a field takes."""
+    if issubclass(record, Kind) and record.unwritten:
+        return " or ".join(one.__name__ for one in record.kinds().values())
+    return record.__name__
 
 
 def number_paths(record: Record) -> Iterator[tuple[str, ...]]:
@@ -151,7 +162,9 @@ def to_tree(record: Record) -> dict[str, object]:
 
     JSON has no infinity, so it is written "inf"; a record of several kinds is named in "type".
     """
-    tree: dict[str, object] = {"type": record.kind} if isinstance(record, Kind) else {}
+    tree: dict[str, object] = {}
+    if isinstance(record, Kind) and record.kind != record.unwritten:
+        tree["type"] = record.kind
     for name, rule in rules(type(record)).items():
         value = getattr(record, name)
         if value == rule.default and str(value) == str(rule.default):  # −0.0 is not 0.0
@@ -185,7 +198,7 @@ def from_tree(cls: type[R], tree: object, *, where: str) -> R:
 def _kind_of(cls: type[R], values: dict[str, Any], where: str) -> type[R]:
     """Return the record class that "type" names, and take that key out of the values."""
     kinds = cast("type[Kind]", cls).kinds()
-    word = values.pop("type", None)
+    word = values.pop("type", cast("type[Kind]", cls).unwritten or None)
     if not isinstance(word, str) or word not in kinds:
         raise ValueError(f"{where}type = {shown(word)}: must be one of {', '.join(kinds)}")
     return cast("type[R]", kinds[word])

@@ -18,7 +18,9 @@ from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
 from rotorcalc.display import Result, in_brief
 from rotorcalc.films import film_of
-from rotorcalc.geometry import Hydrostatic
+from rotorcalc.gas import air_density, mean_free_path
+from rotorcalc.geometry import Foil, Hydrostatic
+from rotorcalc.machine import Machine, Oil
 from rotorcalc.recesses import recess_equilibrium
 from rotorcalc.unbalance_response import orbit_ellipse
 
@@ -88,14 +90,15 @@ def validity(sweep: Sweep) -> tuple[Check, ...]:
         roughness of 1 µm, full film above 3 of it, and against the clearance; the journal's
         imbalance orbit and the rotor's static sag against the clearance; the rise of the oil in
         the film against that by which its viscosity halves (`HEAT`); on recesses the lowest
-        pressure of the film against the atmospheric one. Numbers and verdicts have the
-        shape (...).
+        pressure of the film against the atmospheric one; of a gas how far it is compressed, and
+        the mean free path of its molecules against the smallest film. Numbers and verdicts have
+        the shape (...).
     """
     machine = sweep.machine
     bearing = machine.bearing
     R, C = bearing.radius, bearing.radial_clearance
     film = sweep.minimum_film_thickness
-    reynolds = machine.oil.density * sweep.speed * R * C / sweep.viscosity
+    reynolds = _density(sweep) * sweep.speed * R * C / sweep.viscosity
     # Taylor vortices appear at ρΩRC/μ = 41.1√(R/C), or turbulence at 2000 where that comes first.
     # The second limit governs where R/C > 2368.
     vortices = min(41.1 * math.sqrt(R / C), 2000.0)
@@ -117,6 +120,45 @@ def validity(sweep: Sweep) -> tuple[Check, ...]:
                "so flexible a shaft is inclined in its bearings, which the model assumes aligned"),
         *_suction(sweep),
         *_heat(sweep),
+        *_gas(sweep),
+    )  # fmt: skip
+
+
+def _density(sweep: Sweep) -> Array | float:
+    """Return the density of the lubricant [kg/m³], of a gas that of air at ambient pressure."""
+    machine = sweep.machine
+    if isinstance(machine.oil, Oil):
+        return machine.oil.density
+    return air_density(sweep.temperature, _ambient_pressure(machine))
+
+
+def _ambient_pressure(machine: Machine) -> float:
+    shape = machine.bearing.geometry
+    return shape.ambient_pressure if isinstance(shape, Foil) else atmosphere
+
+
+def _gas(sweep: Sweep) -> tuple[Check, ...]:
+    """Return the checks of a gas: how far it is compressed, and whether it slips along the walls.
+
+    The film is thinnest at the bearing's ends, where its pressure is ambient.
+    """
+    machine, bearing = sweep.machine, sweep.machine.bearing
+    if isinstance(machine.oil, Oil):
+        return ()
+    p_a = _ambient_pressure(machine)
+    ratio = bearing.radius / bearing.radial_clearance
+    number = 6.0 * sweep.viscosity * sweep.speed * ratio**2 / p_a
+    load = machine.static_load / (p_a * bearing.diameter * bearing.length)
+    path = mean_free_path(sweep.viscosity, sweep.temperature, p_a)
+    with np.errstate(divide="ignore"):  # the foil touches at the ends
+        knudsen = path / sweep.minimum_film_thickness
+    return (
+        _above("Compressibility number, 6μΩ(R/C)²/p_a", number, 10.0, 30.0,
+               "waves of the gas that turn at half speed become too sharp for the mesh"),
+        _above("Load over ambient pressure, F/(p_a D L)", load * np.ones(number.shape), 1.5, 2.0,
+               "the foil deflects by so much that its own bending counts"),
+        _above("Molecules' mean free path over smallest film, λ/h", knudsen, 0.01, 0.1,
+               "the gas slips along the walls, which the model neglects"),
     )  # fmt: skip
 
 
@@ -138,7 +180,8 @@ def _heat(sweep: Sweep) -> tuple[Check, ...]:
     the side flow, so it is doubtful at most.
     """
     machine, oil = sweep.machine, sweep.machine.oil
-    if np.all(np.isnan(sweep.power_loss)):  # a film's model may not know its loss
+    # A film's model may not know its loss; and a gas is cooled by other means than its own flow.
+    if not isinstance(oil, Oil) or np.all(np.isnan(sweep.power_loss)):
         return ()
     alpha = oil.thinning(sweep.temperature)
     with np.errstate(divide="ignore"):  # a viscosity that does not fall is that of the whole film

@@ -23,6 +23,9 @@ RING = replace(
         SHEET.bearing, geometry=rc.FloatingRing.around(0.150, 0.050, 60e-6), film="short"
     ),
 )
+FOIL = replace(
+    SHEET, oil=rc.Gas(), load=100.0, bearing=replace(SHEET.bearing, geometry=rc.Foil.usual(60e-6))
+)
 RECESSED = replace(SHEET, bearing=replace(SHEET.bearing, geometry=rc.Hydrostatic()))
 WARM = replace(SHEET, temperature=None, supply=rc.Supply(temperature=40.0))
 
@@ -71,6 +74,7 @@ GOOD: dict[str, Any] = {
     "cross_coupling": 1e6, "power": 1e6, "diameter": 0.4, "width": 0.02,
     "amplification_factor": 5.0, "above": True, "whirl_ratio": 0.5,
     "spreads": {"load": ("uniform", 1e3, 2e3)}, "natural_frequency": 100.0,
+    "load": 100.0,
     "text": "speed [rpm]\n6000", "cases": [CASE], "results": [], "columns": {"line": [2]},
 }  # fmt: skip
 # Where a name means something else.
@@ -80,6 +84,8 @@ ITS_OWN: dict[str, dict[str, Any]] = {
     "criteria.permissible_eccentricity": {"grade": "G 2.5"},
     "onset_map": {"x": "load", "y": "temperature"},
     "response_peaks": {"speed": SPEEDS},
+    "foil_deflection": {"machine": FOIL},
+    "lift_off_speed": {"machine": FOIL},
     "mode_onsets": {"machine": RING},
     "recess_equilibrium": {"machine": RECESSED},
     "recess_pressure": {"machine": RECESSED},

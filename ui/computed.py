@@ -43,6 +43,7 @@ from rotorcalc.coefficients import (
 from rotorcalc.figures.equilibrium import Path
 from rotorcalc.figures.machine import OtherSpeeds
 from rotorcalc.films import draft, film_of
+from rotorcalc.machine import oil_of
 from rotorcalc.numerics.first_answer import from_first_answer
 from rotorcalc.oils import by_other_law
 from rotorcalc.root_locus import Locus, root_locus
@@ -179,7 +180,7 @@ class Computed:
     @property
     def other_oil(self) -> Oil | None:
         """The oil by the other law of viscosity, None where it has none."""
-        return by_other_law(self.machine.oil)
+        return by_other_law(oil_of(self.machine))
 
     @cached_property
     def flow_needed(self) -> float:

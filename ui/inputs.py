@@ -14,6 +14,7 @@ from scipy.constants import g
 
 from rotorcalc import PRESETS, JournalBearing, Machine, Oil, Preset, Rotor, Supply
 from rotorcalc.figures import style
+from rotorcalc.machine import oil_of
 from rotorcalc.units import SI, Units
 from ui.bearing import KIND, Values, bearing_values, defaults_of, shape_of, without_shape
 from ui.bores import Pick, bore_inputs
@@ -170,7 +171,7 @@ def values_of(machine: Machine, speed: float, top_speed: float) -> Values:
     for key, item in INPUTS.items():
         value = speeds[item.field] if item.field in speeds else _at(machine, item.field)
         values[key] = None if value is None else tidy(float(item.unit(SI).of(value)))
-    return values | {LAW: machine.oil.law} | bearing_values(machine.bearing)
+    return values | {LAW: oil_of(machine).law} | bearing_values(machine.bearing)
 
 
 def _at(machine: Machine, field: str) -> float | None:

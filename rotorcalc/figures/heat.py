@@ -10,7 +10,7 @@ from rotorcalc.display import Result
 from rotorcalc.figures import cursor, style, text
 from rotorcalc.figures.style import Axis, Chart, Trace
 from rotorcalc.heat import USUAL_RISE, HeatCurves, lone_rise
-from rotorcalc.machine import Oil
+from rotorcalc.machine import Oil, oil_of
 from rotorcalc.oils import LAW_NAMES
 from rotorcalc.units import Unit, Units
 
@@ -63,7 +63,7 @@ def flows(sweep: Sweep, point: Sweep, units: Units) -> Chart:
         total = sweep.side_flow + supply.flow
         lines += [("grooves", style.GREEN, groove), ("both", style.PURPLE, total)]
     else:
-        heat_of = point.machine.oil.volumetric_heat
+        heat_of = oil_of(point.machine).volumetric_heat
         needed = np.maximum(sweep.power_loss / (heat_of * USUAL_RISE), sweep.side_flow)
         lines.append((f"for a rise of {text.amount(units.rise, USUAL_RISE)}", style.GREY, needed))
     top = style.ceiling(unit.of(np.concatenate([values for *_, values in lines])))
@@ -139,7 +139,7 @@ def viscosity(sweep: Sweep, point: Sweep, other: Oil | None, units: Units) -> Ch
     Shaded is the range of the film's temperature up to the top speed.
     """
     machine = point.machine
-    oil, T, mu = machine.oil, units.temperature, units.viscosity
+    oil, T, mu = oil_of(machine), units.temperature, units.viscosity
     inlet = [] if machine.supply is None else [machine.supply.temperature]
     known = sweep.outlet_temperature[np.isfinite(sweep.outlet_temperature)]
     low, high = _temperature_ends(

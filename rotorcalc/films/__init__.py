@@ -5,6 +5,7 @@
 """
 
 import functools
+import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -16,15 +17,16 @@ from rotorcalc.films import short
 from rotorcalc.films.dynamics import FilmDynamics, reduced
 from rotorcalc.films.finite import CoarseFilm, FiniteFilm
 from rotorcalc.films.finite.table import takes_long
+from rotorcalc.films.foil import CoarseFoilFilm, FoilFilm
 from rotorcalc.films.hydrostatic import CoarseHydrostaticFilm, HydrostaticFilm
 from rotorcalc.films.lobes import LobesFilm
-from rotorcalc.films.model import Film, FilmMotion, InnerMotion
+from rotorcalc.films.model import BoundedFilm, Film, FilmMotion, InnerMotion
 from rotorcalc.films.pads import pads_of
 from rotorcalc.films.ring import RingFilm
 from rotorcalc.films.short import ShortFilm
 from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
 from rotorcalc.films.units import FilmUnits
-from rotorcalc.geometry import FloatingRing, Hydrostatic
+from rotorcalc.geometry import FloatingRing, Foil, Hydrostatic
 from rotorcalc.machine import JournalBearing
 
 __all__ = [
@@ -44,6 +46,7 @@ __all__ = [
     "journal_motion",
     "reduced",
     "short",
+    "turning_bounds",
 ]
 
 # Keys: the kind of a bearing's geometry and the name of its film model.
@@ -69,6 +72,7 @@ for _model in ("short", "finite", "coarse"):
     MODELS["floating-ring", _model] = RingFilm
 MODELS["hydrostatic", "finite"] = HydrostaticFilm
 MODELS["hydrostatic", "coarse"] = CoarseHydrostaticFilm
+MODELS["foil", "finite"], MODELS["foil", "coarse"] = FoilFilm, CoarseFoilFilm
 
 
 @checked
@@ -112,7 +116,8 @@ def draft(bearing: JournalBearing) -> JournalBearing:
 def _takes_long(bearing: JournalBearing) -> bool:
     if isinstance(bearing.geometry, FloatingRing):  # two plain films
         return False
-    return isinstance(bearing.geometry, Hydrostatic) or takes_long(pads_of(bearing))
+    # Recesses and foils are solved anew, whatever of them changes.
+    return isinstance(bearing.geometry, Hydrostatic | Foil) or takes_long(pads_of(bearing))
 
 
 @checked
@@ -141,6 +146,35 @@ def journal_motion(bearing: JournalBearing) -> FilmMotion:
             "on their own, which this computation does not include"
         )
     return motion
+
+
+@checked
+def turning_bounds(bearing: JournalBearing, load: float) -> tuple[float, float]:
+    """Return the least and the largest μΩ at which a bearing's film carries a load and has answers.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing.
+    load : float
+        Static load, F_o [N].
+
+    Returns
+    -------
+    least, largest : float
+        Viscosity times speed, μΩ [Pa]; 0 and infinite where there is no bound.
+
+    Raises
+    ------
+    ValueError
+        Where the film carries the load at no speed.
+    """
+    film = film_of(bearing)
+    if isinstance(film, BoundedFilm):
+        return film.turning_bounds(load)
+    # σ of Eq. 5.8 is proportional to μΩ.
+    unit = float(FilmUnits(bearing, 1.0, 1.0).force)
+    return 4.0 * load * film.least_sommerfeld / unit, math.inf
 
 
 @checked

@@ -8,7 +8,7 @@ coefficients independent of the whirl frequency.
 
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
-from typing import Protocol, TypeAlias
+from typing import Protocol, TypeAlias, runtime_checkable
 
 from numpy.typing import ArrayLike
 
@@ -258,3 +258,14 @@ class Film(Protocol):
     def outline(self, angle: ArrayLike) -> Array:
         """Return where the journal's centre is at contact, in directions Θ, (..., 2), in C."""
         ...
+
+
+@runtime_checkable
+class BoundedFilm(Protocol):
+    """A film that depends on more than σ, and so has an answer between other bounds.
+
+    `turning_bounds` has the least and the largest μΩ [Pa] at which it has one at a load [N]; other
+    films have one from `least_sommerfeld` on. It raises ValueError where there is none at any.
+    """
+
+    def turning_bounds(self, load: float) -> tuple[float, float]: ...  # noqa: D102

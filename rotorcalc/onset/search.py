@@ -17,7 +17,8 @@ from scipy.optimize import brentq, minimize_scalar
 from rotorcalc import heat, modes
 from rotorcalc.arrays import Array
 from rotorcalc.coefficients import equilibrium, modified_sommerfeld, stiffness_and_damping
-from rotorcalc.films import film_coefficients, film_of, film_state
+from rotorcalc.films import film_coefficients, film_of, film_state, turning_bounds
+from rotorcalc.films.model import BoundedFilm
 from rotorcalc.machine import HOTTEST, JournalBearing, Machine
 from rotorcalc.numerics import routh
 from rotorcalc.numerics.roots import narrow_root
@@ -287,7 +288,8 @@ def search_range(machine: Machine, flexible: bool = True) -> tuple[float, float,
 
     For a film with inner coordinates the upper end is not proved: it is ten times twice the bound
     on the rotor's own modes on the synchronous film (`_highest_onset`). An onset above the last of
-    these speeds is not found.
+    these speeds is not found. Of a film that has its own bounds, as one of gas, all speeds between
+    them are searched.
 
     With a supply the film's viscosity lies between those of the coldest oil and the hottest, and an
     onset is one of the machine with that viscosity at every speed: both ranges together hold it.
@@ -298,6 +300,8 @@ def search_range(machine: Machine, flexible: bool = True) -> tuple[float, float,
             for T in (machine.supply.temperature, HOTTEST)
         )
         return _range(min(cold[0], hot[0]), max(cold[1], hot[1]))
+    if isinstance(film_of(machine.bearing), BoundedFilm):
+        return _answered_range(machine, flexible)
     unit = float(modified_sommerfeld(machine, 1.0))
     # σ is proportional to speed: `unit` is σ at 1 rad/s.
     lightest, centred = _whirl_range(machine.bearing)
@@ -308,6 +312,15 @@ def search_range(machine: Machine, flexible: bool = True) -> tuple[float, float,
     if film_of(machine.bearing).inner:  # modes of the film's own parts, beside the rotor's
         highest *= _INNER
     return _range(lowest, highest)
+
+
+def _answered_range(machine: Machine, flexible: bool) -> tuple[float, float, int]:
+    """Return the range of all speeds at which a film of its own bounds has answers."""
+    least, largest = turning_bounds(machine.bearing, machine.static_load)
+    # Just inside, so that rounding does not pass the bounds.
+    low = (1.0 + 1e-9) * least / machine.viscosity
+    high = (1.0 - 1e-9) * largest / machine.viscosity
+    return _range(low or min(1e-3 * _slowest_rate(machine, flexible), 1e-3 * high), high)
 
 
 def _range(lowest: float, highest: float) -> tuple[float, float, int]:

@@ -18,7 +18,7 @@ from scipy.optimize import elementwise, minimize_scalar
 
 from rotorcalc.arrays import Array, BoolArray, IntArray
 from rotorcalc.films import short
-from rotorcalc.machine import HOTTEST, Machine, Oil, Supply
+from rotorcalc.machine import HOTTEST, Machine, Oil, Supply, oil_of
 from rotorcalc.numerics.roots import narrow_root
 from rotorcalc.onset.curves import SIGMA, curves, table
 
@@ -68,10 +68,10 @@ class Warming:
     @classmethod
     def of(cls, machines: Sequence[Machine], *, flexible: bool = True) -> "Warming":
         """Return the data of machines with a supply and a load, on short plain bearings."""
-        oils = tuple(dict.fromkeys(one.oil for one in machines))
+        oils = tuple(dict.fromkeys(map(oil_of, machines)))
         rows = np.array([_numbers(one, flexible) for one in machines]).T
         fields = dict(zip(_FIELDS, rows, strict=True))
-        return cls(**fields, oils=oils, oil=np.array([oils.index(one.oil) for one in machines]))
+        return cls(**fields, oils=oils, oil=np.array([oils.index(oil_of(one)) for one in machines]))
 
     def speed(self, sigma: Array, i: IntArray, known: tuple[Array, Array] | None = None) -> Array:
         """Return the onset speed of machines i at σ [rad/s], infinite where no film whirls."""
@@ -139,7 +139,7 @@ def _numbers(machine: Machine, flexible: bool) -> list[float]:
         (L / R) ** 2,
         supply.temperature,
         supply.flow,
-        2.0 * machine.oil.volumetric_heat / supply.heat_share if supply.heat_share else np.inf,
+        2.0 * oil_of(machine).volumetric_heat / supply.heat_share if supply.heat_share else np.inf,
     ]
 
 

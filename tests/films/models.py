@@ -26,6 +26,7 @@ from rotorcalc.geometry import (
     AxialGrooves,
     Elliptical,
     FloatingRing,
+    Foil,
     Geometry,
     Hydrostatic,
     Lobes,
@@ -459,6 +460,8 @@ SHORT_PADS = {
     f"short {name}": replace(FINITE[name], film="short")
     for name in ("partial arc", "axial grooves", "elliptical", "offset halves", "lobes")
 }
+# Those above run on oil, as the machines of the tests do; these on gas.
+GAS = {"foil": replace(_PLAIN, length=0.150, geometry=Foil.usual(60e-6))}
 # Those whose film has a force on a journal in any motion.
 MOVING = [name for name in BEARINGS | SHORT_PADS | SHORT_RINGS if name != "lossy"]
 BEARINGS |= FINITE | SHORT_PADS | RINGS
@@ -466,8 +469,10 @@ BEARINGS |= FINITE | SHORT_PADS | RINGS
 BEARINGS["hydrostatic"] = replace(_PLAIN, geometry=Hydrostatic(supply_pressure=15e6))
 
 
-def points(bearing, sigma, *, viscosity=0.0127, speed=600.0):
-    """Return operating points at σ with a real oil and speed, as inner masses need them."""
+def points(bearing, sigma, *, viscosity=None, speed=600.0):
+    """Return operating points at σ with a real oil or gas and speed, as inner masses need them."""
+    if viscosity is None:
+        viscosity = 0.0127 if bearing.geometry.lubricant == "oil" else 2e-5
     unit = float(FilmUnits(bearing, viscosity, speed).force)
     load = np.where(np.isinf(sigma), 0.0, unit / (4.0 * np.asarray(sigma, float)))
     return OperatingPoints(

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rotorcalc import Machine, analyse, film_curves
+from rotorcalc import Gas, Machine, analyse, film_curves
 from rotorcalc.coefficients import (
     dynamics,
     equilibrium,
@@ -19,17 +19,19 @@ from rotorcalc.coefficients import (
     unloading,
 )
 from rotorcalc.films import FilmMotion, FilmUnits, film_of, reduced
-from tests.films.models import BEARINGS, MOVING, Preloaded, Ringed, Sprung, points
+from tests.films.models import BEARINGS, GAS, MOVING, Preloaded, Ringed, Sprung, points
 from tests.machines import ROTORS, SHEET, log_uniform
 
 MOVES = pytest.mark.parametrize("bearing", [BEARINGS[name] for name in MOVING], ids=MOVING)
-ALL = pytest.mark.parametrize("bearing", BEARINGS.values(), ids=list(BEARINGS))
+EVERY = BEARINGS | GAS
+ALL = pytest.mark.parametrize("bearing", EVERY.values(), ids=list(EVERY))
 SIGMA = np.array([0.2, 0.5, 1.0, 4.0, 30.0])
 STEP = 1e-6
 
 
 def machine_on(bearing, **changes):
-    return replace(SHEET, bearing=bearing, **changes)
+    oil = Gas() if bearing.geometry.lubricant == "gas" else SHEET.oil
+    return replace(SHEET, bearing=bearing, **{"oil": oil} | changes)
 
 
 def motion_at(film, at):

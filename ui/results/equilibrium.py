@@ -3,6 +3,7 @@
 import math
 
 from rotorcalc.films.model import Source
+from rotorcalc.machine import oil_of
 from ui.computed import Computed
 from ui.format import tex, tex_base
 from ui.notes.equations import equation
@@ -10,14 +11,14 @@ from ui.results.record import Result
 
 
 def _viscosity(computed: Computed) -> str:
-    oil, T = computed.machine.oil, float(computed.point.temperature)
+    oil, T = oil_of(computed.machine), float(computed.point.temperature)
     power = rf"-{tex(oil.temperature_coefficient)}({tex(T)}-{tex(oil.reference_temperature)})"
     return rf"{tex(oil.reference_viscosity)}\,e^{{{power}}} = {tex(computed.viscosity, 'Pa s')}"
 
 
 def _law(computed: Computed) -> Source:
     """Return the law of the oil's viscosity."""
-    if computed.machine.oil.law == "exponential":
+    if oil_of(computed.machine).law == "exponential":
         return Source(_SHEET, _EXPONENTIAL)
     return Source("ASTM D341", r"\lg\lg(\nu + 0.7) = A - B\,\lg T,\quad \mu = \rho\nu")
 

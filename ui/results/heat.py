@@ -5,6 +5,7 @@ from dataclasses import replace
 from rotorcalc.figures.heat import oil_rise
 from rotorcalc.films.model import Source
 from rotorcalc.heat import USUAL_RISE, heat_balance
+from rotorcalc.machine import oil_of
 from ui.computed import Computed
 from ui.format import tex
 from ui.results.record import Result
@@ -52,7 +53,7 @@ def _rise(computed: Computed) -> float:
 
 
 def _rise_filled(computed: Computed) -> str:
-    supply, point, oil = computed.machine.supply, computed.point, computed.machine.oil
+    supply, point, oil = computed.machine.supply, computed.point, oil_of(computed.machine)
     share, flow = (supply.heat_share, supply.flow) if supply else (1.0, 0.0)
     top = rf"{tex(share)}\cdot {tex(float(point.power_loss))}"
     passing = tex(float(point.side_flow) + flow)
@@ -65,7 +66,7 @@ def _needed_filled(computed: Computed) -> str:
     if supply is not None:  # the film is then at another temperature
         T = supply.temperature + 0.5 * USUAL_RISE
         machine = replace(machine, temperature=T, supply=None)
-    film, oil = heat_balance(machine, computed.speed), machine.oil
+    film, oil = heat_balance(machine, computed.speed), oil_of(machine)
     P, Q = float(film.power_loss), float(film.side_flow)
     top = rf"{tex(supply.heat_share if supply else 1.0)}\cdot {tex(P)}"
     below = rf"{tex(oil.density)}\cdot {tex(oil.heat_capacity)}\cdot {tex(USUAL_RISE)}"

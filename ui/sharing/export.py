@@ -12,6 +12,7 @@ import numpy as np
 
 from rotorcalc import orbit_ellipse
 from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.machine import oil_of
 from rotorcalc.unbalance_response import phase_lag
 from rotorcalc.units import Unit, Units
 from ui import comparison
@@ -91,7 +92,7 @@ def _head(computed: Computed, units: Units) -> Iterator[tuple[str, str]]:
         if not applies(key, values):
             continue
         yield f"# {item.name(units)}", comparison.shown(key, values, units).replace("−", "-")
-    yield "# Viscosity law", LAWS[computed.machine.oil.law]
+    yield "# Viscosity law", LAWS[oil_of(computed.machine).law]
     yield "# Bearing", name_of(values[KIND])
     yield "# Film", film_name(values)
     for field in fields_of(values[KIND]).values():

@@ -8,6 +8,7 @@ import streamlit as st
 from rotorcalc.analysis import Axes
 from rotorcalc.coefficients import BULK_FLOW, LAMINAR
 from rotorcalc.films import film_of
+from rotorcalc.machine import oil_of
 from rotorcalc.units import Unit, Units
 from ui.computed import Computed
 from ui.format import amount, digits, display, minus, tex
@@ -186,7 +187,7 @@ def _share(computed: Computed) -> str:
 
 
 def _assumed(computed: Computed, units: Units) -> str:
-    density = amount(units.density, computed.machine.oil.density)
+    density = amount(units.density, oil_of(computed.machine).density)
     return (
         "Assumes laminar flow, αₘ = 6/5, temporal inertia only, the film over half the "
         f"circumference, and the oil's density of {density} (sidebar, Oil). "

@@ -5,6 +5,7 @@ import math
 from rotorcalc import Supply
 from rotorcalc.figures.heat import Warmed, oil_rise
 from rotorcalc.heat import USUAL_RISE
+from rotorcalc.machine import oil_of
 from rotorcalc.oils import LAW_NAMES
 from rotorcalc.units import Units
 from ui.computed import Computed
@@ -106,7 +107,7 @@ def curves(computed: Computed, units: Units) -> str:
 
 def law(computed: Computed, units: Units) -> str:
     """Return the caption of the viscosity's chart: its range, and how far the laws differ there."""
-    oil, sweep = computed.machine.oil, computed.sweep
+    oil, sweep = oil_of(computed.machine), computed.sweep
     low, high = (
         amount(units.temperature, end) for end in (sweep.temperature.min(), sweep.temperature.max())
     )
@@ -120,7 +121,7 @@ def law(computed: Computed, units: Units) -> str:
 
 def _difference(computed: Computed, units: Units) -> str:
     """Return how far the two laws are apart where the film is farthest from the reference."""
-    oil, other = computed.machine.oil, computed.other_oil
+    oil, other = oil_of(computed.machine), computed.other_oil
     if other is None:
         return ""
     T = computed.sweep.temperature

@@ -41,7 +41,7 @@ class Axial:
         found = np.zeros((zeta.size, self.weights.shape[1]))
         for low, high, nodes, indices in self.pieces:
             inside = (zeta >= low) & (zeta <= high)
-            values, total = _lagrange(nodes, zeta[inside]), np.zeros((inside.sum(), found.shape[1]))
+            values, total = lagrange(nodes, zeta[inside]), np.zeros((inside.sum(), found.shape[1]))
             for column, index in enumerate(indices):
                 if index >= 0:  # two columns share a pressure: the basis is even
                     total[:, index] += values[:, column]
@@ -85,7 +85,7 @@ def _whole(pad: Pad, m: int) -> Axial:
     """Return the basis over the whole length, or over two lands beside a relief track."""
     t = pad.track_ratio
     nodes, weights = lobatto(2 * m)
-    D = _derivatives(nodes)
+    D = derivatives(nodes)
     # Even functions: the pressures at ±ζ are one unknown; half of the domain stands for both.
     fold = np.zeros((2 * m + 1, m))
     for q in range(m):
@@ -112,14 +112,14 @@ def _two_zones(ratio: float, m: int) -> Axial:
     fold = np.zeros((2 * inner + 1, m))
     for q in range(inner + 1):
         fold[inner + q, q] = fold[inner - q, q] = 1.0
-    E = _derivatives(nodes) @ fold
+    E = derivatives(nodes) @ fold
     weights[0], stiffness[0] = ratio * (fold.T @ w), E.T @ (w[:, None] * E) / ratio
     lands, v = lobatto(outer)
     # The first node is the pocket's edge, shared by both zones; the last is the end, p = 0.
     take = np.zeros((outer + 1, m))
     take[np.arange(outer), inner + np.arange(outer)] = 1.0
     half = (1.0 - ratio) / 2.0
-    G = _derivatives(lands) @ take
+    G = derivatives(lands) @ take
     weights[1], stiffness[1] = 2.0 * half * (take.T @ v), 2.0 / half * (G.T @ (v[:, None] * G))
     outflow[1] = -2.0 / half * G[-1]
     inside = (*range(inner, 0, -1), *range(inner + 1))
@@ -140,7 +140,7 @@ def lobatto(degree: int) -> tuple[Array, Array]:
     return nodes, 2.0 / (degree * (degree + 1) * P(nodes) ** 2)
 
 
-def _derivatives(nodes: Array) -> Array:
+def derivatives(nodes: Array) -> Array:
     """Return the derivatives of Lagrange's polynomials at their nodes, (n, n)."""
     distance = nodes[:, None] - nodes
     np.fill_diagonal(distance, 1.0)
@@ -151,7 +151,7 @@ def _derivatives(nodes: Array) -> Array:
     return D
 
 
-def _lagrange(nodes: Array, x: Array) -> Array:
+def lagrange(nodes: Array, x: Array) -> Array:
     """Return Lagrange's polynomials at places x, (len(x), n)."""
     found = np.ones((x.size, nodes.size))
     for j, node in enumerate(nodes):
