@@ -65,7 +65,7 @@ def against_speed(page: Page, *, bends: bool) -> None:
 def mode_shape(page: Page, *, bends: bool) -> None:
     computed, units = page.computed, page.units
     locus = computed.locus(bends)
-    page.say("modes", lambda c: Text(words.table(c.locus(bends).here, c.speed, units)))
+    page.say("modes", lambda c: Text(words.table(c.locus(bends), units)))
     left, right = st.columns([2, 3])
     with left:
         mode = words.choose_mode(locus)

@@ -14,6 +14,8 @@ from scipy.optimize import linear_sum_assignment
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.display import Result
+from rotorcalc.machine import JournalBearing
+from rotorcalc.mode_names import mode_names
 from rotorcalc.modes import ModeShapes, leading_place
 
 
@@ -34,12 +36,20 @@ class Locus(Result):
         Ω [rad/s].
     here : ModeShapes
         The m modes at the running speed.
+    moving : tuple of str
+        What moves in each of these where it is not the rotor alone (`mode_names`), else "".
     """
 
     speed: Array
     branches: ComplexArray
     running_speed: float
     here: ModeShapes
+    moving: tuple[str, ...]
+
+    def name(self, mode: int) -> str:
+        """Return a mode's number, and what moves in it where it is not the rotor alone."""
+        part = self.moving[mode]
+        return f"mode {mode + 1}" + (f", {part}" if part else "")
 
     @property
     def leading(self) -> int:
@@ -49,7 +59,12 @@ class Locus(Result):
 
 @checked
 def root_locus(
-    speed: Array, branches: ComplexArray, *, running_speed: float, shapes: ModeShapes
+    speed: Array,
+    branches: ComplexArray,
+    *,
+    running_speed: float,
+    shapes: ModeShapes,
+    bearing: JournalBearing,
 ) -> Locus:
     """Return followed eigenvalues and the modes at the running speed, in one order.
 
@@ -63,6 +78,8 @@ def root_locus(
         Ω [rad/s].
     shapes : ModeShapes
         All m modes at the running speed.
+    bearing : JournalBearing
+        The bearing, whose parts may move too.
 
     Returns
     -------
@@ -81,11 +98,13 @@ def root_locus(
     # A column of conjugates at every speed is dropped; one that begins real stays, blank where it
     # becomes the conjugate of another.
     kept = np.any(followed.imag >= 0.0, axis=0)
+    shown = shapes.ordered(here[kept])
     return Locus(
         speed=speed,
         branches=np.where(followed.imag < 0.0, np.nan, followed)[:, kept],
         running_speed=running_speed,
-        here=shapes.ordered(here[kept]),
+        here=shown,
+        moving=mode_names(bearing, shown),
     )
 
 

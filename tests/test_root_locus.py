@@ -24,7 +24,7 @@ def locus_of(machine, speed, top, *, flexible=True):
     values = sweep.flexible_eigenvalues if flexible else sweep.rigid_eigenvalues
     branches = modes.follow_branches(values)
     shapes = shapes_of(machine, speed, flexible=flexible)
-    return root_locus(speeds, branches, running_speed=speed, shapes=shapes)
+    return root_locus(speeds, branches, running_speed=speed, shapes=shapes, bearing=machine.bearing)
 
 
 def machines():

@@ -466,6 +466,7 @@ def _locus(machine: Machine, speed: float, top_speed: float, flexible: bool) -> 
         _branches(machine, top_speed, flexible),
         running_speed=speed,
         shapes=point.mode_shapes(flexible=flexible),
+        bearing=machine.bearing,
     )
 
 

@@ -89,6 +89,7 @@ def campbell(machine: Machine, speed: ArrayLike, *, flexible: bool = True) -> Ca
         sweep.branches(flexible=flexible),
         running_speed=float(sweep.speed[-1]),
         shapes=last,
+        bearing=machine.bearing,
     )
     values = locus.branches
     waves = values.imag > 0.0

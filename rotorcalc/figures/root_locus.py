@@ -73,13 +73,13 @@ def beyond(locus: Locus, units: Units) -> str:
     """Return a text naming the modes at the running speed that lie outside the view."""
     left, right, top = window(locus, units)
     words: list[str] = []
-    for i, value in enumerate(locus.here.eigenvalues, start=1):
+    for i, value in enumerate(locus.here.eigenvalues):
         frequency = float(whirl_frequency(value, units))
         if value.imag < 0.0 or (-left <= value.real <= right and frequency <= top):
             continue  # the mirror image of another mode, or inside
         whirl = f"{frequency:.0f} {units.speed.name}" if value.imag > 0.0 else "does not oscillate"
         rate = number(value.real, 3)
-        words.append(f"mode {i} ({whirl}, {rate} {units.growth.name})")
+        words.append(f"{locus.name(i)} ({whirl}, {rate} {units.growth.name})")
     return f"Outside this view at the running speed: {', '.join(words)}." if words else ""
 
 

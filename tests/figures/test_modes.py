@@ -24,7 +24,13 @@ def shown_of(preset, units=SI, *, flexible=True, speed=None, **changes):
     values = sweep.flexible_eigenvalues if flexible else sweep.rigid_eigenvalues
     state = equilibrium(machine, speed)
     shapes = modes.mode_shapes(machine.rotor, state.stiffness, state.damping, flexible=flexible)
-    locus = root_locus(speeds, modes.follow_branches(values), running_speed=speed, shapes=shapes)
+    locus = root_locus(
+        speeds,
+        modes.follow_branches(values),
+        running_speed=speed,
+        shapes=shapes,
+        bearing=machine.bearing,
+    )
     rigid = modes.undamped_frequency(sweep.equivalent_stiffness, rotor.half_mass)
     shaft = float(modes.undamped_frequency(rotor.shaft_stiffness, rotor.half_mass))
     return figures.OverSpeed(locus, onset_speed(machine, flexible), units), rigid, shaft

@@ -13,6 +13,7 @@ import numpy as np
 from rotorcalc import orbit_ellipse
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.machine import oil_of
+from rotorcalc.root_locus import Locus
 from rotorcalc.unbalance_response import phase_lag
 from rotorcalc.units import Unit, Units
 from ui import comparison
@@ -103,6 +104,16 @@ def _head(computed: Computed, units: Units) -> Iterator[tuple[str, str]]:
         ("Whirl frequency at the onset", onset.whirl_frequency),
     ):
         yield f"# {words} [{units.speed.name}]", f"{float(units.speed.of(speed)):.10g}"
+    if not computed.machine.rotor.is_rigid:
+        yield from _parts_moving("Mode", computed.locus(True))
+    yield from _parts_moving("Rigid rotor, mode", computed.locus(False))
+
+
+def _parts_moving(words: str, locus: Locus) -> Iterator[tuple[str, str]]:
+    """Yield the modes in which more than the rotor moves."""
+    for number, part in enumerate(locus.moving, start=1):
+        if part:
+            yield f"# {words} {number} at the running speed", part
 
 
 def _columns(computed: Computed, units: Units) -> Iterator[Column]:

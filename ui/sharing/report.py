@@ -216,9 +216,10 @@ def _matrix(name: str, matrix: Array, unit: Unit) -> str:
 
 
 def _modes(computed: Computed, units: Units) -> str:
+    locus = computed.locus(True)
     rows = (
-        _mode(number, complex(value), computed.speed, units)
-        for number, value in enumerate(computed.locus(True).here.eigenvalues, start=1)
+        _mode(locus.name(i).removeprefix("mode "), complex(value), computed.speed, units)
+        for i, value in enumerate(locus.here.eigenvalues)
         if value.imag >= 0.0  # else the mirror image of another
     )
     head = _head(
@@ -229,7 +230,7 @@ def _modes(computed: Computed, units: Units) -> str:
     return f"<h2>Modes at the running speed</h2>{_table(head, rows)}"
 
 
-def _mode(number: int, value: complex, speed: float, units: Units) -> str:
+def _mode(name: str, value: complex, speed: float, units: Units) -> str:
     growth = digits(float(units.growth.of(value.real)))
     if value.imag == 0.0:
         texts = ["does not oscillate", "", growth, "", ""]
@@ -241,7 +242,7 @@ def _mode(number: int, value: complex, speed: float, units: Units) -> str:
             f"{float(modes.damping_ratio(value)):.4f}",
             f"{float(modes.logarithmic_decrement(value)):.3f}",
         ]
-    return _row([(str(number), ""), *((minus(text), "n") for text in texts)])
+    return _row([(name, ""), *((minus(text), "n") for text in texts)])
 
 
 def _validity(computed: Computed, units: Units) -> str:

@@ -106,7 +106,7 @@ def choose_mode(locus: Locus) -> int:
         "Mode",
         range(len(locus.here.eigenvalues)),
         index=locus.leading,
-        format_func=lambda i: f"{i + 1}",
+        format_func=lambda i: locus.name(i).removeprefix("mode "),
         key="locus_mode",
     )
     return locus.leading if chosen is None else chosen
@@ -117,8 +117,9 @@ def same_mode(locus: Locus, mode: int | None) -> int:
     return locus.leading if mode is None or mode >= len(locus.here.eigenvalues) else mode
 
 
-def table(here: ModeShapes, speed: float, units: Units) -> str:
+def table(locus: Locus, units: Units) -> str:
     """Return the modes at the running speed as a Markdown table, narrow enough for a phone."""
+    here, speed = locus.here, locus.running_speed
     count = len(here.eigenvalues)
     columns = (_column(here, i, speed, units) for i in range(count))
     names = (
@@ -127,6 +128,8 @@ def table(here: ModeShapes, speed: float, units: Units) -> str:
         "Disk's orbit", "Journal's orbit",
     )  # fmt: skip
     head, *rows = zip(names, *columns, strict=True)
+    if any(locus.moving):
+        rows.append(("Moving part", *(part or "rotor" for part in locus.moving)))
     lines = (head, (":--", *["--:"] * count), *rows)
     return "\n".join(f"| {' | '.join(line)} |" for line in lines)
 
