@@ -12,9 +12,10 @@ from scipy.constants import degree
 from rotorcalc import Hydrostatic, Machine, analyse, onset_speed
 from rotorcalc.coefficients import equilibrium, operating_points, stiffness_and_damping
 from rotorcalc.films import film_of
-from rotorcalc.films.hydrostatic.balance import Restrictors, balanced, bearing_of, held
+from rotorcalc.films.hydrostatic.balance import balanced, bearing_of, held
 from rotorcalc.films.hydrostatic.mesh import Lands
 from rotorcalc.films.hydrostatic.pressure import extremes
+from rotorcalc.films.hydrostatic.restrictors import Restrictors
 from rotorcalc.films.hydrostatic.table import extrapolated, table
 from rotorcalc.machine import JournalBearing
 from tests.films.models import points
@@ -239,6 +240,20 @@ def test_a_heavier_load_than_the_supply_carries_is_refused_in_words():
     equilibrium(replace(MACHINE, load=0.999 * most), np.array([1.0, 300.0, 3000.0]))
     with pytest.raises(ValueError, match=r"static load = .* at most .* supplied at 2e\+06 Pa"):
         equilibrium(replace(MACHINE, load=1.001 * most), 300.0)
+
+
+@pytest.mark.parametrize(("lands", "kind", "ratio"), [
+    (FOUR, "capillary", 0.2), (FOUR, "orifice", 0.7), (SIX, "orifice", 0.5),
+])  # fmt: skip
+def test_the_heaviest_load_is_carried_at_every_speed(lands, kind, ratio):
+    """A slow journal gives way to the side: there much less is carried than at rest."""
+    bearing = on(lands, kind, ratio)
+    S = np.concatenate([[1e-9], np.geomspace(1e-3, 100.0, 60)])
+    found = balanced(bearing, S, np.full(len(S), bearing.heaviest))
+    force, _ = held(bearing, S, found.position)
+    assert force == pytest.approx(np.broadcast_to([-bearing.heaviest, 0.0], force.shape), abs=1e-9)
+    assert np.linalg.det(found.stiffness).min() > 0.0
+    assert np.abs(np.diff(found.position, axis=0)).max() < 0.3
 
 
 def test_it_refuses_what_it_does_not_compute():

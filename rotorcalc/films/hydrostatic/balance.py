@@ -1,14 +1,12 @@
 """Static equilibrium of a journal on recesses, and the film's stiffness and damping there.
 
 The unknowns are the journal's position and the flow Q_k = q y_k through each restrictor, over that
-at zero recess pressure, q. A capillary passes Q = q (1 − P), an orifice Q = q √(1 − P): in y both
-are smooth, P = 1 − y and P = 1 − y|y|, also where the film's rotation pumps oil back, P > 1. What
-passes the restrictor leaves the recess over the lands (`influence`), and the film carries the load:
+at zero recess pressure, q (`restrictors`). What passes the restrictor leaves the recess over the
+lands (`influence`), and the film carries the load:
 
     q y = G P − 12 S g w,    gᵀ P + 12 S D w = (W, 0),    w = (y, −x)/2,    W = F_o/(p_s R L)
 
-solved by Newton's method for all operating points at once. The restrictors are sized so that the
-recesses of the centred bearing at rest have the pressure β p_s.
+solved by Newton's method for all operating points at once.
 """
 
 import functools
@@ -19,6 +17,7 @@ import numpy as np
 
 from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.films.hydrostatic.influence import Influence
+from rotorcalc.films.hydrostatic.restrictors import Restrictors
 from rotorcalc.films.hydrostatic.table import THINNEST, Table
 
 # Newton's steps; the size of the last, in C; the longest over the smallest film.
@@ -35,42 +34,6 @@ _SPEEDS, _SURE = np.array([0.01, 0.03, 0.08, 0.2, 0.5]), 0.93
 _SHARES = (0.4, 0.6, 0.75, 0.85, 0.93, 1.0)
 # Rotation acts on the film as the velocity w = (y, −x)/2 does.
 _TURN = np.array([[0.0, 0.5], [-0.5, 0.0]])
-
-
-@dataclass(frozen=True)
-class Restrictors:
-    """The restrictors before the recesses.
-
-    Attributes
-    ----------
-    kind : "capillary" or "orifice"
-        How the flow depends on the pressure.
-    pressure_ratio : float
-        Recess pressure of the centred bearing at rest over the supply pressure, β [-].
-    """
-
-    kind: str
-    pressure_ratio: float
-
-    def size(self, outflow: float) -> float:
-        """Return q from the outflow of a recess at the supply pressure, in the centre at rest."""
-        beta = self.pressure_ratio
-        left = 1.0 - beta
-        return outflow * beta / (left if self.kind == "capillary" else np.sqrt(left))
-
-    @property
-    def centred_flow(self) -> float:
-        """The unknown y of the centred bearing at rest."""
-        left = 1.0 - self.pressure_ratio
-        return left if self.kind == "capillary" else float(np.sqrt(left))
-
-    def pressure(self, y: Array) -> Array:
-        """Return the recess pressure behind a restrictor that passes q y, P = p/p_s."""
-        return 1.0 - (y if self.kind == "capillary" else y * np.abs(y))
-
-    def slope(self, y: Array) -> Array:
-        """Return dP/dy."""
-        return -np.ones_like(y) if self.kind == "capillary" else -2.0 * np.abs(y)
 
 
 @dataclass(frozen=True, eq=False)

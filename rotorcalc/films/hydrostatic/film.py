@@ -18,7 +18,6 @@ from rotorcalc.films.dynamics import NO_INERTIA, FilmDynamics
 from rotorcalc.films.hydrostatic.balance import (
     Balance,
     Bearing,
-    Restrictors,
     balanced,
     bearing_of,
 )
@@ -26,6 +25,7 @@ from rotorcalc.films.hydrostatic.drag import shear
 from rotorcalc.films.hydrostatic.mesh import Lands, mesh
 from rotorcalc.films.hydrostatic.pressure import SHOWN, Extremes, extremes, nodal
 from rotorcalc.films.hydrostatic.pressure import field as pressure_at
+from rotorcalc.films.hydrostatic.restrictors import Restrictors
 from rotorcalc.films.hydrostatic.sources import SOURCES
 from rotorcalc.films.hydrostatic.table import THINNEST, Table, finer, table
 from rotorcalc.films.model import Accuracy, FilmMotion, Limit, Source
