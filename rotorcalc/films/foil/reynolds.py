@@ -262,7 +262,7 @@ def _faces(found: Films) -> _Faces:
     )
 
 
-def potential(a: Array, v: Array, p: Array, alpha: Array) -> tuple[Array, Array]:
+def potential(a: Array, v: Array, p: Array, alpha: Array | float) -> tuple[Array, Array]:
     """Return ψ = ∫ (p + v)(a + αv)³ dv from 0 to v, and 3 ∫ (p + v)(a + αv)² dv, where a > 0.
 
     Parameters
