@@ -2,9 +2,11 @@ import streamlit as st
 
 from rotorcalc.figures import equilibrium as place
 from rotorcalc.figures import film
+from rotorcalc.figures import recesses as supplied
 from ui.choices import choose
 from ui.frame.page import Page, show
 from ui.words import equilibrium as words
+from ui.words import recesses as tell
 from ui.words.citation import cited, remark
 
 
@@ -17,6 +19,7 @@ def content(page: Page) -> None:
         "Film and pressure": film_and_pressure,
         "Forces": forces,
         "Losses and flow": losses,
+        **({"Recesses": recesses} if page.computed.has_recesses else {}),
     })  # fmt: skip
 
 
@@ -126,6 +129,32 @@ def losses(page: Page) -> None:
                 alt=f"{title} over running speed.",
                 caption=caption,
             )  # fmt: skip
+
+
+def recesses(page: Page) -> None:
+    units = page.units
+    page.say("powers", lambda c: tell.summary(c, units))
+    left, right = st.columns(2)
+    with left:
+        page.chart(
+            lambda c: supplied.pressures(c.recesses, c.recesses_here, tell.supply(c), units),
+            "recess_pressures",
+            alt="Pressure of each recess over running speed, and the supply pressure.",
+            caption=cited(
+                "Each recess by its angle from the load line, in the sense of rotation.",
+                page.computed, "eccentricity",
+            ),
+        )  # fmt: skip
+        page.say("recesses", lambda c: tell.table(c, units))
+    with right:
+        page.chart(
+            lambda c: supplied.powers(c.recesses, c.recesses_here, units),
+            "recess_powers",
+            alt="Power of the pump, power lost by friction, and their sum over running speed.",
+            caption=lambda c: tell.warming(c, units),
+        )
+        page.say("at_rest", lambda c: tell.at_rest(c, units))
+        page.say("suction", lambda c: tell.suction(c, units))
 
 
 show(

@@ -51,6 +51,11 @@ class RecessEquilibrium(Result):
     lowest_pressure: Array
 
     @property
+    def total_power(self) -> Array:
+        """Of pump and friction together, all of which ends as heat in the oil [W], (...)."""
+        return self.pump_power + self.friction_power
+
+    @property
     def has_suction(self) -> BoolArray:
         """Whether some pressure of the film is below ambient, (...)."""
         return self.lowest_pressure < 0.0

@@ -167,8 +167,9 @@ def _suction(sweep: Sweep) -> tuple[Check, ...]:
     machine = sweep.machine
     if not isinstance(machine.bearing.geometry, Hydrostatic):
         return ()
-    suction = -recess_equilibrium(machine, sweep.speed).lowest_pressure / atmosphere
-    return (_above("Suction in the film over atmospheric pressure, −p/p_a", suction, 0.1, 1.0,
+    # 0.0 − p, so that no suction is no minus zero.
+    suction = (0.0 - recess_equilibrium(machine, sweep.speed).lowest_pressure) / atmosphere
+    return (_above("Suction in the film over atmospheric pressure, −p/pₐ", suction, 0.1, 1.0,
                    "the oil cavitates there, where the model takes the film as full"),)  # fmt: skip
 
 

@@ -8,6 +8,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from rotorcalc import (
+    Hydrostatic,
     JournalBearing,
     Machine,
     Oil,
@@ -46,6 +47,7 @@ from rotorcalc.films import draft, film_of
 from rotorcalc.machine import oil_of
 from rotorcalc.numerics.first_answer import from_first_answer
 from rotorcalc.oils import by_other_law
+from rotorcalc.recesses import RecessEquilibrium, recess_equilibrium
 from rotorcalc.root_locus import Locus, root_locus
 from rotorcalc.unbalance_curves import (
     ClearanceOrbit,
@@ -80,6 +82,10 @@ _AROUND = np.linspace(0.0, 2.0 * np.pi, 361)
 _ZETA = np.linspace(-0.5, 0.5, 21)
 # Half-speed whirl, imbalance at 1, and its second harmonic.
 _WHIRL_RATIOS = np.linspace(0.02, 2.0, 100)
+
+
+# So small a share of the running speed that rotation carries nothing of the load.
+_REST = 1e-9
 
 
 class Computed:
@@ -212,6 +218,27 @@ class Computed:
     def middle_film(self) -> PressureField:
         """The film around the bearing's middle at the running speed."""
         return film_field(self.machine, self.speed, theta=_THETA)
+
+    @property
+    def has_recesses(self) -> bool:
+        """Whether the bearing has recesses that are supplied with oil."""
+        return isinstance(self.machine.bearing.geometry, Hydrostatic)
+
+    @cached_property
+    def recesses(self) -> RecessEquilibrium:
+        """The bearing's recesses over the sweep."""
+        return recess_equilibrium(self.machine, self.sweep.speed)
+
+    @cached_property
+    def recesses_here(self) -> RecessEquilibrium:
+        """The bearing's recesses at the running speed."""
+        return recess_equilibrium(self.machine, self.speed)
+
+    @cached_property
+    def at_rest(self) -> Sweep:
+        """The machine on its recesses as its rotation ends, the film as warm as in operation."""
+        T = float(self.point.temperature)
+        return analyse(replace(self.machine, temperature=T, supply=None), _REST * self.speed)
 
     @property
     def other_speeds(self) -> OtherSpeeds:

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from rotorcalc.analysis import Sweep
-from rotorcalc.arrays import BoolArray
+from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.coefficients import FilmForces, PressureField
 from rotorcalc.figures import cursor, plane, style, text
 from rotorcalc.figures.plane import Part
@@ -41,7 +41,7 @@ def film_around(field: PressureField, point: Sweep, units: Units) -> Chart:
         domain=style.UPPER,
     )  # fmt: skip
     y2 = style.axis(
-        style.titled("Pressure", "p", units.pressure.name), 0.0, style.ceiling(top),
+        style.titled("Pressure", "p", units.pressure.name), _floor(p), style.ceiling(top),
         domain=style.LOWER,
     )  # fmt: skip
     traces = [
@@ -68,6 +68,7 @@ def pressure_map(field: PressureField, point: Sweep, units: Units) -> Chart:
     z = units.length.of(field.axial_position)
     edge, high = style.ceiling(z), style.ceiling(units.pressure.of(point.peak_pressure))
     p = np.where(field.cavitated[:, None], np.nan, units.pressure.of(field.pressure))
+    low = _floor(p)
     once = slice(None, -1)  # 360° repeats 0°
     x = _around(field)
     y = style.axis(style.titled("Axial position", "z", units.length.name), -edge, edge)
@@ -75,8 +76,8 @@ def pressure_map(field: PressureField, point: Sweep, units: Units) -> Chart:
     contour: Trace = {
         "type": "contour", "name": "pressure", "x": units.angle.of(field.theta[once]), "y": z,
         "z": p[once].T.astype(np.float32),  # single precision halves the message
-        "zmin": 0.0, "zmax": high, "colorscale": "Cividis", "line": {"width": 0.4},
-        "contours": {"start": 0.0, "end": high, "size": high / 10},
+        "zmin": low, "zmax": high, "colorscale": "Cividis", "line": {"width": 0.4},
+        "contours": {"start": low, "end": high, "size": (high - low) / 10},
         "colorbar": {"title": {"text": title, "side": "right"}, "thickness": 14, "outlinewidth": 0,
                      **style.PLAIN_NUMBERS},
         "hovertemplate": f"θ = %{{x:.0f}}°<br>z = %{{y:.3g}} {units.length.name}<br>"
@@ -93,7 +94,9 @@ def forces(
 ) -> Chart:  # fmt: skip
     """Return the film's forces over ε at the running speed (Fig. 5.2), and the load on them."""
     eps, load = curves.eccentricity_ratio, float(units.force.of(at.total))
-    within = units.force.of(curves.total[(eps > 0.02) & (eps < 0.8)])
+    usual = (eps > 0.02) & (eps < 0.8)
+    # A film under high pressure at the supply may carry all its loads close to the centre.
+    within = units.force.of(curves.total[usual] if usual.any() else curves.total)
     # The radial part vanishes with ε²: two decades below the load it may leave the chart.
     low_part = max(float(units.force.of(-at.radial)), load / 100)
     low, high = style.decades([within.min(), within.max(), load, low_part])
@@ -192,8 +195,15 @@ def _over_theta(field: PressureField, point: Sweep, units: Units, *, level: floa
 
 
 def _has_shape(field: PressureField, point: Sweep) -> bool:
-    """Return whether the film is not uniform: a load or, without one, a bore that is not round."""
-    return point.machine.static_load > 0.0 or bool(np.ptp(field.thickness) > 0.0)
+    """Return whether film or pressure is not uniform: by a load, pads, or recesses."""
+    uneven = np.ptp(field.thickness) > 0.0 or bool(np.any(field.pressure != 0.0))
+    return point.machine.static_load > 0.0 or bool(uneven)
+
+
+def _floor(pressure: Array) -> float:
+    """Return the lower end of an axis of pressures: zero, but for a film under suction."""
+    lowest = float(np.nanmin(pressure))
+    return -style.ceiling(-lowest) if lowest < 0.0 else 0.0
 
 
 def _load_line(field: PressureField, point: Sweep, units: Units) -> tuple[list[Part], list[Part]]:

@@ -194,6 +194,8 @@ def balanced(bearing: Bearing, S: Array, load: Array) -> Balance:
         place[bad], y[bad] = _followed(bearing, S[bad], load[bad])
     if np.hypot(place[:, 0], place[:, 1]).max(initial=0.0) > 1.0 - THINNEST:
         raise RuntimeError("the film is thinner than the table reaches")
+    # Without load the centre itself, not what rounding leaves of it.
+    place[load == 0.0] = 0.0
     return _answer(bearing, S, place, y)
 
 

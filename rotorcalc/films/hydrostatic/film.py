@@ -5,6 +5,7 @@ fed through a capillary or an orifice. The oil in the recesses is incompressible
 """
 
 import functools
+import math
 from collections.abc import Hashable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -114,9 +115,10 @@ class HydrostaticFilm:
             unit = p_s * one.radius * one.length
             raise ValueError(
                 f"static load = {W.max() * unit:.4g} N: must be at most {heaviest * unit:.4g} N on "
-                f"recesses supplied at {p_s:.4g} Pa, F/(p_s L D) = {heaviest / 2.0:.3g}; a "
-                "heavier load presses the journal onto the land at rest or at a low speed, as the "
-                "recess under it is at nearly the supply pressure"
+                f"recesses supplied at {p_s:.4g} Pa; a heavier load presses the journal onto the "
+                "land at rest or at a low speed, as the recess under it is at nearly the supply "
+                f"pressure. A supply at {_above(p_s * W.max() / heaviest):.4g} Pa or more "
+                "carries it"
             )
 
     def state(self, points: OperatingPoints) -> FilmState:
@@ -284,6 +286,12 @@ def _direction(position: Array, K: Array) -> Array:
     x, y = position[..., 0], position[..., 1]
     limit = np.arctan2(-K[..., 1, 0], K[..., 1, 1])
     return np.where(np.hypot(x, y) < 1e-12, limit, np.arctan2(y, x))
+
+
+def _above(pressure: float) -> float:
+    """Return a pressure rounded up to three digits."""
+    digit = 10.0 ** (math.floor(math.log10(pressure)) - 2)
+    return math.ceil(pressure / digit) * digit
 
 
 def _apart(one: Array, other: Array) -> float:

@@ -1,0 +1,70 @@
+"""The recesses of a hydrostatic bearing on the page Equilibrium, live, in files and refused."""
+
+import math
+
+import pytest
+
+from rotorcalc.units import SI, US
+from tests.app.session import faults, open_part, session_of, tabs, texts, visit
+from ui.computed import computed_from
+from ui.format import amount
+from ui.inputs import values_of
+
+PAGE = "pages/1_Equilibrium.py"
+TAB = ("equilibrium_tab", "Recesses")
+
+
+def test_the_tab_has_each_recess_and_powers_that_agree_with_the_page():
+    at = visit(PAGE, bearing="hydrostatic", recesses="3", units="US")
+    open_part(at, *TAB)
+    assert not faults(at)
+    computed = computed_from(session_of(at).values)
+    found, said = computed.recesses_here, " ".join(texts(at))
+    assert said.count("° | ") == 3
+    for pressure in found.pressure:
+        assert amount(US.pressure, pressure) in said
+    assert f"Side flow: {amount(US.flow, found.flow)}" in said
+    assert f"delivers **{amount(US.flow, found.flow)}**" in said
+    assert f"Power loss: {amount(US.power, found.friction_power)}" in said
+    assert float(found.flow) == pytest.approx(float(found.recess_flow.sum()))
+    assert "At rest the journal floats" in said
+
+
+def test_a_bearing_without_recesses_has_no_such_tab():
+    assert TAB not in tabs(visit(PAGE))
+    # Nor after the bearing was changed with the tab open.
+    at = visit(PAGE, bearing="hydrostatic")
+    open_part(at, *TAB)
+    session_of(at).set_value("bearing", "plain")
+    at.run()
+    assert not faults(at)
+    assert TAB not in tabs(at)
+
+
+def test_the_page_is_live_while_an_input_is_dragged():
+    at = visit(PAGE, bearing="hydrostatic")
+    open_part(at, *TAB)
+    moved = session_of(at).preview.at("supply_pressure", "4")
+    assert "at 4 MPa" in moved["texts"]["said_powers"]["words"]
+    assert all(moved["charts"].values())
+
+
+def test_at_rest_the_stiffness_is_that_of_a_still_shaft_whatever_the_oil():
+    machines = [visit(PAGE, bearing="hydrostatic", T=T) for T in ("40", "80")]
+    warm, hot = (computed_from(session_of(at).values).at_rest.stiffness for at in machines)
+    assert warm == pytest.approx(hot, rel=1e-6, abs=1e-6 * hot[0, 0])
+    assert abs(warm[0, 1]) < 1e-6 * warm[0, 0]
+
+
+@pytest.mark.parametrize("units", ["SI", "US"])
+def test_too_heavy_a_load_says_which_supply_would_carry_it(units):
+    at = visit(PAGE, bearing="hydrostatic", load="20000", units=units)
+    [error] = [box.value for box in at.error]
+    pressure = (SI if units == "SI" else US).pressure
+    assert "_" not in error
+    assert f"{pressure.name} or more carries it" in error
+    # That it does.
+    at = visit(PAGE, bearing="hydrostatic", load="20000", supply_pressure="8.58")
+    assert not at.error
+    assert math.isfinite(session_of(at).preview.computed.point.eccentricity_ratio)
+    assert values_of(session_of(at).preview.computed.machine, 1.0, 1.0)["load"] == 20000.0

@@ -1,0 +1,112 @@
+"""What the recesses of a hydrostatic bearing are said to do: pressures, flows, powers, rest."""
+
+import math
+from typing import TypeAlias, cast
+
+import numpy as np
+
+from rotorcalc import Hydrostatic
+from rotorcalc.figures.recesses import angles
+from rotorcalc.machine import oil_of
+from rotorcalc.units import Units
+from ui.computed import Computed
+from ui.format import amount, digits, minus
+from ui.preview import Text
+
+Row: TypeAlias = tuple[str, ...]
+
+HEAD: Row = ("Recess, from the load line", "Pressure", "Share of the supply's", "Flow")
+_RULE: Row = ("---", "---:", "---:", "---:")
+
+
+def each(computed: Computed, units: Units) -> list[Row]:
+    """Return angle, pressure, its share of the supply pressure, and flow of each recess."""
+    found, p_s = computed.recesses_here, supply(computed)
+    return [
+        (
+            f"{math.degrees(angle):.0f}°",
+            amount(units.pressure, pressure),
+            f"{minus(digits(float(100.0 * pressure / p_s)))} %",
+            amount(units.flow, flow),
+        )
+        for angle, pressure, flow in zip(
+            angles(len(found.pressure)), found.pressure, found.recess_flow, strict=True
+        )
+    ]
+
+
+def totals(computed: Computed, units: Units) -> list[Row]:
+    """Return what the supply delivers and what is lost, in words and with their units."""
+    found = computed.recesses_here
+    return [
+        ("Flow of the supply", amount(units.flow, found.flow)),
+        ("Pump power, pₛ Q", amount(units.power, found.pump_power)),
+        ("Friction power", amount(units.power, found.friction_power)),
+        ("Pump and friction", amount(units.power, found.total_power)),
+    ]
+
+
+def table(computed: Computed, units: Units) -> Text:
+    """Return the recesses, a row each, as Markdown."""
+    rows = (HEAD, _RULE, *each(computed, units))
+    return Text("\n".join(f"| {' | '.join(row)} |" for row in rows))
+
+
+def summary(computed: Computed, units: Units) -> Text:
+    """Return flow and powers of one bearing, in a sentence or two."""
+    found = computed.recesses_here
+    share = float(found.pump_power / found.total_power)
+    return Text(
+        f"The supply of one bearing delivers **{amount(units.flow, found.flow)}** at "
+        f"{amount(units.pressure, supply(computed))}. Its pump needs "
+        f"**{amount(units.power, found.pump_power)}**, without the pump's own loss, and the "
+        f"journal loses **{amount(units.power, found.friction_power)}** by friction on the lands: "
+        f"together **{amount(units.power, found.total_power)}**, of which "
+        f"{digits(float(f'{100.0 * share:.2g}'))} % is the pump's."
+    )
+
+
+def warming(computed: Computed, units: Units) -> str:
+    """Return by how much the pump warms the oil, which the balance of heat leaves out."""
+    rise = supply(computed) / oil_of(computed.machine).volumetric_heat
+    return (
+        "The pump's power is supply pressure times flow, without its own loss. It ends as heat, "
+        f"as friction does: in restrictors and lands it warms the oil by pₛ/(ρc) = "
+        f"{amount(units.rise, rise)}, which the balance of heat leaves out."
+    )
+
+
+def at_rest(computed: Computed, units: Units) -> Text:
+    """Return where the journal is and how stiff its film, as the rotation ends."""
+    rest = computed.at_rest
+    K = rest.stiffness
+    stiff = (
+        amount(units.stiffness, K[0, 0])
+        if np.isclose(K[0, 0], K[1, 1], rtol=1e-4)
+        else f"{amount(units.stiffness, K[0, 0])} along the load and "
+        f"{amount(units.stiffness, K[1, 1])} across it"
+    )
+    return Text(
+        f"At rest the journal floats: as the speed goes to zero, ε = "
+        f"**{digits(float(f'{float(rest.eccentricity_ratio):.4g}'))}**, and the film's stiffness "
+        f"is **{stiff}**, whatever the oil's viscosity."
+    )
+
+
+def suction(computed: Computed, units: Units) -> Text | None:
+    """Return that the film is under suction somewhere, where it is."""
+    found = computed.recesses_here
+    if not bool(found.has_suction):
+        return None
+    lowest = amount(units.pressure, found.lowest_pressure)
+    return Text(
+        f"The film's lowest pressure is {lowest}: suction, at which oil cavitates sooner or later. "
+        "This model takes the film as full; the sidebar, under “Where the model holds”, has the "
+        "limits.",
+        "info",
+    )
+
+
+def supply(computed: Computed) -> float:
+    """Return the supply pressure, p_s [Pa]."""
+    return cast("Hydrostatic", computed.machine.bearing.geometry).supply_pressure
