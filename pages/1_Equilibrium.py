@@ -32,7 +32,8 @@ def locus(page: Page) -> None:
             "locus",
             alt="Path of the journal in its clearance, from the wall to the middle.",
             caption=cited(
-                "Path of the journal's centre, speeds in rpm along it; dotted: at any speed.",
+                "Path of the journal's centre, speeds in rpm along it; "
+                f"{words.dotted(page.computed)}.",
                 page.computed, "attitude", "eccentricity",
             ),
         )  # fmt: skip
@@ -47,9 +48,7 @@ def locus(page: Page) -> None:
             "position",
             alt="Eccentricity ratio and attitude angle, the running speed marked on both.",
             caption=cited(
-                remark(
-                    page.computed, "eccentricity", otherwise="At the equilibrium of each speed."
-                ),
+                words.of_position(page.computed, over_speed=over == "Over speed"),
                 page.computed,
                 "attitude",
                 "eccentricity",

@@ -131,7 +131,7 @@ def only_cross_coupling(page: Page) -> None:
             lambda c: draw.unloading(c.unloading, c.unloading_here, c.centred, units),
             "unloading",
             at_one_speed=True,
-            alt="Stiffness against eccentricity ratio: direct falls to zero, cross stays.",
+            alt=words.unloading_alt(page.computed),
             caption=cited(
                 "At the running speed, the load alone varied; dashed: minus the value.",
                 page.computed,

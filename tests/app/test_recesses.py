@@ -1,6 +1,7 @@
 """The recesses of a hydrostatic bearing on the page Equilibrium, live, in files and refused."""
 
 import math
+import re
 
 import pytest
 
@@ -11,6 +12,7 @@ from ui.format import amount
 from ui.inputs import values_of
 
 PAGE = "pages/1_Equilibrium.py"
+VARIED = "t the running speed, (the load alone varied|with any load)"
 TAB = ("equilibrium_tab", "Recesses")
 
 
@@ -54,6 +56,33 @@ def test_at_rest_the_stiffness_is_that_of_a_still_shaft_whatever_the_oil():
     warm, hot = (computed_from(session_of(at).values).at_rest.stiffness for at in machines)
     assert warm == pytest.approx(hot, rel=1e-6, abs=1e-6 * hot[0, 0])
     assert abs(warm[0, 1]) < 1e-6 * warm[0, 0]
+
+
+def test_a_centred_journal_is_held_by_the_supply_and_driven_at_half_speed():
+    at = visit("pages/2_Coefficients.py", bearing="hydrostatic")
+    open_part(at, "coefficients_tab", "Why only cross-coupling")
+    said = " ".join(texts(at))
+    assert "the whirl ratio is ½" in said
+    assert "Nothing pushes it back" not in said
+    centred = computed_from(session_of(at).values).centred
+    half = centred.whirl_damping[0, 0]
+    assert centred.stiffness[0, 1] == pytest.approx(half, rel=1e-3)
+    assert centred.stiffness[0, 0] > 0.1 * half
+    plain = visit("pages/2_Coefficients.py")
+    open_part(plain, "coefficients_tab", "Why only cross-coupling")
+    assert "Nothing pushes it back" in " ".join(texts(plain))
+
+
+def test_curves_over_the_load_are_said_to_be_those_of_the_running_speed():
+    for page, tab in (
+        ("pages/2_Coefficients.py", ("coefficients_tab", "Against σ")),
+        ("pages/3_Stability.py", ("stability_tab", "Figures of the notes")),
+        (PAGE, ("equilibrium_tab", "Locus")),
+    ):
+        for bearing, one_speed in (("hydrostatic", True), ("plain", False)):
+            at = visit(page, bearing=bearing)
+            open_part(at, *tab)
+            assert any(re.search(VARIED, one.value) for one in at.caption) == one_speed
 
 
 @pytest.mark.parametrize("units", ["SI", "US"])

@@ -64,6 +64,13 @@ def capital(text: str) -> str:
     return (first.upper() if first.isascii() else first) + text[1:]
 
 
+def at_one_speed(computed: Computed) -> str:
+    """Return that curves over the load are those of one speed, where a film has one for each."""
+    if film_of(computed.machine.bearing).curve is not None:
+        return ""
+    return "At the running speed, the load alone varied: this film has another curve at each speed."
+
+
 def is_stiff_unloaded(computed: Computed) -> bool:
     """Return whether the film has direct stiffness, beyond rounding, without load."""
     K = computed.centred.stiffness

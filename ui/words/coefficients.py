@@ -13,9 +13,28 @@ from rotorcalc.units import Unit, Units
 from ui.computed import Computed
 from ui.format import amount, digits, display, minus, tex
 from ui.preview import Preview, Text
-from ui.words.citation import cited, is_stiff_unloaded, remark, source
+from ui.words.citation import at_one_speed, cited, is_stiff_unloaded, remark, source
 
 FRAMES: dict[Axes, str] = {"XY": "X, Y: along the load", "rt": "r, t: line of centres"}
+# What acts on a centred journal: the film that its rotation makes, and beside it supplied recesses.
+_SELF_ACTING = (
+    "Displace a centred journal slightly. The film becomes thinner on that side, and the "
+    "turning surface drags oil into the narrowing gap: the pressure rises a quarter turn "
+    "**before** the thinnest place and pushes the journal sideways, in the sense of rotation. "
+    "Nothing pushes it back: there is no direct stiffness, only $K_{XY} = -K_{YX}$. If the "
+    "journal whirls at half the shaft's speed, the thinnest place travels as fast as the oil "
+    "does on average, and no pressure builds up: stiffness and damping cancel, so $K_{XY} = "
+    "\\tfrac{\\Omega}{2}C_{XX}$."
+)
+_SUPPLIED = (
+    "Displace a centred journal slightly. Oil leaves the recess that it nears less easily, so the "
+    "pressure there rises and pushes it back: the supply gives direct stiffness, at rest and at "
+    "any speed. But the turning surface drags oil over the lands as in any film, and where the "
+    "film is thinner that pushes the journal sideways, in the sense of rotation: $K_{XY} = "
+    "-K_{YX} = \\tfrac{\\Omega}{2}C_{XX}$. A whirl slower than half the shaft's speed is fed, a "
+    "faster one is damped: the whirl ratio is ½, whatever the supply. Its stiffness raises the "
+    "speed at which the rotor whirls, not that ratio."
+)
 # From these shares of the rotor's mass on, the film's added mass is small, or worth counting.
 _SMALL, _LARGE = 0.01, 0.1
 
@@ -64,8 +83,8 @@ def dimensionless_caption(computed: Computed, symbol: str, against: str) -> str:
     unit = "k = KC/Fₒ" if symbol == "k" else "c = CΩC/Fₒ"
     words = (
         f"{unit}; dashed: negative values, drawn as −{symbol}. The unit is the load, so the trend "
-        "is not that of K and C themselves."
-    )
+        f"is not that of K and C themselves. {at_one_speed(computed)}"
+    ).strip()
     rotor = "Eqs. 5.32, 5.45" if symbol == "k" else "Eq. 5.32"
     return cited(words, computed, f"over {against}", symbol, rotor=rotor)
 
@@ -122,19 +141,20 @@ def _centred_stiffness(computed: Computed, units: Units) -> str:
 
 
 def show_centred(preview: Preview) -> None:
-    """Explain why a centred bearing has only cross-coupling, with this machine's numbers."""
+    """Explain what acts on a centred journal, with this machine's numbers."""
     st.markdown(
-        "Displace a centred journal slightly. The film becomes thinner on that side, and the "
-        "turning surface drags oil into the narrowing gap: the pressure rises a quarter turn "
-        "**before** the thinnest place and pushes the journal sideways, in the sense of rotation. "
-        "Nothing pushes it back: there is no direct stiffness, only $K_{XY} = -K_{YX}$. If the "
-        "journal whirls at half the shaft's speed, the thinnest place travels as fast as the oil "
-        "does on average, and no pressure builds up: stiffness and damping cancel, so $K_{XY} = "
-        "\\tfrac{\\Omega}{2}C_{XX}$. At this machine's speed, with its load removed:"
+        f"{_SUPPLIED if is_stiff_unloaded(preview.computed) else _SELF_ACTING} At this machine's "
+        "speed, with its load removed:"
     )
     preview.say("centred", lambda c: Text(_centred(c, preview.units)))
     st.caption(cited("", preview.computed, "centre"))
     preview.say("distance", lambda c: Text(_distance_from_centre(c, preview.units)))
+
+
+def unloading_alt(computed: Computed) -> str:
+    """Return what the chart of the stiffness over the load shows, for who does not see it."""
+    direct = "stays" if is_stiff_unloaded(computed) else "falls to zero"
+    return f"Stiffness against eccentricity ratio: direct {direct}, cross stays."
 
 
 def _centred(computed: Computed, units: Units) -> str:

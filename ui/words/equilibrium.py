@@ -1,11 +1,12 @@
-"""What the equilibrium page says where a film's model does not know a quantity."""
+"""What the equilibrium page says of its charts, and where a film does not know a quantity."""
 
 import numpy as np
 import streamlit as st
 
 from rotorcalc.arrays import Array
+from rotorcalc.films import film_of
 from ui.computed import Computed
-from ui.words.citation import cited, remark
+from ui.words.citation import at_one_speed, cited, remark
 
 
 def thinnest(computed: Computed) -> str:
@@ -14,6 +15,19 @@ def thinnest(computed: Computed) -> str:
         computed, "thickness", "{}, below the clearance.", "The thinnest place of the film."
     )
     return cited(words, computed, "thickness")
+
+
+def dotted(computed: Computed) -> str:
+    """Return what the dotted line beside the journal's path is."""
+    one_curve = film_of(computed.machine.bearing).curve is not None
+    return f"dotted: {'at any speed' if one_curve else 'at the running speed, with any load'}"
+
+
+def of_position(computed: Computed, *, over_speed: bool) -> str:
+    """Return the caption of eccentricity and attitude angle."""
+    each = "At the equilibrium of each speed"
+    words = each if over_speed or not at_one_speed(computed) else f"{each}; {dotted(computed)}"
+    return remark(computed, "eccentricity", otherwise=f"{words}.")
 
 
 def known(words: str, values: Array) -> bool:

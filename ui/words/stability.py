@@ -18,7 +18,7 @@ from ui.choices import choose
 from ui.computed import Computed
 from ui.format import amount
 from ui.preview import Text
-from ui.words.citation import capital, without_load, without_onset
+from ui.words.citation import at_one_speed, capital, without_load, without_onset
 
 NO_WHIRL = (
     "This film cannot whirl: at no load does it have the cross-coupled stiffness that feeds a "
@@ -86,7 +86,7 @@ def ends_of_whirl(computed: Computed) -> str:
     light = f"A lightly loaded film whirls at {share} the speed"
     light = light if ratio > 0.0 else "A lightly loaded film does not whirl"
     if limit is None:
-        return f"{light}."
+        return f"{light}. {at_one_speed(computed)}".strip()
     return f"{light}; above ε = {float(limit.film.eccentricity_ratio):.4f} it cannot whirl."
 
 
