@@ -114,8 +114,8 @@ def mode_onsets(machine: Machine, flexible: bool = True) -> tuple[ModeOnset, Mod
 def ring_whirl(machine: Machine, speed: ArrayLike, flexible: bool = True) -> RingWhirl:
     """Return the two whirls on floating rings from the eigenvalues, and their limits.
 
-    Of the modes of either kind it is the one nearest to its limit: a flexible shaft's own are
-    others.
+    Of the modes of either kind it is the one that grows fastest, or where none grows the one
+    nearest to its limit: a flexible shaft's own are others.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ def ring_whirl(machine: Machine, speed: ArrayLike, flexible: bool = True) -> Rin
     values, is_inner = _whirls(machine, Omega, flexible)
     limits = 0.5 * (1.0 + r), 0.5 * r
     inner, outer = (
-        _nearest(np.where(kind, values, np.nan), limit)
+        _growing_or_nearest(np.where(kind, values, np.nan), limit)
         for kind, limit in zip((is_inner, ~is_inner), limits, strict=True)
     )
     return RingWhirl(
@@ -193,8 +193,10 @@ def _whirls(machine: Machine, speed: Array, flexible: bool) -> tuple[ComplexArra
     return np.where(oscillates, values, np.nan), in_ring > _MOVES**2 * of_ring
 
 
-def _nearest(values: ComplexArray, limit: Array) -> ComplexArray:
-    """Return of λ/Ω (..., n) the one whose frequency is nearest to a limit (...)."""
-    distance = np.abs(values.imag - limit[..., None])
-    place = np.argmin(np.where(np.isnan(distance), np.inf, distance), axis=-1)
+def _growing_or_nearest(values: ComplexArray, limit: Array) -> ComplexArray:
+    """Return of λ/Ω (..., n) the one that grows fastest, else the one nearest to (...)."""
+    growth, distance = values.real, np.abs(values.imag - limit[..., None])
+    nearness = np.where(np.isnan(distance), -np.inf, -distance)
+    grows = np.any(growth > 0.0, axis=-1, keepdims=True)
+    place = np.argmax(np.where(grows, np.where(growth > 0.0, growth, -np.inf), nearness), axis=-1)
     return np.take_along_axis(values, place[..., None], axis=-1)[..., 0]

@@ -131,6 +131,18 @@ def test_with_a_supply_each_onset_is_at_the_temperature_of_its_speed():
         )
 
 
+@pytest.mark.parametrize("name", RINGS)
+def test_the_whirl_shown_above_an_onset_is_the_one_that_grows(name):
+    machine = machine_of(name)
+    for one, kind in zip(mode_onsets(machine), ("inner", "outer"), strict=True):
+        if math.isinf(one.speed):
+            continue
+        growth = getattr(
+            ring_whirl(machine, one.speed * np.array([0.99, 1.01, 2.0])), f"{kind}_growth"
+        )
+        assert list(growth > 0.0) == [False, True, True]
+
+
 @pytest.mark.parametrize("function", [mode_onsets, lambda m: ring_whirl(m, 600.0)])
 def test_a_bearing_without_a_ring_is_refused_in_words(function):
     with pytest.raises(ValueError, match="bearing = plain: has no floating ring"):
