@@ -18,6 +18,7 @@ from rotorcalc import modes
 from rotorcalc.analysis import FilmCurves, Sweep, film_curves
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, real_array
+from rotorcalc.coefficients import dynamics
 from rotorcalc.display import Result
 from rotorcalc.films import film_of
 from rotorcalc.machine import JournalBearing
@@ -107,19 +108,20 @@ def critical_mass(point: Sweep) -> float:
     -------
     float
         M_c, disk and journal [kg]; infinite where no heavier disk makes it unstable, NaN where no
-        lighter one makes it stable, or where the film depends on the whirl's frequency.
+        lighter one makes it stable, or where the film is known by its impedance alone.
 
     Notes
     -----
     Undamped, the film balances the rotor at the film's own whirl ratio: with X = (ω̄Ω)²,
     m_d = K_rot (K_eq − M_j X)/(X (K_rot + K_eq − M_j X)), which for massless journals is Eq. 5.50.
-    With midspan damping it is the mass nearest to the machine's own at which max Re λ = 0.
+    With midspan damping, or a film with inner coordinates, it is the mass nearest to the machine's
+    own at which max Re λ = 0.
     """
-    rotor = point.machine.rotor
-    if film_of(point.machine.bearing).frequency_dependent:
+    rotor, film = point.machine.rotor, film_of(point.machine.bearing)
+    if film.frequency_dependent and not film.inner:
         return math.nan
-    if rotor.disk_damping > 0.0:
-        return _damped_critical_mass(point)
+    if rotor.disk_damping > 0.0 or film.inner:
+        return _nearest_critical_mass(point)
     X = float(point.whirl_ratio * point.speed) ** 2
     if X == 0.0:
         return math.inf
@@ -128,12 +130,13 @@ def critical_mass(point: Sweep) -> float:
     return journal + K / X / (1.0 + K / rotor.shaft_stiffness) if K > 0.0 else math.nan
 
 
-def _damped_critical_mass(point: Sweep) -> float:
-    rotor = point.machine.rotor
+def _nearest_critical_mass(point: Sweep) -> float:
+    rotor, film = point.machine.rotor, dynamics(point.machine, point.speed)
 
     def growth(disk: float) -> float:
         heavier = replace(rotor, mass=2.0 * (disk + rotor.journal_mass))
-        return float(np.max(modes.eigenvalues(heavier, point.stiffness, point.damping).real))
+        values = modes.eigenvalues(heavier, film.stiffness, film.damping, inertia=film.inertia)
+        return float(np.max(values.real))
 
     own = rotor.half_mass - rotor.journal_mass
     stable = growth(own) <= 0.0

@@ -17,7 +17,7 @@ from rotorcalc import (
 )
 from rotorcalc.analysis import FilmCurves
 from rotorcalc.arrays import Array
-from tests.films.models import BEARINGS
+from tests.films.models import BEARINGS, RINGS
 from tests.machines import MACHINES, SHEET
 
 
@@ -54,7 +54,8 @@ def test_at_its_critical_mass_a_machine_is_neutral_on_the_film_as_it_is(
 
 
 def test_at_the_onset_the_critical_mass_is_the_machines_own() -> None:
-    for machine in MACHINES.values():
+    ringed = (replace(SHEET, bearing=bearing) for bearing in RINGS.values())
+    for machine in (*MACHINES.values(), *ringed):
         there = analyse(machine, onset_speed(machine).speed)
         own = thresholds.critical_mass(there)
         assert own == pytest.approx(machine.rotor.half_mass, rel=1e-8)
