@@ -3,10 +3,14 @@ import streamlit as st
 from rotorcalc.figures import equilibrium as place
 from rotorcalc.figures import film
 from rotorcalc.figures import recesses as supplied
+from rotorcalc.figures import ring as of_ring
+from rotorcalc.ring import unloaded_speed_ratio
 from ui.choices import choose
 from ui.frame.page import Page, show
+from ui.ring import has_ring, here, over_speed
 from ui.words import equilibrium as words
 from ui.words import recesses as tell
+from ui.words import ring as on_ring
 from ui.words.citation import cited, remark
 
 
@@ -16,6 +20,7 @@ def content(page: Page) -> None:
     )
     page.tabs("equilibrium_tab", {
         "Locus": locus,
+        **({"Ring": ring} if has_ring(page.computed) else {}),
         "Film and pressure": film_and_pressure,
         "Forces": forces,
         "Losses and flow": losses,
@@ -53,6 +58,38 @@ def locus(page: Page) -> None:
                 "attitude",
                 "eccentricity",
             ),
+        )
+
+
+def ring(page: Page) -> None:
+    units = page.units
+    page.results(
+        "ring_speed", "inner_eccentricity", "outer_eccentricity", "inner_film", "outer_film"
+    )
+    page.say("ring_balance", lambda c: on_ring.balance(c, units))
+    left, middle, right = st.columns(3)
+    with left:
+        page.chart(
+            lambda c: of_ring.speed_ratio(
+                over_speed(c), here(c), unloaded_speed_ratio(c.machine.bearing), units
+            ),
+            "ring_ratio",
+            alt="Ring's speed over the shaft's, over running speed, and its limit without load.",
+            caption=cited("The heavier the load, the slower the ring.", page.computed, "drag"),
+        )
+    with middle:
+        page.chart(
+            lambda c: of_ring.eccentricities(over_speed(c), here(c), units),
+            "ring_eccentricity",
+            alt="Eccentricity ratios of the inner and the outer film over running speed.",
+            caption=on_ring.films(page.computed),
+        )
+    with right:
+        page.chart(
+            lambda c: of_ring.thicknesses(over_speed(c), here(c), units),
+            "ring_films",
+            alt="Thinnest place of the inner and of the outer film over running speed.",
+            caption=cited("The thinnest place of each film.", page.computed, "thickness"),
         )
 
 

@@ -2,13 +2,16 @@ import streamlit as st
 
 from rotorcalc.figures import cursor
 from rotorcalc.figures import design as what_if
+from rotorcalc.figures import ring as of_ring
 from rotorcalc.figures import stability as figures
 from rotorcalc.figures.onset_map import onset_map as figure_of_map
 from ui.frame.page import Page, show
 from ui.preview import Text
+from ui.ring import has_ring, whirls
 from ui.session import session
 from ui.words import design
 from ui.words import remedies as remedy
+from ui.words import ring as on_ring
 from ui.words import stability as ask
 from ui.words.citation import cited
 
@@ -32,6 +35,8 @@ def threshold(page: Page) -> None:
     units = page.units
     if not ask.can_whirl(page.computed):
         return
+    if has_ring(page.computed):
+        two_whirls(page)
     page.say("bare", ask.bare)
     left, right = st.columns(2)
     with left:
@@ -40,8 +45,7 @@ def threshold(page: Page) -> None:
             "threshold",
             alt="Threshold speed over running speed for the flexible and the rigid shaft, "
             "with the line of equal speeds, their crossing and the unstable side shaded.",
-            caption="Where the threshold meets the line Ω the rotor becomes unstable. "
-            "Eqs. 5.45, 5.46, 5.50.",
+            caption=ask.meets(page.computed),
         )
     with right:
         page.chart(
@@ -56,6 +60,22 @@ def threshold(page: Page) -> None:
         alt="Critical mass over the rotor's mass, over running speed; unstable below one.",
         caption="$M_c/M = (Ω_s/Ω)^2$: a rotor heavier than $2M_c$ would whirl. Eq. 5.45.",
     )
+
+
+def two_whirls(page: Page) -> None:
+    units = page.units
+    left, right = st.columns([5, 6])
+    with left:
+        page.say("whirls", lambda c: on_ring.whirls(c, units))
+        st.page_link("pages/6_Orbits.py", label="Orbits: the motion and its limit cycles")
+    with right:
+        page.chart(
+            lambda c: of_ring.whirls(whirls(c), units),
+            "ring_whirls",
+            alt="Frequencies of the whirls in the inner and the outer film over running speed, "
+            "with their limits.",
+            caption=on_ring.WHIRLS,
+        )
 
 
 def figures_of_the_notes(page: Page) -> None:

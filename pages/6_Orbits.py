@@ -30,6 +30,8 @@ def of_a_release(content):
     """Return a tab's content that begins with a release, and what the journal did."""
 
     def released(page: Page) -> None:
+        if not on_demand.has_motion(page.computed.machine.bearing):
+            return
         answer = st.container(key="outcome")
         with st.container(key="release"):
             asked = ask.choose_release(page.computed)

@@ -112,6 +112,28 @@ def ring_speed(machine: Machine, speed: ArrayLike) -> Array:
 
 
 @checked
+def unloaded_speed_ratio(bearing: JournalBearing) -> float:
+    """Return the ring's speed over the shaft's without load, the most that it can be.
+
+    Parameters
+    ----------
+    bearing : JournalBearing
+        The bearing, with a floating ring.
+
+    Returns
+    -------
+    float
+        r₀ = 1/(1 + m), m the outer film's shear over the inner one's at equal speeds [-].
+
+    Raises
+    ------
+    ValueError
+        Where the bearing has no floating ring.
+    """
+    return balance.unloaded(ring_film(bearing).pair)
+
+
+@checked
 def ring_equilibrium(machine: Machine, speed: ArrayLike) -> RingEquilibrium:
     """Return the static equilibrium of a machine's floating ring and of its two films.
 

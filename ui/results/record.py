@@ -27,7 +27,8 @@ class Result:
     `unknown` for no number, `boundless` for an infinite one. `modelled` is false of what follows
     from the inputs without the film's model, `at_onset` true of what holds at the onset of whirl.
     `source` names the result among those of the film, where another film has another equation;
-    `solved` returns what was solved where that depends on the machine.
+    `solved` returns what was solved where that depends on the machine; `belongs` whether a machine
+    has such a result.
     """
 
     key: str
@@ -46,6 +47,7 @@ class Result:
     at_onset: bool = False
     source: str = ""
     solved: Callable[[Computed], Source] | None = None
+    belongs: Callable[[Computed], bool] = lambda _: True
 
     def unit(self, units: Units) -> Unit:
         """Return the unit in which the result is shown."""

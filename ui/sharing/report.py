@@ -158,7 +158,7 @@ def _results(computed: Computed, units: Units) -> str:
             (minus(result.shown(computed, units)), "n"),
             (result.cited(computed), ""),
         ])
-        for result in RESULTS.values()
+        for result in RESULTS.values() if result.belongs(computed)
     )  # fmt: skip
     head = _head("Result", ("Value", "n"), "Equation")
     return f"<h2>Results at the running speed</h2>{_table(head, rows)}"

@@ -8,7 +8,7 @@ from ui.computed import Computed
 from ui.frame.page import Page, show
 from ui.preview import Text
 from ui.words.citation import cited
-from ui.words.stability import can_whirl, over_speed
+from ui.words.stability import can_whirl, meets, over_speed
 
 
 def content(page: Page) -> None:
@@ -81,7 +81,7 @@ def _threshold(page: Page) -> None:
         lambda c: style.small(over_speed(stability.threshold, c, units)),
         "home_threshold",
         alt="Threshold speed over running speed, and the line that it crosses at the onset",
-        caption="Onset of whirl: the threshold meets the line Ω. Eqs. 5.45, 5.46, 5.50.",
+        caption=meets(page.computed),
     )
 
 

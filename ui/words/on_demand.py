@@ -238,8 +238,18 @@ def slow_film(computed: Computed) -> FilmMotion | None:
 
 
 def has_motion(bearing: JournalBearing) -> bool:
-    """Return whether a film gives a force in any motion; show why not where it gives none."""
-    return attempt(lambda: film_of(bearing).motion()) is not None
+    """Return whether a film gives a force in any motion; show why not where it gives none.
+
+    Where the short bearing gives one, offer it.
+    """
+    if attempt(lambda: film_of(bearing).motion()) is not None:
+        return True
+    if "short" in bearing.geometry.models and bearing.model != "short":
+        st.button(
+            "Take the short bearing's film", key="orbits_short", type="primary",
+            on_click=session().set_film, args=("short",),
+        )  # fmt: skip
+    return False
 
 
 def attempt(work: Callable[[], T]) -> T | None:

@@ -110,6 +110,17 @@ def bare(computed: Computed) -> Text | None:
     )
 
 
+def meets(computed: Computed) -> str:
+    """Return what the threshold's meeting with the line of the running speed tells."""
+    words = (
+        "With all that the closed forms neglect left out, the rotor would become unstable where "
+        "the threshold meets the line Ω."
+        if _neglected(computed)
+        else "Where the threshold meets the line Ω the rotor becomes unstable."
+    )
+    return f"{words} Eqs. 5.45, 5.46, 5.50."
+
+
 def can_whirl(computed: Computed) -> bool:
     """Return whether any load lets the film feed a whirl; say so if none does."""
     if not whirls(computed):

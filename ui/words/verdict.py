@@ -9,8 +9,10 @@ from ui.computed import Computed
 from ui.format import above, amount, digits, lower
 from ui.preview import Kind, Text
 from ui.results.stability import leading
+from ui.ring import has_ring
 from ui.words import validity
 from ui.words.citation import without_load
+from ui.words.ring import BEYOND
 
 
 @dataclass(frozen=True)
@@ -53,11 +55,13 @@ def _sentence(computed: Computed, units: Units) -> str:
     running = amount(units.speed, computed.speed)
     if computed.is_stable:
         return f"Stable at {running}: {_outlook(computed, units)}"
+    often = f" {BEYOND}" if has_ring(computed) else ""
     if computed.onset.speed == 0.0:
         return (
-            f"Unstable at {running}: {without_load(computed)}, and the machine whirls at any speed."
+            f"Unstable at {running}: {without_load(computed)}, and the machine whirls at any "
+            f"speed.{often}"
         )
-    return f"Unstable at {running}: {_past(computed, units)}"
+    return f"Unstable at {running}: {_past(computed, units)}{often}"
 
 
 def _outlook(computed: Computed, units: Units) -> str:

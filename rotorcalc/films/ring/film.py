@@ -225,8 +225,8 @@ class RingFilm:
         """
         if self.bearing.model != "short":
             raise ValueError(
-                f"film = {self.bearing.model!r}: the motion of a journal in a floating ring is "
-                "computed on two short films only; take film = 'short'"
+                f"film = {self.bearing.model}: the motion of a journal in a floating ring is "
+                "computed on two short films only"
             )
         return self._motion(0.0)
 
