@@ -21,7 +21,7 @@ from rotorcalc.films.hydrostatic.restrictors import Restrictors
 from rotorcalc.films.hydrostatic.table import THINNEST, Table
 
 # Newton's steps; the size of the last, in C; the longest over the smallest film.
-_MOST_STEPS, _SETTLED, _LONGEST = 60, 1e-12, 0.7
+_MOST_STEPS, _SETTLED, _LONGEST = 60, 1e-8, 0.7
 # The smallest film on the way to an equilibrium, in C: just inside the table's outermost ring.
 _CLOSEST = 0.021
 # Eccentricities of the load's curve at rest.

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.arrays import Array, ComplexArray, IntArray
 from rotorcalc.films.hydrostatic.influence import Influence, influence
 from rotorcalc.films.hydrostatic.mesh import Cells, Lands, mesh
 
@@ -89,16 +89,23 @@ class Table:
         return self._matrices(f), self._matrices(f_x), self._matrices(f_y)
 
     def _matrices(self, values: Array) -> Influence:
+        pairs, place = _places(self.lands.recesses)
         N = self.lands.recesses
-        pairs = N * (N + 1) // 2
-        place = np.empty((N, N), dtype=np.intp)
-        rows, columns = np.triu_indices(N)
-        place[rows, columns] = place[columns, rows] = np.arange(pairs)
         return Influence(
             conductance=values[:, place],
             pumping=values[:, pairs : pairs + 2 * N].reshape(-1, N, 2),
             squeeze=values[:, [[-3, -2], [-2, -1]]],
         )
+
+
+@functools.cache
+def _places(N: int) -> tuple[int, IntArray]:
+    """Return how many pairs N recesses make, and the place of each in the table, (N, N)."""
+    pairs = N * (N + 1) // 2
+    place = np.empty((N, N), dtype=np.intp)
+    rows, columns = np.triu_indices(N)
+    place[rows, columns] = place[columns, rows] = np.arange(pairs)
+    return pairs, place
 
 
 @functools.lru_cache(maxsize=16)
