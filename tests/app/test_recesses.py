@@ -1,5 +1,7 @@
 """The recesses of a hydrostatic bearing on the page Equilibrium, live, in files and refused."""
 
+import csv
+import html
 import math
 import re
 
@@ -10,6 +12,8 @@ from tests.app.session import faults, open_part, session_of, tabs, texts, visit
 from ui.computed import computed_from
 from ui.format import amount
 from ui.inputs import values_of
+from ui.sharing import export, report
+from ui.sharing.labels import Labels
 
 PAGE = "pages/1_Equilibrium.py"
 VARIED = "t the running speed, (the load alone varied|with any load)"
@@ -83,6 +87,30 @@ def test_curves_over_the_load_are_said_to_be_those_of_the_running_speed():
             at = visit(page, bearing=bearing)
             open_part(at, *tab)
             assert any(re.search(VARIED, one.value) for one in at.caption) == one_speed
+
+
+def test_report_and_csv_have_every_recess():
+    shown = computed_from(session_of(visit(PAGE, bearing="hydrostatic", recesses="6")).values)
+    page = report.report(shown, [], SI, "link", Labels()).decode()
+    text = html.unescape(page[: page.index("<script>")])
+    for pressure in shown.recesses_here.pressure:
+        assert f">{amount(SI.pressure, pressure)}<" in text
+    assert f">{amount(SI.power, shown.recesses_here.total_power)}<" in text
+    lines = export.sweep_csv(shown, SI).decode("utf-8-sig").splitlines()
+    head, *_, last = csv.reader(line for line in lines if not line.startswith(("#", '"#')))
+    there = dict(zip(head, map(float, last), strict=True))
+    found = shown.recesses
+    assert there["Recess at 300°: pressure [MPa]"] == pytest.approx(1e-6 * found.pressure[-1, 5])
+    assert sum(there[f"Recess at {k}°: flow [l/min]"] for k in range(0, 360, 60)) == pytest.approx(
+        there["Side flow per bearing Q [l/min]"]
+    )
+    assert there["Pump power per bearing [kW]"] == pytest.approx(1e-3 * found.pump_power[-1])
+
+
+def test_a_bearing_without_recesses_has_none_in_its_files():
+    shown = computed_from(session_of(visit(PAGE)).values)
+    assert "Recess" not in export.sweep_csv(shown, SI).decode("utf-8-sig")
+    assert "<h2>Recesses" not in report.report(shown, [], SI, "link", Labels()).decode()
 
 
 @pytest.mark.parametrize("units", ["SI", "US"])

@@ -5,6 +5,7 @@ Each function returns a whole file and is called only when the file is asked for
 
 import csv
 import io
+import math
 from collections.abc import Iterator
 from typing import TypeAlias
 
@@ -12,7 +13,9 @@ import numpy as np
 
 from rotorcalc import orbit_ellipse
 from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.figures.recesses import angles
 from rotorcalc.machine import oil_of
+from rotorcalc.recesses import RecessEquilibrium
 from rotorcalc.root_locus import Locus
 from rotorcalc.unbalance_response import phase_lag
 from rotorcalc.units import Unit, Units
@@ -129,6 +132,8 @@ def _columns(computed: Computed, units: Units) -> Iterator[Column]:
     yield "Smallest film h_min", units.film, sweep.minimum_film_thickness
     yield "Power loss per bearing P", units.power, sweep.power_loss
     yield "Side flow per bearing Q", units.flow, sweep.side_flow
+    if computed.has_recesses:
+        yield from _recesses(computed.recesses, units)
     yield from _matrix("Stiffness K", units.stiffness, sweep.stiffness)
     yield from _matrix("Damping C", units.damping, sweep.damping)
     yield "Equivalent stiffness K_eq", units.stiffness, sweep.equivalent_stiffness
@@ -141,6 +146,16 @@ def _columns(computed: Computed, units: Units) -> Iterator[Column]:
     yield from _eigenvalues("Rigid rotor, mode", units.growth, computed.locus(False).branches)
     yield from _orbit("Disk", units, sweep.disk_response)
     yield from _orbit("Journal", units, sweep.journal_response)
+
+
+def _recesses(found: RecessEquilibrium, units: Units) -> Iterator[Column]:
+    """Yield the pump's power, and pressure and flow of each recess by its angle from the load."""
+    yield "Pump power per bearing", units.power, found.pump_power
+    yield "Lowest film pressure", units.pressure, found.lowest_pressure
+    for k, angle in enumerate(angles(found.pressure.shape[1])):
+        name = f"Recess at {math.degrees(angle):.0f}°"
+        yield f"{name}: pressure", units.pressure, found.pressure[:, k]
+        yield f"{name}: flow", units.flow, found.recess_flow[:, k]
 
 
 def _matrix(words: str, unit: Unit, matrix: Array) -> Iterator[Column]:

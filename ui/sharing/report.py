@@ -31,7 +31,7 @@ from ui.results.table import RESULTS
 from ui.sharing import report_charts
 from ui.sharing.labels import Labels
 from ui.sharing.report_charts import Figure
-from ui.words import citation
+from ui.words import citation, recesses
 from ui.words import validity as validity_words
 from ui.words.verdict import verdict
 
@@ -51,6 +51,7 @@ def report(
     body = (
         _inputs(computed, units),
         _results(computed, units),
+        _recesses(computed, units),
         _compared(computed, cases, units),
         _matrices(computed, units),
         _over_speed(computed, units),
@@ -162,6 +163,24 @@ def _results(computed: Computed, units: Units) -> str:
     )  # fmt: skip
     head = _head("Result", ("Value", "n"), "Equation")
     return f"<h2>Results at the running speed</h2>{_table(head, rows)}"
+
+
+def _recesses(computed: Computed, units: Units) -> str:
+    """Return pressures, flows and powers of a bearing with recesses."""
+    if not computed.has_recesses:
+        return ""
+    first, *numbers = recesses.HEAD
+    each = _table(
+        _head(first, *((one, "n") for one in numbers)),
+        (_row([(row[0], ""), *((text, "n") for text in row[1:])])
+         for row in recesses.each(computed, units)),
+    )  # fmt: skip
+    supply = [("Supply pressure", amount(units.pressure, recesses.supply(computed)))]
+    rows = (*supply, *recesses.totals(computed, units), *recesses.rest(computed, units))
+    whole = _table(
+        _head("One bearing", ("Value", "n")), (_row([(a, ""), (b, "n")]) for a, b in rows)
+    )
+    return f'<h2>Recesses at the running speed</h2><div class="beside">{each}{whole}</div>'
 
 
 def _compared(computed: Computed, cases: Sequence[Shown], units: Units) -> str:

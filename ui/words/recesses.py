@@ -3,8 +3,6 @@
 import math
 from typing import TypeAlias, cast
 
-import numpy as np
-
 from rotorcalc import Hydrostatic
 from rotorcalc.figures.recesses import angles
 from rotorcalc.machine import oil_of
@@ -76,20 +74,23 @@ def warming(computed: Computed, units: Units) -> str:
     )
 
 
+def rest(computed: Computed, units: Units) -> list[Row]:
+    """Return place and stiffness of the journal as the rotation ends, in words."""
+    still = computed.at_rest
+    return [
+        ("At rest, ε", digits(float(still.eccentricity_ratio))),
+        ("At rest, K along the load", amount(units.stiffness, still.stiffness[0, 0])),
+        ("At rest, K across it", amount(units.stiffness, still.stiffness[1, 1])),
+    ]
+
+
 def at_rest(computed: Computed, units: Units) -> Text:
     """Return where the journal is and how stiff its film, as the rotation ends."""
-    rest = computed.at_rest
-    K = rest.stiffness
-    stiff = (
-        amount(units.stiffness, K[0, 0])
-        if np.isclose(K[0, 0], K[1, 1], rtol=1e-4)
-        else f"{amount(units.stiffness, K[0, 0])} along the load and "
-        f"{amount(units.stiffness, K[1, 1])} across it"
-    )
+    (_, eps), (_, along), (_, across) = rest(computed, units)
+    stiff = along if along == across else f"{along} along the load and {across} across it"
     return Text(
-        f"At rest the journal floats: as the speed goes to zero, ε = "
-        f"**{digits(float(f'{float(rest.eccentricity_ratio):.4g}'))}**, and the film's stiffness "
-        f"is **{stiff}**, whatever the oil's viscosity."
+        f"At rest the journal floats: as the speed goes to zero, ε = **{eps}**, and the film's "
+        f"stiffness is **{stiff}**, whatever the oil's viscosity."
     )
 
 
