@@ -177,7 +177,7 @@ def recesses(page: Page) -> None:
             "recess_pressures",
             alt="Pressure of each recess over running speed, and the supply pressure.",
             caption=cited(
-                "Each recess by its angle from the load line, in the sense of rotation.",
+                "Recesses by number and angle from the load line, in the sense of rotation.",
                 page.computed, "eccentricity",
             ),
         )  # fmt: skip

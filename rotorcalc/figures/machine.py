@@ -15,7 +15,7 @@ from rotorcalc.coefficients import PressureField
 from rotorcalc.display import Result
 from rotorcalc.figures import cursor, style, text
 from rotorcalc.figures.bore import PadLines, closed, pad_lines
-from rotorcalc.figures.parts import RECESS, RING, moving, still
+from rotorcalc.figures.parts import RING, moving, still
 from rotorcalc.figures.style import Chart, Trace
 from rotorcalc.films import film_of
 from rotorcalc.films.pads import Pad, pads_of
@@ -38,6 +38,8 @@ _SMALL_CROSS = {"symbol": "x-thin", "size": 6, "line": {"color": style.GREY, "wi
 _POCKET = 0.5
 # Height of the peak pressure outside the bore, and the place of the bar that shows it, (x, y).
 _PEAK, _BAR = 0.5, (1.0, -1.42)
+# Where the number of a recess stands, and the room at the left for the pressures of recesses.
+_WITHIN, _BESIDE = 0.87, 0.75
 # Ends of the load's arrow above the bore, X.
 _ARROW = (-1.46, -1.06)
 Item = dict[str, Any]
@@ -127,7 +129,7 @@ def cross_section(  # noqa: PLR0913 - the drawing has what each of these shows
     ]
     chart = style.chart(
         traces,
-        _hidden(-2.1, 1.7, constrain="domain"),
+        _hidden(-2.1 - _room(parts), 1.7, constrain="domain"),
         _hidden(-1.62, 1.52, scaleanchor="x"),
         annotations=list(notes.values()),
         showlegend=False,
@@ -314,7 +316,8 @@ def _pressure(angles: Array, pressure: Array, bore: _Bore) -> list[Trace]:
         return []
     wall = bore.wall(angles)
     outer = wall + _circle(_PEAK * _shares(pressure), angles)
-    x, y = _drawn(np.concatenate((outer, wall[::-1])))
+    # Apart, so that no line joins them where a film without cavitation begins.
+    x, y = _drawn(np.concatenate((outer, [[np.nan, np.nan]], wall[::-1])))
     return [
         style.line(
             x, y, "pressure", style.UNSTABLE, width=1.4,
@@ -432,11 +435,17 @@ def _readings(point: Sweep, units: Units, parts: Parts | None) -> dict[str, Item
     }  # fmt: skip
 
 
+def _room(parts: Parts | None) -> float:
+    """Return how much wider the drawing is at its left for more readings than above the bore."""
+    return 0.0 if parts is None or parts.recess_pressure is None else _BESIDE
+
+
 def _recess_names(parts: Parts | None) -> dict[str, Item]:
-    """Return the number of each recess, beside it."""
+    """Return the number of each recess, within it: outside are the load and the names."""
     if parts is None or parts.recesses is None:
         return {}
-    middles = _circle(RECESS + 0.09, parts.recesses.mean(axis=-1))
+    # Beside its middle, where the line of centres or the load may be.
+    middles = _circle(_WITHIN, parts.recesses @ np.array([0.25, 0.75]))
     return {
         f"recess {i}": _label(f"{i}", place, font={"color": style.PURPLE})
         for i, place in enumerate(middles, start=1)

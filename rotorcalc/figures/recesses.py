@@ -1,7 +1,5 @@
 """Charts of a hydrostatic bearing's recesses over speed: their pressures, and the powers."""
 
-import math
-
 import numpy as np
 
 from rotorcalc.arrays import Array
@@ -18,9 +16,9 @@ _DASHES = ("solid", "dash", "dot")
 _SOFT = "rgba(127,127,127,0.8)"
 
 
-def angles(number: int) -> Array:
-    """Return the angles of recesses from the load line, in the sense of rotation [rad], (N,)."""
-    return 2.0 * np.pi / number * np.arange(number, dtype=np.float64)
+def names(number: int) -> list[str]:
+    """Return the numbers of recesses with their angles from the load line, as "1, 0°"."""
+    return [f"{k + 1}, {360.0 * k / number:.3g}°" for k in range(number)]
 
 
 def pressures(
@@ -54,10 +52,10 @@ def pressures(
     hover = text.hover(f"%{{x:.0f}} {units.speed.name}", unit)
     lines = [
         style.line(
-            speed, unit.of(over.pressure[:, k]), f"{math.degrees(angle):.0f}°",
+            speed, unit.of(over.pressure[:, k]), name,
             _COLOURS[k % len(_COLOURS)], dash=_DASHES[k // len(_COLOURS)], hovertemplate=hover,
         )
-        for k, angle in enumerate(angles(over.pressure.shape[1]))
+        for k, name in enumerate(names(over.pressure.shape[1]))
     ]  # fmt: skip
     p_s = float(unit.of(supply))
     ends = np.asarray(x["range"], dtype=float)

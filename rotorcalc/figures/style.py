@@ -262,7 +262,7 @@ def joined(groups: Sequence[Sequence[Trace]]) -> list[Trace]:
 
 
 # One letter, no part of a word, and its index.
-_SYMBOL = re.compile(r"(?<![A-Za-z])([A-Za-zΑ-Ωα-ω])(?:_([A-Za-z]+))?(?![A-Za-z])")
+_SYMBOL = re.compile(r"(?<![A-Za-z])([A-Za-zΑ-Ωα-ω])(?:_([A-Za-z]+|[0-9]+))?(?![A-Za-z])")
 # What an axis says of its ticks itself.
 _TICKS = {"dtick", "tickvals", "tickmode", "nticks", "visible"}
 _TEXT, _TEXT_ON_DARK = "#20262d", "#e6eaee"

@@ -34,7 +34,9 @@ def test_each_recess_has_a_line_and_a_mark_below_the_supply(units):
     check_plotly_takes_it(pressures)
     assert curves_in_window(pressures)
     supply, *lines, marks = pressures["data"]
-    assert [line["name"] for line in lines] == ["0°", "60°", "120°", "180°", "240°", "300°"]
+    assert [line["name"] for line in lines] == [
+        "1, 0°", "2, 60°", "3, 120°", "4, 180°", "5, 240°", "6, 300°",
+    ]  # fmt: skip
     looks = {(line["line"]["color"], line["line"]["dash"]) for line in lines}
     assert len(looks) == len(lines)
     found = units.pressure.of(recess_equilibrium(machine, 600.0).pressure)

@@ -115,7 +115,7 @@ export class Drawing {
       return [pressure.x[i] + x, pressure.y[i] + y];
     });
     const wall = pressure.x.map((x, i) => [x, pressure.y[i]]).reverse();
-    return { ...changes, pressure: columns([...outer, ...wall]) };
+    return { ...changes, pressure: columns([...outer, [null, null], ...wall]) };
   }
 
   // The place of a speed among the few that have a pressure and moving parts; beyond their ends, the end.

@@ -5,7 +5,6 @@ Each function returns a whole file and is called only when the file is asked for
 
 import csv
 import io
-import math
 from collections.abc import Iterator
 from typing import TypeAlias
 
@@ -13,7 +12,7 @@ import numpy as np
 
 from rotorcalc import orbit_ellipse
 from rotorcalc.arrays import Array, ComplexArray
-from rotorcalc.figures.recesses import angles
+from rotorcalc.figures.recesses import names
 from rotorcalc.machine import oil_of
 from rotorcalc.recesses import RecessEquilibrium
 from rotorcalc.root_locus import Locus
@@ -152,10 +151,9 @@ def _recesses(found: RecessEquilibrium, units: Units) -> Iterator[Column]:
     """Yield the pump's power, and pressure and flow of each recess by its angle from the load."""
     yield "Pump power per bearing", units.power, found.pump_power
     yield "Lowest film pressure", units.pressure, found.lowest_pressure
-    for k, angle in enumerate(angles(found.pressure.shape[1])):
-        name = f"Recess at {math.degrees(angle):.0f}°"
-        yield f"{name}: pressure", units.pressure, found.pressure[:, k]
-        yield f"{name}: flow", units.flow, found.recess_flow[:, k]
+    for k, name in enumerate(names(found.pressure.shape[1])):
+        yield f"Recess {name}: pressure", units.pressure, found.pressure[:, k]
+        yield f"Recess {name}: flow", units.flow, found.recess_flow[:, k]
 
 
 def _matrix(words: str, unit: Unit, matrix: Array) -> Iterator[Column]:

@@ -169,7 +169,7 @@ def _recesses(computed: Computed, units: Units) -> str:
     """Return pressures, flows and powers of a bearing with recesses."""
     if not computed.has_recesses:
         return ""
-    first, *numbers = recesses.HEAD
+    first, *numbers = recesses.head(units)
     each = _table(
         _head(first, *((one, "n") for one in numbers)),
         (_row([(row[0], ""), *((text, "n") for text in row[1:])])

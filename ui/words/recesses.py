@@ -1,10 +1,9 @@
 """What the recesses of a hydrostatic bearing are said to do: pressures, flows, powers, rest."""
 
-import math
 from typing import TypeAlias, cast
 
 from rotorcalc import Hydrostatic
-from rotorcalc.figures.recesses import angles
+from rotorcalc.figures.recesses import names
 from rotorcalc.machine import oil_of
 from rotorcalc.units import Units
 from ui.computed import Computed
@@ -13,23 +12,30 @@ from ui.preview import Text
 
 Row: TypeAlias = tuple[str, ...]
 
-HEAD: Row = ("Recess, from the load line", "Pressure", "Share of the supply's", "Flow")
 _RULE: Row = ("---", "---:", "---:", "---:")
 
 
+def head(units: Units) -> Row:
+    """Return what the columns of `each` are, with their units."""
+    return (
+        "Recess",
+        f"Pressure [{units.pressure.name}]",
+        "of supply [%]",
+        f"Flow [{units.flow.name}]",
+    )
+
+
 def each(computed: Computed, units: Units) -> list[Row]:
-    """Return angle, pressure, its share of the supply pressure, and flow of each recess."""
+    """Return number and angle, pressure, its share of the supply pressure, and flow of recesses."""
     found, p_s = computed.recesses_here, supply(computed)
+    columns = (
+        units.pressure.of(found.pressure),
+        100.0 * found.pressure / p_s,
+        units.flow.of(found.recess_flow),
+    )
     return [
-        (
-            f"{math.degrees(angle):.0f}°",
-            amount(units.pressure, pressure),
-            f"{minus(digits(float(100.0 * pressure / p_s)))} %",
-            amount(units.flow, flow),
-        )
-        for angle, pressure, flow in zip(
-            angles(len(found.pressure)), found.pressure, found.recess_flow, strict=True
-        )
+        (name, *(minus(digits(float(number))) for number in row))
+        for name, *row in zip(names(len(found.pressure)), *columns, strict=True)
     ]
 
 
@@ -46,7 +52,7 @@ def totals(computed: Computed, units: Units) -> list[Row]:
 
 def table(computed: Computed, units: Units) -> Text:
     """Return the recesses, a row each, as Markdown."""
-    rows = (HEAD, _RULE, *each(computed, units))
+    rows = (head(units), _RULE, *each(computed, units))
     return Text("\n".join(f"| {' | '.join(row)} |" for row in rows))
 
 

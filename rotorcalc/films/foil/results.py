@@ -5,7 +5,6 @@ import numpy as np
 from rotorcalc.arrays import Array
 from rotorcalc.films.foil.reynolds import Films, potential
 
-
 # Places along half the bearing at which the shear of the film is taken, and steps to find them.
 _PLACES, _STEPS = 8, 30
 
