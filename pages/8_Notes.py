@@ -3,6 +3,7 @@ import streamlit as st
 from rotorcalc.figures.conventions import conventions
 from ui import notes
 from ui.frame.page import Page, show
+from ui.notes import ring
 
 
 def content(page: Page) -> None:
@@ -11,7 +12,7 @@ def content(page: Page) -> None:
         "Finite length": lambda _: st.markdown(notes.text("finite")),
         "Signs and axes": signs,
         "Equations": lambda _: st.markdown(notes.equations()),
-        "Misprints": lambda _: st.markdown(notes.text("misprints")),
+        "Misprints": lambda _: st.markdown(f"{notes.text('misprints')}\n{ring.whirls()}"),
         "Bearing types": lambda _: st.markdown(notes.text("bearings")),
         "Live validation": live_validation,
         "References": lambda _: st.markdown(notes.text("references")),

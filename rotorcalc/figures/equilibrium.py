@@ -1,5 +1,6 @@
 """Charts of the static equilibrium: journal position, power loss, side flow and friction."""
 
+import itertools
 import math
 from dataclasses import dataclass
 
@@ -49,6 +50,7 @@ def locus(path: Path, point: Sweep, units: Units) -> Chart:
     at = point.journal_position / point.machine.bearing.radial_clearance
     widest = float(np.hypot(*outline.T).max())
     edge = _EDGE * widest
+    step = _step(edge, 0.5, 3)
     shown = _spaced(marks.film.position, at, _SPACING * widest)
     turn = (*_TURN[:2], _TURN[2] * widest)
     ticks, speeds = marks.film.position[shown], units.speed.of(marks.speed[shown])
@@ -74,8 +76,8 @@ def locus(path: Path, point: Sweep, units: Units) -> Chart:
         *plane.turning(*turn),
         *(plane.dot(place, style.JOURNAL) for place in ticks),
     ]
-    x = style.axis(f"{style.symbols('Y/C')}, in the sense of rotation →", -edge, edge, dtick=0.5)
-    y = style.axis(f"← {style.symbols('X/C')}, along the load", edge, -edge, dtick=0.5)
+    x = style.axis(f"{style.symbols('Y/C')}, in the sense of rotation →", -edge, edge, dtick=step)
+    y = style.axis(f"← {style.symbols('X/C')}, along the load", edge, -edge, dtick=step)
     chart = plane.chart(
         traces, x, y, height=HEIGHT, margin=_MARGIN, annotations=labels, shapes=shapes
     )
@@ -153,6 +155,11 @@ def minimum_film_thickness(sweep: Sweep, point: Sweep, units: Units) -> Chart:
     return {**chart, "data": [clearance, *chart["data"]]}
 
 
+def _step(end: float, least: float, most: int) -> float:
+    """Return a step between an axis' ticks, of which `most` at most lie from 0 to its end."""
+    return next(step for i in itertools.count() if end / (step := least * 2.0**i) <= most)
+
+
 def _over_speed(
     sweep: Sweep, point: Sweep, units: Units, quantity: tuple[str, Unit, str], least: float = 0.0
 ) -> Chart:
@@ -175,11 +182,12 @@ def _panes(across: Array, sweep: Sweep, at: tuple[float, Sweep], x: Axis, units:
     place, point = at
     x = {**x, "anchor": "y2"}
     eps, phi = sweep.eccentricity_ratio, units.angle.of(sweep.attitude_angle)
+    highest = style.ceiling(eps, 1.0)
     y = style.axis(
         style.titled("Eccentricity ratio", "ε", "-"),
         0.0,
-        style.ceiling(eps, 1.0),
-        dtick=0.25,
+        highest,
+        dtick=_step(highest, 0.25, 5),
         domain=style.UPPER,
     )
     low, high = 30.0 * math.floor(min(0.0, float(phi.min())) / 30.0), float(phi.max())
@@ -252,8 +260,12 @@ def _position_hover(point: Sweep, units: Units) -> str:
 def _locus_labels(point: Sweep, at: Array, outline: Array, units: Units) -> list[Part]:
     C, rpm = point.machine.bearing.radial_clearance, float(units.speed.of(point.speed))
     phi = text.amount(units.angle, point.attitude_angle)
-    is_circle = np.allclose(np.hypot(*outline.T), 1.0, rtol=0.0, atol=1e-9)
-    size = f"{style.symbols('C')} = {text.amount(units.film, C)}"
+    radius = np.hypot(*outline.T)
+    is_circle = np.allclose(radius, radius[0], rtol=0.0, atol=1e-9)
+    # On a floating ring the journal has the way through both films.
+    wider = is_circle and radius[0] > 1.0 + 1e-9
+    symbol = style.symbols("C + C_o" if wider else "C")
+    size = f"{symbol} = {text.amount(units.film, C * (radius[0] if is_circle else 1.0))}"
     circle = f"{'circle' if is_circle else 'clearance'}, {size}"
     left: Part = {"xanchor": "right", "xshift": -6}
     yshift = 20 if at[0] < _LOW else -4

@@ -28,6 +28,8 @@ INNER, OUTER = "inner film", "outer film"
 # the inner film's whirl it does nearly all, with a heavy rotor as much as the ring, in the outer
 # film's some hundredths.
 _MOVES = 0.5
+# Its imaginary part too is no number, so that no limit is near it.
+_NO_WHIRL = complex(math.nan, math.nan)
 # What counts as decay where a machine has no such mode.
 _NONE = -1.0
 
@@ -141,7 +143,7 @@ def ring_whirl(machine: Machine, speed: ArrayLike, flexible: bool = True) -> Rin
     values, is_inner = _whirls(machine, Omega, flexible)
     limits = 0.5 * (1.0 + r), 0.5 * r
     inner, outer = (
-        _growing_or_nearest(np.where(kind, values, np.nan), limit)
+        _growing_or_nearest(np.where(kind, values, _NO_WHIRL), limit)
         for kind, limit in zip((is_inner, ~is_inner), limits, strict=True)
     )
     return RingWhirl(
@@ -190,7 +192,7 @@ def _whirls(machine: Machine, speed: Array, flexible: bool) -> tuple[ComplexArra
     )
     values = shapes.eigenvalues / speed[..., None]
     oscillates = values.imag > 0.0
-    return np.where(oscillates, values, np.nan), in_ring > _MOVES**2 * of_ring
+    return np.where(oscillates, values, _NO_WHIRL), in_ring > _MOVES**2 * of_ring
 
 
 def _growing_or_nearest(values: ComplexArray, limit: Array) -> ComplexArray:

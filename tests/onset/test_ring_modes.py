@@ -143,6 +143,15 @@ def test_the_whirl_shown_above_an_onset_is_the_one_that_grows(name):
         assert list(growth > 0.0) == [False, True, True]
 
 
+def test_a_mode_that_does_not_oscillate_hides_none_that_does():
+    """Heavily loaded, the ring's whirl is far from its limit, further than a frequency of zero."""
+    machine = machine_of("floating ring", load=5e4)
+    whirl = ring_whirl(machine, 600.0)
+    found = complex(whirl.outer_growth, whirl.outer_whirl_ratio)
+    assert found.imag > 2.0 * float(whirl.outer_limit)
+    assert np.abs(analyse(machine, 600.0).flexible_eigenvalues / 600.0 - found).min() < 1e-9
+
+
 @pytest.mark.parametrize("function", [mode_onsets, lambda m: ring_whirl(m, 600.0)])
 def test_a_bearing_without_a_ring_is_refused_in_words(function):
     with pytest.raises(ValueError, match="bearing = plain: has no floating ring"):

@@ -20,7 +20,7 @@ SOURCES: dict[str, Source] = {
     "thickness": Source(
         "the thinner film", r"h_{min}=\min\left[C(1-\varepsilon_i),\ C_o(1-\varepsilon_o)\right]"
     ),
-    "pressure": Source("the inner film", remark="the inner film's"),
+    "pressure": Source("pressure of the inner film", remark="the inner film's"),
     "force": Source(_TWO, remark="both films carry the same load"),
     "drag": Source(
         _TORQUES,

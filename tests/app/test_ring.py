@@ -1,0 +1,118 @@
+"""A floating ring on the pages: its films, its two whirls, and what is said beyond their onsets."""
+
+import math
+import re
+
+import pytest
+from streamlit.testing.v1 import AppTest
+
+from rotorcalc.figures import ring as figures
+from rotorcalc.units import SI
+from tests.app.session import HOME, NOTES, ORBITS, faults, session_of, texts, tours, visit
+from ui import ring
+from ui.bearing import defaults_of
+from ui.computed import Computed, computed_from
+from ui.inputs import PRESET_VALUES
+from ui.notes import ring as notes
+from ui.results.table import RESULTS
+from ui.words import ring as words
+from ui.words import verdict
+
+EQUILIBRIUM, STABILITY = "pages/1_Equilibrium.py", "pages/3_Stability.py"
+RINGED = {"bearing": "floating-ring"}
+
+
+def shown(**values: float | str) -> Computed:
+    sheet = PRESET_VALUES["sheet-1e8"]
+    return computed_from(sheet | defaults_of("floating-ring", sheet) | values)  # type: ignore[operator]
+
+
+def said(at: AppTest) -> str:
+    return "\n".join(texts(at))
+
+
+def test_both_films_stand_on_the_equilibrium_page_of_a_ring_alone() -> None:
+    assert any(tab.label == "Ring" for tab in visit(EQUILIBRIUM, **RINGED).get("tab"))
+    assert not any(tab.label == "Ring" for tab in visit(EQUILIBRIUM).get("tab"))
+    found, plain = shown(film="short"), computed_from(PRESET_VALUES["sheet-1e8"])
+    own = [one for one in RESULTS.values() if one.belongs(found) and not one.belongs(plain)]
+    assert len(own) == 6
+    assert all(math.isfinite(one.value(found)) and math.isnan(one.value(plain)) for one in own)
+    assert {one.cited(found) for one in own} == {
+        "Torques on the ring", "Two plain films in series", "The thinner film",
+    }  # fmt: skip
+    C, C_o = 60e-6, 150e-6
+    eps, h = ({key: RESULTS[f"{key}_{what}"].value(found) for key in ("inner", "outer")}
+              for what in ("eccentricity", "film"))  # fmt: skip
+    assert h["inner"] == pytest.approx(C * (1.0 - eps["inner"]), rel=1e-9)
+    assert h["outer"] == pytest.approx(C_o * (1.0 - eps["outer"]), rel=1e-9)
+
+
+@pytest.mark.parametrize("film", ["short", "finite"])
+def test_both_onsets_agree_with_the_verdict_which_points_to_the_orbits(film: str) -> None:
+    unstable = shown(film=film, rpm=20000.0, rpm_max=40000.0)
+    table = words.whirls(unstable, SI).words
+    onset = RESULTS["onset_speed"].shown(unstable, SI).removesuffix(" rpm")
+    assert f"| Onset [rpm] | none found | {onset} |" in table
+    assert "limit cycle" in table
+    told = verdict.verdict(unstable, SI)
+    assert told.level == "unstable"
+    assert told.sentence.endswith(words.BEYOND)
+    whirl = re.search(r"whirls at (\d+) rpm", told.sentence)
+    assert whirl is not None
+    assert f" {whirl[1]} |" in table
+    assert words.BEYOND not in verdict.verdict(shown(film=film), SI).sentence
+
+
+def test_without_load_both_whirls_are_at_their_limits_at_any_speed() -> None:
+    free = ring.whirls(shown(film="short", load=0.0, mass=1e-3))
+    assert [one.speed for one in free.onsets] == [0.0, 0.0]
+    here = free.here
+    assert float(here.inner_whirl_ratio) == pytest.approx(float(here.inner_limit), rel=1e-3)
+    assert float(here.outer_whirl_ratio) == pytest.approx(float(here.outer_limit), rel=1e-3)
+    table = words.whirls(shown(film="short", load=0.0, mass=1e-3), SI).words
+    assert table.count("any speed") == 2
+
+
+def test_the_chart_of_the_whirls_is_red_where_one_grows() -> None:
+    names = {
+        one["name"]
+        for one in figures.whirls(ring.whirls(shown(rpm_max=40000.0)), SI)["data"]
+    }  # fmt: skip
+    assert {"outer film, growing", "onset, outer film"} <= names
+    assert "inner film, growing" not in names
+
+
+@pytest.mark.parametrize("path", [HOME, EQUILIBRIUM, STABILITY])
+@pytest.mark.parametrize("query", [{"load": "0"}, {"load": "5e4"}, {"ring_mass": "12"}])
+def test_pages_of_a_ring_at_the_ends_of_load_and_mass(path: str, query: dict[str, str]) -> None:
+    at = visit(path, **RINGED, film="short", **query)
+    for tab in tours(at) if path == EQUILIBRIUM else [""]:
+        assert not at.exception, tab
+        assert not faults(at) or "Sommerfeld" in said(at), tab
+
+
+def test_orbits_offer_the_short_film_where_the_other_has_no_motion() -> None:
+    at = visit(ORBITS, **RINGED)
+    assert "two short films only" in at.error[0].value
+    at.button(key="orbits_short").click().run()
+    assert session_of(at).values["film"] == "short"
+    assert not at.error
+    assert at.get("plotly_chart")
+
+
+def test_the_misprint_of_the_two_whirls_is_shown_by_eigenvalues() -> None:
+    rows = [line.split("|")[2:-1] for line in notes.whirls().splitlines()[2:]]
+    assert len(rows) == 3
+    for r, inner, half_of_both, outer, half_of_ring, printed in (
+        [*map(float, row)] for row in rows
+    ):
+        assert (
+            inner
+            == pytest.approx(half_of_both, abs=2e-5)
+            == pytest.approx(0.5 * (1.0 + r), abs=2e-5)
+        )
+        assert outer == pytest.approx(half_of_ring, abs=2e-5)
+        assert abs(outer - printed) > 0.3
+    at = visit(NOTES, tab="Misprints")
+    assert notes.whirls() in said(at)
