@@ -77,6 +77,8 @@ def test_tables_and_files_name_the_modes_of_the_ring():
     assert f"# Mode {place + 1} at the running speed,ring in the outer film" in (
         export.sweep_csv(shown, SI).decode()
     )
+    head = export.sweep_csv(shown, SI).decode().splitlines()
+    assert any("Ring's speed [rpm],Inner film: eccentricity ratio ε [-]" in line for line in head)
     page = report.report(shown, [], SI, "link", Labels()).decode()
     assert f"<td>{place + 1}, ring in the outer film</td>" in page
     plain = Computed(SHEET, 600.0, 1000.0).locus(True)

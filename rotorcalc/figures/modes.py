@@ -187,7 +187,8 @@ def _chart(
 def _branch(locus: Locus, i: int, speed: Array, values: Array) -> list[Trace]:
     """Return one mode's line, in two parts: where it oscillates and where it does not."""
     swings, known = locus.branches[:, i].imag > 0.0, np.isfinite(values)
-    colour, name = COLOURS[i % len(COLOURS)], locus.name(i)
+    colour = COLOURS[i % len(COLOURS)]
+    name = locus.name(i).split(" in the ")[0]  # short, for a legend
     traces: list[Trace] = []
     if np.any(swings & known):
         traces.append(style.line(speed, np.where(swings, values, np.nan), name, colour))

@@ -18,7 +18,7 @@ from rotorcalc.recesses import RecessEquilibrium
 from rotorcalc.root_locus import Locus
 from rotorcalc.unbalance_response import phase_lag
 from rotorcalc.units import Unit, Units
-from ui import comparison
+from ui import comparison, ring
 from ui.bearing import fields_of, film_name
 from ui.bores import KIND, name_of
 from ui.computed import Computed
@@ -133,6 +133,8 @@ def _columns(computed: Computed, units: Units) -> Iterator[Column]:
     yield "Side flow per bearing Q", units.flow, sweep.side_flow
     if computed.has_recesses:
         yield from _recesses(computed.recesses, units)
+    if ring.has_ring(computed):
+        yield from _of_ring(computed, units)
     yield from _matrix("Stiffness K", units.stiffness, sweep.stiffness)
     yield from _matrix("Damping C", units.damping, sweep.damping)
     yield "Equivalent stiffness K_eq", units.stiffness, sweep.equivalent_stiffness
@@ -154,6 +156,14 @@ def _recesses(found: RecessEquilibrium, units: Units) -> Iterator[Column]:
     for k, name in enumerate(names(found.pressure.shape[1])):
         yield f"Recess {name}: pressure", units.pressure, found.pressure[:, k]
         yield f"Recess {name}: flow", units.flow, found.recess_flow[:, k]
+
+
+def _of_ring(computed: Computed, units: Units) -> Iterator[Column]:
+    found = ring.over_speed(computed)
+    yield "Ring's speed", units.speed, found.ring_speed
+    for words, film in (("Inner film", found.inner), ("Outer film", found.outer)):
+        yield f"{words}: eccentricity ratio ε", units.number, film.eccentricity_ratio
+        yield f"{words}: smallest film h_min", units.film, film.minimum_film_thickness
 
 
 def _matrix(words: str, unit: Unit, matrix: Array) -> Iterator[Column]:
