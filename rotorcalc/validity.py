@@ -189,9 +189,12 @@ def _heat(sweep: Sweep) -> tuple[Check, ...]:
         half, tenth = np.log(2.0) / alpha, np.log(10.0) / alpha
     if machine.supply is None:
         rise = heat.lone_rise(machine, sweep.power_loss, sweep.side_flow)
+        recesses = isinstance(machine.bearing.geometry, Hydrostatic)
+        more = "more oil, as from a higher supply pressure" if recesses else (
+            "more oil through the grooves")  # fmt: skip
         found = _above(HEAT, rise, half, np.inf,
                        "if the side flow alone carried the loss: the given temperature then needs "
-                       "more oil through the grooves")  # fmt: skip
+                       f"{more}")  # fmt: skip
     else:
         rise = sweep.outlet_temperature - machine.supply.temperature
         found = _above(HEAT, rise, half, tenth,

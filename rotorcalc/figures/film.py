@@ -68,7 +68,9 @@ def pressure_map(field: PressureField, point: Sweep, units: Units) -> Chart:
     z = units.length.of(field.axial_position)
     edge, high = style.ceiling(z), style.ceiling(units.pressure.of(point.peak_pressure))
     p = np.where(field.cavitated[:, None], np.nan, units.pressure.of(field.pressure))
-    low = _floor(p)
+    # A tenth of the scale a contour, from zero up and down.
+    step = high / 10
+    low = step * math.floor(_lowest(p) / step)
     once = slice(None, -1)  # 360° repeats 0°
     x = _around(field)
     y = style.axis(style.titled("Axial position", "z", units.length.name), -edge, edge)
@@ -77,7 +79,7 @@ def pressure_map(field: PressureField, point: Sweep, units: Units) -> Chart:
         "type": "contour", "name": "pressure", "x": units.angle.of(field.theta[once]), "y": z,
         "z": p[once].T.astype(np.float32),  # single precision halves the message
         "zmin": low, "zmax": high, "colorscale": "Cividis", "line": {"width": 0.4},
-        "contours": {"start": low, "end": high, "size": (high - low) / 10},
+        "contours": {"start": low, "end": high, "size": step},
         "colorbar": {"title": {"text": title, "side": "right"}, "thickness": 14, "outlinewidth": 0,
                      **style.PLAIN_NUMBERS},
         "hovertemplate": f"θ = %{{x:.0f}}°<br>z = %{{y:.3g}} {units.length.name}<br>"
@@ -202,8 +204,14 @@ def _has_shape(field: PressureField, point: Sweep) -> bool:
 
 def _floor(pressure: Array) -> float:
     """Return the lower end of an axis of pressures: zero, but for a film under suction."""
-    lowest = float(np.nanmin(pressure))
+    lowest = _lowest(pressure)
     return -style.ceiling(-lowest) if lowest < 0.0 else 0.0
+
+
+def _lowest(pressure: Array) -> float:
+    """Return the lowest pressure, at most ambient; rounding makes no suction."""
+    lowest, highest = float(np.nanmin(pressure)), float(np.nanmax(pressure))
+    return lowest if lowest < -1e-9 * highest else 0.0
 
 
 def _load_line(field: PressureField, point: Sweep, units: Units) -> tuple[list[Part], list[Part]]:

@@ -34,6 +34,8 @@ def test_the_tab_has_each_recess_and_powers_that_agree_with_the_page():
     assert f"Power loss: {amount(US.power, found.friction_power)}" in said
     assert float(found.flow) == pytest.approx(float(found.recess_flow.sum()))
     assert "At rest the journal floats" in said
+    assert "through the grooves" not in said
+    assert "through the restrictors holds the rise" in said
 
 
 def test_a_bearing_without_recesses_has_no_such_tab():

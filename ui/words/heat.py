@@ -51,12 +51,15 @@ def _supplied(computed: Computed, supply: Supply, units: Units) -> str:
 
 
 def needed(computed: Computed, units: Units) -> str:
-    """Return what groove flow holds the oil's rise at 20 K, in words."""
+    """Return what flow holds the oil's rise at 20 K, in words; recesses have no grooves."""
     flow, most = computed.flow_needed, amount(units.rise, USUAL_RISE)
     if math.isnan(flow):
         return ""
     if flow == 0.0:
         return f"The side flow alone keeps the rise below {most}."
+    if computed.has_recesses:
+        through = amount(units.flow, flow + float(computed.point.side_flow))
+        return f"A flow of **{through}** through the restrictors holds the rise at {most}."
     return f"A groove flow of **{amount(units.flow, flow)}** holds the rise at {most}."
 
 
