@@ -143,7 +143,7 @@ def recess_equilibrium(machine: Machine, speed: ArrayLike) -> RecessEquilibrium:
 
 def _each(points: OperatingPoints, values: Array) -> Array:
     """Return values (n, N) of flattened points in their shape, (..., N)."""
-    return values.reshape(*points.sommerfeld.shape, -1)
+    return values.reshape(*points.sommerfeld.shape, values.shape[-1])
 
 
 def _film(machine: Machine) -> HydrostaticFilm:

@@ -97,6 +97,12 @@ def test_suction_of_the_film_is_given_and_warned_of():
     assert check.worst == "good"
 
 
+def test_no_speed_at_all_has_no_answer_rather_than_a_fault():
+    # As where a machine has no peak of its response below its top speed.
+    assert recess_equilibrium(MACHINE, np.empty(0)).pressure.shape == (0, 4)
+    assert analyse(MACHINE, np.empty(0)).stiffness.shape == (0, 2, 2)
+
+
 def test_a_bearing_without_recesses_is_refused():
     with pytest.raises(ValueError, match="plain: has no recesses"):
         recess_pressure(SHEET, 100.0)

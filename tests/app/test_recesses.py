@@ -7,8 +7,9 @@ import re
 
 import pytest
 
+from rotorcalc import PRESETS
 from rotorcalc.units import SI, US
-from tests.app.session import faults, open_part, session_of, tabs, texts, visit
+from tests.app.session import HOME, faults, open_part, session_of, tabs, texts, visit
 from ui.computed import computed_from
 from ui.format import amount, digits
 from ui.inputs import values_of
@@ -113,6 +114,13 @@ def test_a_bearing_without_recesses_has_none_in_its_files():
     shown = computed_from(session_of(visit(PAGE)).values)
     assert "Recess" not in export.sweep_csv(shown, SI).decode("utf-8-sig")
     assert "<h2>Recesses" not in report.report(shown, [], SI, "link", Labels()).decode()
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+def test_every_preset_runs_on_recesses_at_the_usual_supply(preset):
+    at = visit(HOME, preset=preset, bearing="hydrostatic")
+    assert not faults(at)
+    assert not at.error
 
 
 @pytest.mark.parametrize("units", ["SI", "US"])

@@ -244,7 +244,7 @@ def _interpolated(grid: Array, u: Array, gamma: Array) -> tuple[Array, Array, Ar
     corners = np.stack([
         grid[i + low, (j + right) % _DIRECTIONS] for low in (0, 1) for right in (0, 1)
     ], axis=1)  # fmt: skip
-    corners = corners.reshape(len(u), 16, -1)
+    corners = corners.reshape(len(u), 16, grid.shape[-1])
     pairs = ((value_u, value_g), (slope_u, value_g), (value_u, slope_g))
     weights = np.stack([_product(one, other) for one, other in pairs], axis=1)
     found = weights @ corners
