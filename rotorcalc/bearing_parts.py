@@ -15,10 +15,14 @@ from rotorcalc.arrays import Array
 from rotorcalc.coefficients import checked_speed
 from rotorcalc.display import Result
 from rotorcalc.films.pads import Pad
-from rotorcalc.geometry import FloatingRing, Geometry, Hydrostatic
+from rotorcalc.foils import foil_deflection
+from rotorcalc.geometry import FloatingRing, Foil, Geometry, Hydrostatic
 from rotorcalc.machine import Machine
 from rotorcalc.recesses import recess_pressure
 from rotorcalc.ring import ring_equilibrium
+
+# Angles at which a foil's deflection is asked, every two degrees.
+_AROUND = np.linspace(0.0, 2.0 * np.pi, 181)
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,6 +106,13 @@ def recess_ends(geometry: Hydrostatic) -> Array:
     half = 0.5 * (pitch - geometry.land_angle)
     middle = pitch * np.arange(round(geometry.recesses), dtype=np.float64)
     return np.stack((middle - half, middle + half), axis=-1)
+
+
+@_parts.register
+def _foil(geometry: Foil, machine: Machine, speed: Array) -> Parts:
+    C = machine.bearing.radial_clearance
+    pressed = np.array([foil_deflection(machine, one, _AROUND) for one in speed.tolist()]) / C
+    return Parts(speed=speed, foil=pressed, slit=geometry.slit)
 
 
 @_parts.register

@@ -12,10 +12,12 @@ from rotorcalc.analysis import Sweep, analyse
 from rotorcalc.arguments import checked
 from rotorcalc.coefficients import checked_speed, equilibrium
 from rotorcalc.display import Result
+from rotorcalc.gas import Gas
 from rotorcalc.geometry import (
     AxialGrooves,
     Elliptical,
     FloatingRing,
+    Foil,
     Geometry,
     Hydrostatic,
     Lobes,
@@ -25,7 +27,7 @@ from rotorcalc.geometry import (
     Plain,
     PressureDam,
 )
-from rotorcalc.machine import JournalBearing, Machine
+from rotorcalc.machine import JournalBearing, Machine, Oil
 from rotorcalc.numerics.first_answer import from_first_answer
 from rotorcalc.onset import onset_speed
 from rotorcalc.unbalance_peaks import response_peaks
@@ -42,6 +44,7 @@ KINDS: tuple[type[Geometry], ...] = (
     MultiDam,
     FloatingRing,
     Hydrostatic,
+    Foil,
 )
 # Speeds up to this share of the running speed, and as many, are searched for peaks.
 _TOP, _SPEEDS = 1.5, 240
@@ -126,12 +129,14 @@ def compare_bearings(
     Returns
     -------
     tuple of BearingResult
-        In the order of the geometries, all on the film of finite length where the kind has it.
+        In the order of the geometries, all on the film of finite length where the kind has it. A
+        bearing that takes a gas runs on air at the temperature of the film or of the supply.
 
     Raises
     ------
     ValueError
-        Where the speed is not positive and finite, or a geometry does not fit the bearing.
+        Where the speed is not positive and finite, or a geometry does not fit the bearing, or
+        takes an oil where the machine has a gas.
     """
     checked_speed(speed)
     bores = usual_bores(machine.bearing) if geometries is None else geometries
@@ -169,7 +174,12 @@ def usual_bores(bearing: JournalBearing) -> tuple[Geometry, ...]:
 
 def _with(machine: Machine, geometry: Geometry) -> Machine:
     film = "finite" if "finite" in geometry.models else None
-    return replace(machine, bearing=replace(machine.bearing, geometry=geometry, film=film))
+    bearing = replace(machine.bearing, geometry=geometry, film=film)
+    if geometry.lubricant == "gas" and isinstance(machine.oil, Oil):
+        # No supply of oil cools it: the film then has the supply's temperature.
+        warm = machine.temperature if machine.supply is None else machine.supply.temperature
+        return replace(machine, bearing=bearing, oil=Gas(), temperature=warm, supply=None)
+    return replace(machine, bearing=bearing)
 
 
 @checked

@@ -409,13 +409,18 @@ class Foil(Geometry):
     slit: Annotated[float, Bound("rad", at_least=-_TURN, below=_TURN)] = 180 * degree
 
     @classmethod
+    def around(cls, diameter: float, length: float, radial_clearance: float) -> Self:  # noqa: ARG003
+        """Return the foil that is `usual` at a radial clearance C [m]."""
+        return cls.usual(radial_clearance)
+
+    @classmethod
     def usual(
         cls,
         radial_clearance: float,
         *,
         compliance: float = 1.0,
         ambient_pressure: float = atmosphere,
-    ) -> "Foil":
+    ) -> Self:
         """Return a foil bearing with a compliance α = p_a/(C k_f), usually about 1.
 
         Parameters

@@ -9,6 +9,7 @@ import pytest
 
 from rotorcalc import (
     Elliptical,
+    Foil,
     Lobes,
     Plain,
     PressureDam,
@@ -34,7 +35,8 @@ def test_every_kind_is_compared_on_the_same_journal():
         assert one.bearing == replace(
             SHEET.bearing, geometry=one.bearing.geometry, film=one.bearing.film
         )
-        assert one.minimum_film_thickness > 0.0
+        # At the ends of a foil that is loaded beyond its film, it touches.
+        assert one.minimum_film_thickness > 0.0 or isinstance(one.bearing.geometry, Foil)
         assert one.power_loss > 0.0
         assert one.temperature == SHEET.temperature
     assert done == pytest.approx(np.arange(1, len(KINDS) + 1) / len(KINDS))

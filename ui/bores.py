@@ -29,6 +29,7 @@ NAMES = {
     "multi-dam": "Multi-pocket dam",
     "floating-ring": "Floating ring",
     "hydrostatic": "Hydrostatic",
+    "foil": "Foil",
 }
 FILMS = {"short": "Short bearing", "finite": "Finite length", "coarse": "Coarse mesh"}
 
@@ -187,6 +188,17 @@ BORES: dict[str, tuple[Input | Pick, ...]] = {
         Pick("restrictor", "Restrictor", ("capillary", "orifice"),
              "What limits each recess's flow: a capillary's grows with the pressure drop, an "
              "orifice's with its square root."),
+    ),
+    "foil": (
+        _amount("foundation_stiffness", "Foundation stiffness", "foundation", (0.1, 1000),
+                "Pressure that deflects the foil by a unit of length."),
+        _share("loss_factor", "Loss factor", "η", (0, 1),
+               "Share of the foil's stiffness that its friction adds a quarter of a cycle ahead."),
+        _angle("slit", "Slit", (90, 270),
+               "Angle of the slit between the foil's ends, from the load line; the gas there is at "
+               "ambient pressure."),
+        _amount("ambient_pressure", "Ambient pressure", "pressure", (0.01, 1),
+                "Absolute pressure around the bearing.", symbol="pₐ"),
     ),
 }  # fmt: skip
 

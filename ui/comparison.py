@@ -15,7 +15,7 @@ from ui.bores import KIND, Values, name_of
 from ui.cases import Shown
 from ui.computed import Computed
 from ui.format import minus
-from ui.inputs import INPUTS, LAW, LAWS, number, values_of
+from ui.inputs import INPUTS, LAW, law_of, number, values_of
 from ui.results.table import RESULTS
 
 LIVE = "Now"
@@ -42,7 +42,7 @@ def inputs(machines: Sequence[Values], units: Units) -> Iterator[Row]:
         if _differ(machines, key):
             yield Row(item.name(units), tuple(shown(key, values, units) for values in machines))
     if _differ(machines, LAW):
-        yield Row("Viscosity law", tuple(LAWS[str(values[LAW])] for values in machines))
+        yield Row("Viscosity law", tuple(law_of(values) for values in machines))
     if _differ(machines, KIND):
         yield Row("Bearing", tuple(name_of(values[KIND]) for values in machines))
     films = tuple(film_name(values) for values in machines)
@@ -70,7 +70,7 @@ def results(machines: Sequence[Computed], units: Units) -> Iterator[Row]:
 
 def shown(key: str, values: Values, units: Units) -> str:
     """Return an input's value as text."""
-    if values[key] is None:
+    if values.get(key) is None:
         return _FOLLOWS.get(key, "–")
     item, value = INPUTS[key], number(values, key)
     return item.infinite if math.isinf(value) else minus(f"{item.shown(value, units):.6g}")

@@ -8,6 +8,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from rotorcalc import (
+    Gas,
     Hydrostatic,
     JournalBearing,
     Machine,
@@ -287,6 +288,8 @@ class Computed:
         """The same machine on the notes' bearing, short and plain; None where it has it."""
         bearing = replace(self.machine.bearing, geometry=Plain(), film=None)
         if self.machine.bearing.geometry == Plain() and self.machine.bearing.model == "short":
+            return None
+        if isinstance(self.machine.oil, Gas):  # whose film the notes do not have
             return None
         machine = replace(self.machine, bearing=bearing)
         return _computed(machine, self.speed, self.top_speed)

@@ -12,11 +12,18 @@ from typing import Any
 
 from scipy.constants import g
 
-from rotorcalc import PRESETS, JournalBearing, Machine, Oil, Preset, Rotor, Supply
+from rotorcalc import PRESETS, Gas, JournalBearing, Machine, Oil, Preset, Rotor, Supply
 from rotorcalc.figures import style
-from rotorcalc.machine import oil_of
 from rotorcalc.units import SI, Units
-from ui.bearing import KIND, Values, bearing_values, defaults_of, shape_of, without_shape
+from ui.bearing import (
+    KIND,
+    Values,
+    bearing_values,
+    defaults_of,
+    kinds,
+    shape_of,
+    without_shape,
+)
 from ui.bores import Pick, bore_inputs
 from ui.format import amount, quoted
 from ui.input_record import Input, tidy
@@ -108,6 +115,22 @@ INPUTS: dict[str, Input] = {
             "Heat that warms a mass of the oil by a degree.",
         ),
         Input(
+            "mu_gas", "oil.reference_viscosity",
+            "Reference viscosity", "μᵣ", "viscosity", 1e-3, 1, "Oil",
+            "Viscosity of the gas at the reference temperature.",
+        ),
+        Input(
+            "TR_gas", "oil.reference_temperature",
+            "Reference temperature", "Tᵣ", "temperature", -50, 150, "Oil",
+            "Temperature of the reference viscosity.", step=1,
+        ),
+        Input(
+            "S_gas", "oil.sutherland_temperature",
+            "Sutherland's temperature", "S", "rise", 0, 1000, "Oil",
+            "By Sutherland's law the viscosity rises with temperature: the more, the greater this "
+            "is.", least=1,
+        ),
+        Input(
             "mass", "rotor.mass",
             "Rotor mass", "2M", "mass", 0.05, 1e5, "Rotor",
             "The whole rotor's; each bearing carries half of it.",
@@ -142,8 +165,15 @@ LAWS = {"exponential": "Exponential", "walther": "Walther (ASTM D341)"}
 # Inputs of a supply of oil, and what they are in a link that does not name them. With a supply
 # there is no given film temperature; without one these are None.
 SUPPLY: Values = {"T_in": None, "flow": 0.0, "share": 1.0}
+# Inputs of an oil alone, and of a gas alone with what they are for air.
+OIL = ("mu", "TR", "alpha", "rho", "cp")
+_AIR = Gas()
+GAS: Values = {
+    "mu_gas": tidy(_AIR.reference_viscosity * 1e3), "TR_gas": _AIR.reference_temperature,
+    "S_gas": _AIR.sutherland_temperature,
+}  # fmt: skip
 # Inputs that may be None: a value that follows from others, or one of what the machine has not.
-OPTIONAL = frozenset(("load", "T", *SUPPLY))
+OPTIONAL = frozenset(("load", "T", *SUPPLY, *GAS))
 
 # Quantities that messages of the core have in SI, by their units there.
 _KINDS = {
@@ -168,10 +198,14 @@ def values_of(machine: Machine, speed: float, top_speed: float) -> Values:
     """Return the kept values of a machine and its speeds [rad/s]."""
     speeds = {"speed": speed, "top_speed": top_speed}
     values: Values = {}
+    gas = isinstance(machine.oil, Gas)
     for key, item in INPUTS.items():
+        if key in (OIL if gas else GAS):
+            continue
         value = speeds[item.field] if item.field in speeds else _at(machine, item.field)
         values[key] = None if value is None else tidy(float(item.unit(SI).of(value)))
-    return values | {LAW: oil_of(machine).law} | bearing_values(machine.bearing)
+    lubricant = {} if isinstance(machine.oil, Gas) else dict.fromkeys(GAS) | {LAW: machine.oil.law}
+    return values | lubricant | bearing_values(machine.bearing)
 
 
 def _at(machine: Machine, field: str) -> float | None:
@@ -197,6 +231,8 @@ def usual_values(preset: str, like: Values) -> Values:
     kind = like[KIND]
     if values[KIND] != kind:
         values = without_shape(values) | defaults_of(str(kind), values)
+    if has_gas(values):
+        return values | GAS
     return values | {"T": None} | SUPPLY if has_supply(like) else values
 
 
@@ -205,8 +241,32 @@ def has_supply(values: Values) -> bool:
     return values.get("T_in") is not None
 
 
+def has_gas(values: Values) -> bool:
+    """Return whether the bearing runs on a gas."""
+    return kinds()[str(values[KIND])].lubricant == "gas"
+
+
+def on_lubricant(values: Values) -> Values:
+    """Return values with what their bearing's lubricant needs: air in a foil, no supply of oil.
+
+    The film keeps its temperature where that is given; else it takes the supply's.
+    """
+    if not has_gas(values):
+        return values | dict.fromkeys(GAS)
+    T = values["T_in"] if has_supply(values) else values["T"]
+    gas = {key: usual if values.get(key) is None else values[key] for key, usual in GAS.items()}
+    return values | dict.fromkeys(SUPPLY) | {"T": T} | gas
+
+
+def law_of(values: Values) -> str:
+    """Return the law of the lubricant's viscosity in words."""
+    return "Sutherland" if has_gas(values) else LAWS[str(values[LAW])]
+
+
 def applies(key: str, values: Values) -> bool:
-    """Return whether a machine has an input of every machine: a film temperature, or a supply."""
+    """Return whether a machine has an input: film temperature or supply, those of oil or of gas."""
+    if key in OIL or key in GAS:
+        return (key in GAS) == has_gas(values)
     if key == "T":
         return not has_supply(values)
     return key not in SUPPLY or has_supply(values)
@@ -254,13 +314,15 @@ def _machine_of(values: Values) -> Machine:
     }
     for key, item in INPUTS.items():
         record, _, name = item.field.rpartition(".")
-        if item.field not in _SPEEDS:
+        if item.field not in _SPEEDS and (record != "oil" or applies(key, values)):
             left_out = key in OPTIONAL and values[key] is None
             records[record][name] = None if left_out else item.unit(SI).to_si(number(values, key))
     geometry, film = shape_of(values)
     supply = records["supply"]
     return Machine(
-        oil=Oil(**records["oil"], law=str(values[LAW])),
+        oil=Gas(**records["oil"])
+        if has_gas(values)
+        else Oil(**records["oil"], law=str(values[LAW])),
         bearing=JournalBearing(**records["bearing"], geometry=geometry, film=film),
         rotor=Rotor(**records["rotor"]),
         supply=None if supply["temperature"] is None else Supply(**supply),

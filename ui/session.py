@@ -23,7 +23,7 @@ from ui.cases import Case
 from ui.choices import Value as Choice
 from ui.choices import choices, release_of, words_of
 from ui.history import MOST_NEAR, History
-from ui.inputs import LAW, PRESET_VALUES, has_supply, usual_values
+from ui.inputs import LAW, PRESET_VALUES, has_gas, has_supply, on_lubricant, usual_values
 from ui.preview import Preview
 from ui.sharing import address, labels
 
@@ -111,11 +111,17 @@ class Session:
 
     def set_kind(self, kind: str) -> None:
         """Take over a kind of bearing as it is by itself; diameter, length, clearance stay."""
-        self._set(without_shape(self.values) | defaults_of(kind, self.values))
+        before = self.values
+        self._set(on_lubricant(without_shape(before) | defaults_of(kind, before)))
+        if has_gas(self.values) and has_supply(before):
+            self.problems.append(
+                "A foil bearing runs on air, which a supply of oil does not cool: its film's "
+                "temperature is given."
+            )
 
     def set_bearing(self, bearing: JournalBearing) -> None:
         """Take over another bearing's bore and film model; diameter, length, clearance stay."""
-        self._set(without_shape(self.values) | bearing_values(bearing))
+        self._set(on_lubricant(without_shape(self.values) | bearing_values(bearing)))
         self.set_film(bearing.model)
 
     def set_supply(self, heat: Values) -> None:
@@ -193,6 +199,7 @@ class Session:
         ]
         return (
             self.preset, self.values["load"] is None, has_supply(self.values), self.values[LAW],
+            has_gas(self.values),
             self.values[KIND], self.values[FILM], inputs, picked, self.units_name,
         )  # fmt: skip
 

@@ -10,7 +10,7 @@ from rotorcalc.arrays import Array
 from rotorcalc.bearing_parts import recess_ends
 from rotorcalc.figures import style
 from rotorcalc.films.pads import Pad, pads_of
-from rotorcalc.geometry import FloatingRing, Geometry, Hydrostatic
+from rotorcalc.geometry import FloatingRing, Foil, Geometry, Hydrostatic
 from rotorcalc.machine import JournalBearing
 
 # Clearance over the bore's radius in a small picture, and the deepest pocket drawn there, in C.
@@ -154,6 +154,20 @@ def _strokes(_geometry: Geometry, bearing: JournalBearing) -> list[str]:
 def _ringed(_geometry: FloatingRing, _bearing: JournalBearing) -> list[str]:
     circles = ((0.84, 0.05), (0.96, 0.05), (1.12, 0.07))
     return [_path(_arc(_MIDDLE, radius, 0.0, _TURN), style.GREY, wide) for radius, wide in circles]
+
+
+@_strokes.register
+def _sprung(geometry: Foil, _bearing: JournalBearing) -> list[str]:
+    half = math.radians(6.0)
+    foil = _arc(_MIDDLE, 1.0, geometry.slit + half, geometry.slit + _TURN - half)
+    angle = np.linspace(0.0, _TURN, 361)
+    bumps = 1.06 - 0.06 * np.cos(24.0 * angle)
+    waves = bumps[:, None] * np.stack((np.cos(angle), np.sin(angle)), axis=-1)
+    housing = _arc(_MIDDLE, 1.15, 0.0, _TURN)
+    return [
+        _path(foil, style.GREY, 0.07), _path(waves, style.GREY, 0.03),
+        _path(housing, style.GREY, 0.04),
+    ]  # fmt: skip
 
 
 @_strokes.register

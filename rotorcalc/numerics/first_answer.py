@@ -7,6 +7,8 @@ from typing import TypeVar
 from rotorcalc.arrays import Array
 
 T = TypeVar("T")
+# How many values beyond the first that is answered alone are tried as the first of all.
+_BESIDE = 8
 
 
 def from_first_answer(ask: Callable[[Array], T], values: Array) -> T:
@@ -43,4 +45,8 @@ def from_first_answer(ask: Callable[[Array], T], values: Array) -> T:
             answered = middle
         except ValueError:
             refused = middle
-    return ask(values[answered:])
+    # A value alone may be answered by another table than many, which ends some per cent elsewhere.
+    for start in range(answered, min(answered + _BESIDE, len(values) - 1)):
+        with suppress(ValueError):
+            return ask(values[start:])
+    return ask(values[min(answered + _BESIDE, len(values) - 1) :])

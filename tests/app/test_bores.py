@@ -28,12 +28,18 @@ from tests.app.session import (
 from ui.bearing import KIND, defaults_of, fields_of
 from ui.bores import BORES, NAMES, Pick, Values, bore_inputs, with_pick
 from ui.input_record import Input
-from ui.inputs import INPUTS, PRESET_VALUES, input_named, machine_of, usual
+from ui.inputs import GAS, INPUTS, PRESET_VALUES, input_named, machine_of, on_lubricant, usual
 from ui.session import changed
 from ui.widgets import _moved
 
 PADS = [kind for kind in NAMES if kind != "plain"]
-_REFUSALS = ("must be at least", "must be at most", "no position of the journal was found")
+_REFUSALS = (
+    "must be at least",
+    "must be at most",
+    "no gas film",
+    "below the lift-off speed",
+    "no position of the journal was found",
+)
 every_bore = pytest.mark.parametrize("kind", PADS)
 
 
@@ -41,7 +47,12 @@ SHEET = PRESET_VALUES["sheet-1e8"]
 
 
 def of_kind(kind: str, **values: object) -> Values:
-    return SHEET | defaults_of(kind, SHEET) | values  # type: ignore[operator]
+    return on_lubricant(SHEET | defaults_of(kind, SHEET)) | values  # type: ignore[operator]
+
+
+def light(kind: str) -> dict[str, str]:
+    """Return a load that a film of air lifts."""
+    return {"load": "20", "rpm": "20000"} if kind == "foil" else {}
 
 
 def sliders(values: Values) -> list[Input]:
@@ -132,7 +143,7 @@ def _ends(at: AppTest, kind: str) -> Iterator[object]:
     ("kind", "units"), [*((kind, "SI") for kind in PADS), ("pressure-dam", "US")]
 )
 def test_home_shows_both_ends_of_every_slider_of_a_bore(kind: str, units: str) -> None:
-    at = visit(HOME, units=units)
+    at = visit(HOME, units=units, **light(kind))
     choose(at, kind)
     for item in sliders(of_kind(kind)):
         if item.follows:
@@ -153,7 +164,9 @@ def test_changing_the_kind_keeps_the_rest_of_the_machine_and_is_undone(kind: str
     before = dict(session_of(at).values)
     choose(at, kind)
     after = session_of(at).values
-    assert {key: after[key] for key in INPUTS} == {key: before[key] for key in INPUTS}
+    kept = INPUTS.keys() - GAS.keys()
+    assert {key: after[key] for key in kept} == {key: before[key] for key in kept}
+    assert {key: after[key] for key in GAS} == (GAS if kind == "foil" else dict.fromkeys(GAS))
     assert after[KIND] == kind
     at.button(key="undo").click().run()
     assert session_of(at).values == before
@@ -304,7 +317,7 @@ def test_live_sliders_and_the_preview_have_the_bores_inputs(
     kind: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("ROTORCALC_LIVE", "drag")
-    at = visit(HOME)
+    at = visit(HOME, **light(kind))
     choose(at, kind)
     visitor = session_of(at)
     groups = [

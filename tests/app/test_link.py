@@ -15,14 +15,17 @@ from ui.bearing import KIND, Field, Value, Values, bearing_values, fields_of
 from ui.input_record import Input, tidy
 from ui.inputs import (
     DEFAULT_PRESET,
+    GAS,
     INPUTS,
     LAW,
     LAWS,
     OPTIONAL,
     PRESET_VALUES,
     SUPPLY,
+    has_gas,
     inputs_of,
     machine_of,
+    on_lubricant,
 )
 from ui.sharing import address
 
@@ -57,7 +60,10 @@ def drawn_values(draw: st.DrawFn, preset: str) -> Values:
     share = draw(st.floats(0.3, 1.0))
     for key, field in fields_of(bearing[KIND]).items():
         bearing[key] = draw(_of_bore(field, bearing[key], share))
-    return values | bearing
+    if "outer_radius" in bearing:  # around the journal
+        bearing["outer_radius"] = max(bearing["outer_radius"], tidy(0.6 * values["D"]))
+    values = values | bearing
+    return on_lubricant(values) | ({"T": 20.0} if has_gas(values) and values["T"] is None else {})
 
 
 def _of_bore(field: Field, usual: Value, share: float) -> st.SearchStrategy[Value]:
@@ -142,7 +148,7 @@ def test_both_ends_are_in_and_beyond_them_is_out(key: str) -> None:
     for end, beyond in ((item.low, -math.inf), (item.high, math.inf)):
         # No end of another input leaves this without a disk, or with too wide a clearance.
         given_values = {"mass": "1e5", "D": "1200", key: repr(float(end))}
-        supply = {"T_in": "40"} if key in SUPPLY else {}
+        supply = {"T_in": "40"} if key in SUPPLY else {"bearing": "foil"} if key in GAS else {}
         assert address.read(supply | given_values).problems == []
         outside = math.nextafter(end, beyond)
         assert len(address.read(supply | {key: repr(outside)}).problems) == 1

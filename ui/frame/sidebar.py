@@ -20,6 +20,7 @@ from ui.inputs import (
     LAWS,
     OPEN_GROUPS,
     applies,
+    has_gas,
     machine_of,
     number,
 )
@@ -54,15 +55,19 @@ def draw_inputs() -> DeltaGenerator | None:
     st.html(_STYLE)
     bearing = None
     for group in GROUPS:
-        with st.expander(group, expanded=group in OPEN_GROUPS):
+        with st.expander(_title(group), expanded=group in OPEN_GROUPS):
             if group == "Bearing":
                 bearing = bore.draw()
             _group(group)
-            if group == "Oil":
+            if group == "Oil" and not has_gas(session().values):
                 _law()
                 _oil_library()
     _settings()
     return bearing
+
+
+def _title(group: str) -> str:
+    return "Gas" if group == "Oil" and has_gas(session().values) else group
 
 
 def draw_presets() -> None:
@@ -85,7 +90,7 @@ def _group(group: str) -> None:
     for key, item in INPUTS.items():
         if item.group != group:
             continue
-        if key in _SWITCHES:
+        if key in _SWITCHES and not (key == "T" and has_gas(values)):
             _sliders(place, together)
             place, together = f"{group}, after {key}", []
             _SWITCHES[key]()

@@ -30,12 +30,14 @@ from ui.format import quoted, short, typed_number
 from ui.input_record import tidy
 from ui.inputs import (
     DEFAULT_PRESET,
+    GAS,
     INPUTS,
     LAW,
     LAWS,
     OPTIONAL,
     PRESET_VALUES,
     SUPPLY,
+    has_gas,
     has_supply,
     machine_of,
     usual_values,
@@ -141,8 +143,29 @@ def checked_values(given: Mapping[str, object], preset: str, problems: list[str]
             values[LAW] = _word({LAW: f"{word}"}, LAW, str(values[LAW]), LAWS, problems)
         elif key != KIND:
             problems.append(f"{quoted(key)} is not an input of this machine and was left out.")
+    _settle_lubricant(values, problems)
     _settle_supply(values, given, preset, problems)
     return _made(values, preset, problems)
+
+
+def _settle_lubricant(values: Values, problems: list[str]) -> None:
+    """Leave out a gas where the bearing takes oil, and a supply of oil where it takes a gas."""
+    if has_gas(values):
+        if has_supply(values):
+            problems.append(
+                "Supply temperature (T_in) is an oil's; a foil bearing runs on a gas, and it was "
+                "left out."
+            )
+            values |= dict.fromkeys(SUPPLY)
+        values |= {key: usual for key, usual in GAS.items() if values[key] is None}
+        return
+    for key in GAS:
+        if values[key] is not None:
+            problems.append(
+                f"{INPUTS[key].label} ({key}) belongs to a gas, which a foil bearing alone takes; "
+                "it was left out."
+            )
+            values[key] = None
 
 
 def _settle_supply(
@@ -264,8 +287,8 @@ def _used(key: str, preset: str) -> str:
         return "the preset's bearing"
     if key not in INPUTS:
         return "the preset's machine"
-    value = SUPPLY.get(key, PRESET_VALUES[preset].get(key))
+    value = (SUPPLY | GAS).get(key, PRESET_VALUES[preset].get(key))
     if value is None:
         return "half the rotor's weight"
     shown = value if isinstance(value, str) else short(value)
-    return shown if key in SUPPLY else f"the preset's {shown}"
+    return shown if key in SUPPLY or key in GAS else f"the preset's {shown}"

@@ -13,7 +13,6 @@ import numpy as np
 from rotorcalc import orbit_ellipse
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.figures.recesses import names
-from rotorcalc.machine import oil_of
 from rotorcalc.recesses import RecessEquilibrium
 from rotorcalc.root_locus import Locus
 from rotorcalc.unbalance_response import phase_lag
@@ -22,7 +21,7 @@ from ui import comparison, ring
 from ui.bearing import fields_of, film_name
 from ui.bores import KIND, name_of
 from ui.computed import Computed
-from ui.inputs import INPUTS, LAWS, applies, values_of
+from ui.inputs import INPUTS, applies, law_of, values_of
 from ui.sharing import xlsx
 
 # Words, unit and SI values of a column.
@@ -95,7 +94,7 @@ def _head(computed: Computed, units: Units) -> Iterator[tuple[str, str]]:
         if not applies(key, values):
             continue
         yield f"# {item.name(units)}", comparison.shown(key, values, units).replace("−", "-")
-    yield "# Viscosity law", LAWS[oil_of(computed.machine).law]
+    yield "# Viscosity law", law_of(values)
     yield "# Bearing", name_of(values[KIND])
     yield "# Film", film_name(values)
     for field in fields_of(values[KIND]).values():

@@ -26,7 +26,7 @@ from ui.bores import KIND, Values, name_of
 from ui.cases import Shown
 from ui.computed import Computed
 from ui.format import amount, digits, minus
-from ui.inputs import GROUPS, INPUTS, LAW, LAWS, applies, values_of
+from ui.inputs import GROUPS, INPUTS, applies, law_of, values_of
 from ui.results.table import RESULTS
 from ui.sharing import report_charts
 from ui.sharing.labels import Labels
@@ -122,7 +122,14 @@ def _inputs(computed: Computed, units: Units) -> str:
         )
         if group == "Oil":
             rows.append(
-                _row([("Viscosity law", ""), ("", ""), (LAWS[str(live[LAW])], "n"), ("", "")])
+                _row(
+                    [
+                        ("Viscosity law", ""),
+                        ("", ""),
+                        (law_of(live), "n"),
+                        ("", ""),
+                    ]
+                )
             )
         if group == "Bearing":
             rows += _bearing(live, units)

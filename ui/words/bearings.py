@@ -17,13 +17,14 @@ from streamlit.elements.lib.column_types import ButtonColumnResult, ColumnConfig
 from rotorcalc import JournalBearing, Machine
 from rotorcalc.comparison import BearingResult, usual_bores
 from rotorcalc.figures import Units
+from rotorcalc.gas import Gas
 from rotorcalc.geometry import Geometry, Plain
-from ui.bearing import film_name
+from ui.bearing import defaults_of, film_name, without_shape
 from ui.bores import name_of
 from ui.format import amount, lower
 from ui.frame.bore import picture_address, picture_tag
 from ui.frame.page import Page
-from ui.inputs import as_shown
+from ui.inputs import as_shown, machine_of, on_lubricant
 from ui.jobs import cache, work
 from ui.jobs.queue import SHORT
 from ui.session import session
@@ -130,6 +131,13 @@ _JUDGEMENTS = {
             Claim("Its peak response is higher", "peak_response", "amplitude", more=True),
         ),
     ),
+    "foil": Judgement(
+        "Runs on air, without oil, and bears misalignment; costly, for light loads at high speed, "
+        "and prone to whirl below running speed.",
+        (
+            Claim("It loses less power than the plain bore", "power_loss", "power", more=False),
+        ),
+    ),
 }  # fmt: skip
 
 
@@ -191,6 +199,10 @@ def _worded(one: BearingResult, page: Page) -> BearingResult:
 
 
 def _plain(machine: Machine) -> Machine:
+    if isinstance(machine.oil, Gas):
+        # The others run on the oil that the sidebar had before.
+        values = session().values
+        return machine_of(on_lubricant(without_shape(values) | defaults_of("plain", values)))
     return replace(machine, bearing=replace(machine.bearing, geometry=Plain(), film="finite"))
 
 
@@ -263,7 +275,7 @@ def _table(found: Sequence[BearingResult], page: Page, *, done: bool) -> None:
     first = f"{name_of(bearings[0].geometry.kind)}, {film_name(page.preview.values)}".lower()
     st.caption(
         f"First this machine's own bearing ({first}), then each kind at its usual shape, on the "
-        "film of finite length. A click on a column's head sorts by it."
+        "film of finite length, a foil on air. A click on a column's head sorts by it."
     )
 
 

@@ -19,7 +19,7 @@ from ui.bearing import fields_of as bore_fields
 from ui.choices import choice
 from ui.computed import Computed
 from ui.format import amount
-from ui.inputs import INPUTS, usual, values_of
+from ui.inputs import GAS, INPUTS, OIL, usual, values_of
 from ui.jobs import cache, work
 from ui.words.citation import without_load
 
@@ -48,7 +48,9 @@ TORNADO = (
 
 def fields_of(machine: Machine) -> dict[str, str]:
     """Return the core's names of the inputs that move a machine's onset, by their keys."""
-    named = {key: item.field for key, item in INPUTS.items()} | {
+    gas = machine.bearing.geometry.lubricant == "gas"
+    own = {key: item.field for key, item in INPUTS.items() if key not in (OIL if gas else GAS)}
+    named = own | {
         key: f"bearing.geometry.{field.name}"
         for key, field in bore_fields(machine.bearing.geometry.kind).items()
     }
