@@ -161,15 +161,16 @@ def usual_bores(bearing: JournalBearing) -> tuple[Geometry, ...]:
     Parameters
     ----------
     bearing : JournalBearing
-        Its diameter, length and clearance enter.
+        Its diameter, length and clearance enter, and whether it runs on a gas.
 
     Returns
     -------
     tuple of Geometry
-        In the order of `KINDS`.
+        In the order of `KINDS`; in place of a bearing on gas only those that take a gas.
     """
     D, L, C = bearing.diameter, bearing.length, bearing.radial_clearance
-    return tuple(kind.around(D, L, C) for kind in KINDS)
+    on_oil = bearing.geometry.lubricant == "oil"
+    return tuple(kind.around(D, L, C) for kind in KINDS if on_oil or kind.lubricant == "gas")
 
 
 def _with(machine: Machine, geometry: Geometry) -> Machine:

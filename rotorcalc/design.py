@@ -21,7 +21,7 @@ from scipy.optimize import brentq, minimize_scalar
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, real_array
 from rotorcalc.display import Result
-from rotorcalc.machine import Machine
+from rotorcalc.machine import Machine, Oil
 from rotorcalc.numerics.parts import in_parts
 from rotorcalc.onset.closed_form import covers
 from rotorcalc.onset.many import onset_speeds
@@ -44,6 +44,11 @@ INPUTS = (
 )
 # In place of the film's temperature where that follows from the supply.
 SUPPLY_INPUTS = ("supply.temperature", "supply.flow", "oil.heat_capacity")
+# On a gas, whose law of viscosity is another.
+GAS_INPUTS = tuple(
+    "oil.sutherland_temperature" if name == "oil.temperature_coefficient" else name
+    for name in INPUTS
+)
 # A share of a temperature in °C means nothing, as its zero is arbitrary: it is varied by degrees.
 TEMPERATURE_STEP = 5.0
 # A map that is not solved in one go reports its progress after each of 3 or 4 blocks of rows: fewer
@@ -166,7 +171,7 @@ def inputs_of(machine: Machine) -> tuple[str, ...]:
         "rotor.mass", …, "bearing.geometry.preload".
     """
     bore = (path for path in number_paths(machine) if path[:2] == ("bearing", "geometry"))
-    own = INPUTS
+    own = INPUTS if isinstance(machine.oil, Oil) else GAS_INPUTS
     if machine.supply is not None:
         own = (*(name for name in INPUTS if name != "temperature"), *SUPPLY_INPUTS)
     return (*own, *map(".".join, bore))

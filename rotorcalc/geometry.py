@@ -443,7 +443,10 @@ class Foil(Geometry):
         '3.378e+09'
         """
         stiffness = ambient_pressure / (radial_clearance * compliance)
-        return cls(foundation_stiffness=stiffness, ambient_pressure=ambient_pressure)
+        # As it is written in a file: without what the division adds in the last digit.
+        return cls(
+            foundation_stiffness=float(f"{stiffness:.12g}"), ambient_pressure=ambient_pressure
+        )
 
     def compliance(self, radial_clearance: float) -> float:
         """Return α = p_a/(C k_f) [-] at a radial clearance C [m]."""

@@ -97,7 +97,11 @@ class Gas:
             first, each = factors.solve(r), factors.solve(B)
             dq = np.linalg.solve(-G @ each, [2 * load, 0.0] - self.load(p) + G @ first)
             dp = (-first - each @ dq).reshape(p.shape)
-            share = min(1.0, 0.4 / max(np.abs(dp).max(), np.abs(dq).max()))
+            # No step leaves less than a third of a film.
+            h = self.rigid(q, self.beta) + self.bent(p)
+            thinner = 1.0 - self.rigid(dq, self.beta) - self.compliance * (p > 1.0) * dp
+            most = max(np.abs(dp).max(), np.abs(dq).max())
+            share = min(1.0, 0.4 / most, 1.0 / max((thinner / h).max() / 0.67, 1e-9))
             p, q = p + share * dp, q + share * dq
             if max(np.abs(dp).max(), np.abs(dq).max()) < 1e-9:
                 return p, q

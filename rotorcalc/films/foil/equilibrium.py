@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rotorcalc.arrays import Array, BoolArray, IntArray
+from rotorcalc.films.foil.along import rise_along
 from rotorcalc.films.foil.mesh import Mesh
 from rotorcalc.films.foil.newton import newton_step, stepped
 from rotorcalc.films.foil.reynolds import Films, gap
@@ -19,8 +20,9 @@ _FIRST, _GROWTH, _SMALLEST = 0.05, 2.0, 1e-4
 _LIGHT = 0.05
 # Steps of Newton's method for one share of the load, and over all shares together.
 _STEPS, _ALL = 12, 400
-# Change of pressure [p_a] and position [C] at convergence; quadratic: the error is its square.
-_SETTLED = 1e-5
+# Change of pressure [p_a] and position [C] at convergence, whose square is the error, and on the
+# way to a load.
+_SETTLED, _NEARLY = 1e-5, 1e-3
 # Thickness that a guess has at least, in C.
 _OPEN = 1e-2
 
@@ -62,13 +64,13 @@ def joined(one: Films, other: Films) -> Films:
 
 
 def refined(films: Films, fine: Mesh) -> Films:
-    """Return films on another mesh, by lines around the bore and the polynomial along it."""
+    """Return films on another mesh, by lines around the bore and ψ's polynomial along it."""
     old, angle = films.mesh, fine.angle[1:-1]
-    along = films.rise @ old.along(fine.zeta[:-1]).T
+    along = np.pad(rise_along(films, fine.zeta[:-1]), ((0, 0), (1, 1), (0, 0)))
     i = np.clip(np.searchsorted(old.angle, angle) - 1, 0, len(old.angle) - 2)
     t = ((angle - old.angle[i]) / old.step)[:, None]
     rise = (1.0 - t) * along[:, i] + t * along[:, i + 1]
-    # Between the nodes a polynomial may swing below the journal's surface.
+    # Between two angles the line may lie below the journal's surface.
     least = (_OPEN - gap(films.position, angle)[..., None]) / films.compliance
     closed = films.compliance * np.maximum(rise, 0.0) < least * films.compliance
     return replace(films, mesh=fine, pressure=1.0 + np.where(closed, least, rise))
@@ -81,21 +83,26 @@ def put(films: Films, places: IntArray, some: Films) -> Films:
     return replace(films, position=position, pressure=pressure)
 
 
-def settled(films: Films, load: Array, *, steps: int = _STEPS) -> Equilibria:
-    """Return the equilibria at loads F/(p_a D L) (P,) that Newton's method finds from films."""
+def settled(
+    films: Films, load: Array, *, steps: int = _STEPS, change: float = _SETTLED
+) -> Equilibria:
+    """Return the equilibria at loads F/(p_a D L) (P,) that Newton's method finds from films.
+
+    It takes as many steps, and ends where the last one changes them by less.
+    """
     goal = np.stack([2.0 * load, np.zeros_like(load)], axis=-1)
     good = np.zeros(len(load), dtype=bool)
-    near = _SETTLED * np.minimum(1.0, 20.0 * load)
+    near = change * np.minimum(1.0, 20.0 * load)
     for _ in range(steps):
         left = np.flatnonzero(~good)
         if not left.size:
             break
         some = taken(films, left)
         pressure, position = newton_step(some, goal[left])
-        change = np.maximum(np.abs(pressure).max(axis=(1, 2)), np.abs(position).max(axis=1))
+        moved = np.maximum(np.abs(pressure).max(axis=(1, 2)), np.abs(position).max(axis=1))
         after, share = stepped(some, pressure, position)
         films = put(films, left, after)
-        good[left] = (change < near[left]) & (share == 1.0)
+        good[left] = (moved < near[left]) & (share == 1.0)
     return Equilibria(films, good)
 
 
@@ -128,7 +135,7 @@ def raised(mesh: Mesh, compliance: float, number: Array, load: Array, least: flo
             break
         at = np.minimum(share[left] + step[left], 1.0)
         guess = _ahead(taken(known, left), taken(films, left), before[left], share[left], at)
-        found = settled(guess, at * load[left])
+        found = settled(guess, at * load[left], change=_NEARLY)
         won, missed = left[found.good], left[~found.good]
         known = put(known, won, taken(films, won))
         films = put(films, won, taken(found.films, found.good))

@@ -3,6 +3,7 @@
 import numpy as np
 
 from rotorcalc.arrays import Array
+from rotorcalc.films.foil.along import rise_of
 from rotorcalc.films.foil.reynolds import Films, gap
 
 
@@ -12,9 +13,10 @@ def rise_at(found: Films, angle: Array, zeta: Array) -> Array:
     turned = grid.angle[0] + np.mod(angle - grid.angle[0], 2.0 * np.pi)
     i = np.clip(((turned - grid.angle[0]) / grid.step).astype(int), 0, len(grid.angle) - 2)
     t = ((turned - grid.angle[i]) / grid.step)[:, None]
-    u = found.rise[0]
-    along = (1.0 - t) * u[i] + t * u[i + 1]
-    return (grid.along(2.0 * zeta) * along).sum(axis=-1)
+    psi = np.pad(found.along_potential[0], ((1, 1), (0, 1)))  # none at slit and ends
+    line = (1.0 - t) * psi[i] + t * psi[i + 1]
+    along = (grid.along(2.0 * zeta) * line).sum(axis=-1)
+    return rise_of(along, gap(found.position, angle)[0], found.compliance)
 
 
 def thickness_at(found: Films, angle: Array, rise: Array) -> Array:

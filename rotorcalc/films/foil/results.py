@@ -3,10 +3,11 @@
 import numpy as np
 
 from rotorcalc.arrays import Array
-from rotorcalc.films.foil.reynolds import Films, potential
+from rotorcalc.films.foil.along import rise_along
+from rotorcalc.films.foil.reynolds import Films
 
-# Places along half the bearing at which the shear of the film is taken, and steps to find them.
-_PLACES, _STEPS = 8, 30
+# Places along half the bearing at which the shear of the film is taken.
+_PLACES = 8
 
 
 def drag(found: Films) -> Array:
@@ -17,42 +18,14 @@ def drag(found: Films) -> Array:
     """
     grid = found.mesh
     nodes, weights = np.polynomial.legendre.leggauss(_PLACES)
-    shear = (1.0 / thickness_along(found, 0.5 * (nodes + 1.0))) @ (0.5 * weights)
+    rise = rise_along(found, 0.5 * (nodes + 1.0))
+    h = found.gap[:, 1:-1, None] + found.compliance * np.maximum(rise, 0.0)
+    shear = (1.0 / h) @ (0.5 * weights)
     # The slit is a node of half a cell on each of its sides, at ambient pressure.
     slit = grid.step / found.gap[:, 0]
     between = 0.5 * (found.thickness[:, 1:] + found.thickness[:, :-1])
     pressed = np.einsum("pnm,m->p", between * np.diff(found.rise, axis=1), grid.weights)
     return grid.step * shear.sum(axis=1) + slit + 3.0 * pressed / found.number
-
-
-def thickness_along(found: Films, zeta: Array) -> Array:
-    """Return the thickness at places 0 ≤ ζ ≤ 1 (k,) between the slit's sides, (P, n, k), in C.
-
-    ψ is a polynomial along the axis; towards a closed end the thickness is no such thing.
-    """
-    psi = found.along_potential @ found.mesh.along(zeta)[:, :-1].T
-    a = found.gap[:, 1:-1, None] + 0.0 * psi
-    below = psi < 0.0
-    if not below.all():
-        p = 1.0 + found.entry[:, 1:-1, None]
-        v = _risen(psi, np.maximum(a, 0.0), p, found.compliance)
-        a = np.where(below, a, np.maximum(a, 0.0) + found.compliance * v)
-    return a
-
-
-def _risen(psi: Array, a: Array, p: Array, alpha: float) -> Array:
-    """Return the pressure above that at the end where ψ has values, zero where they are below 0."""
-    goal = np.maximum(psi, 0.0)
-    # ψ grows ever faster: from above it Newton's method comes down to the root.
-    v = np.minimum(goal / np.maximum(p * a**3, 1e-300), (4.0 * goal / (p * alpha**3)) ** 0.25)
-    for _ in range(_STEPS):
-        value, _ = potential(a, v, p, alpha)
-        slope = (p + v) * (a + alpha * v) ** 3
-        step = np.divide(value - goal, slope, out=np.zeros_like(v), where=slope > 0.0)
-        v = v - step
-        if np.all(np.abs(step) <= 1e-9 * (v + 1e-9)):
-            break
-    return v
 
 
 def side_flow(found: Films) -> Array:

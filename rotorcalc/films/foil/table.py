@@ -44,7 +44,7 @@ _LOWEST_UNLOADED = 1e-3
 _HOPELESS = 0.1
 # Cells around and pressures along half the bearing: of the search for the table's end, of the
 # table; the same of a draft.
-_MESHES, _COARSE = ((96, 2), (128, 4)), ((48, 2), (64, 3))
+_MESHES, _COARSE = ((96, 2), (112, 6)), ((48, 2), (64, 4))
 # Knots a decade of the table, and their least and largest number; the same of a draft.
 _KNOTS, _COARSE_KNOTS = (10, 20, 48), (6, 12, 20)
 # Places in the search for the end, and in each of its refinements.
