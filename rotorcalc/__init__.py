@@ -35,6 +35,7 @@ from rotorcalc.geometry import (
     PartialArc,
     Plain,
     PressureDam,
+    TiltingPads,
 )
 from rotorcalc.heat import HeatBalance, heat_balance
 from rotorcalc.machine import JournalBearing, Machine, Oil, Rotor, Supply
@@ -111,6 +112,7 @@ __all__ = [
     "Supply",
     "Sweep",
     "Tolerance",
+    "TiltingPads",
     "Transient",
     "TransientError",
     "WhirlOnset",

@@ -453,6 +453,45 @@ class Foil(Geometry):
         return self.ambient_pressure / (radial_clearance * self.foundation_stiffness)
 
 
+@dataclass(frozen=True, kw_only=True)
+class TiltingPads(Geometry):
+    """Equal pads, each of which tilts about its pivot; with a rotational stiffness a flexure's.
+
+    Parameters
+    ----------
+    number : float
+        Number of pads, evenly spaced; a whole number.
+    arc : float
+        Angle of each [rad].
+    preload : float
+        Distance of each pad's centre of curvature beyond the bearing's, in C, not tilted [-].
+    pivot_offset : float
+        The pivot's place from the leading edge, over the arc [-].
+    load : "on pad" or "between pads"
+        Whether the load points at a pivot or between two.
+    rotational_stiffness : float
+        Of each pad against a tilt about its pivot, k_θ [N·m/rad]; 0 for a free pad.
+    pad_inertia : float
+        Moment of inertia of each pad about its pivot, along the bearing's axis [kg·m²].
+    """
+
+    kind: ClassVar[str] = "tilting-pads"
+    models: ClassVar[tuple[str, ...]] = _FINITE
+
+    number: Annotated[float, Bound("-", at_least=3.0, below=13.0, whole=True)] = 5.0
+    arc: _Angle = 60 * degree
+    preload: _Preload = 0.3
+    # A pad with its pivot ahead of its middle, turned the wrong way, carries hardly anything.
+    pivot_offset: Annotated[float, Bound("-", at_least=0.5, below=0.8)] = 0.5
+    load: _Load = "between pads"
+    rotational_stiffness: Annotated[float, Bound("N·m/rad", at_least=0.0)] = 0.0
+    pad_inertia: Annotated[float, Bound("kg·m²", at_least=0.0)] = 0.0
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _fits(self.number, "pads", "arc", self.arc)
+
+
 def _fits(number: float, parts: str, name: str, angle: float) -> None:
     """Raise ValueError where pads overlap, or grooves leave no pad."""
     most = _TURN / number

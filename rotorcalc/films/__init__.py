@@ -25,8 +25,9 @@ from rotorcalc.films.pads import pads_of
 from rotorcalc.films.ring import RingFilm
 from rotorcalc.films.short import ShortFilm
 from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
+from rotorcalc.films.tilting import CoarseTiltingFilm, TiltingFilm
 from rotorcalc.films.units import FilmUnits
-from rotorcalc.geometry import FloatingRing, Foil, Hydrostatic
+from rotorcalc.geometry import FloatingRing, Foil, Hydrostatic, TiltingPads
 from rotorcalc.machine import JournalBearing
 
 __all__ = [
@@ -73,6 +74,8 @@ for _model in ("short", "finite", "coarse"):
 MODELS["hydrostatic", "finite"] = HydrostaticFilm
 MODELS["hydrostatic", "coarse"] = CoarseHydrostaticFilm
 MODELS["foil", "finite"], MODELS["foil", "coarse"] = FoilFilm, CoarseFoilFilm
+MODELS["tilting-pads", "finite"] = TiltingFilm
+MODELS["tilting-pads", "coarse"] = CoarseTiltingFilm
 
 
 @checked
@@ -116,6 +119,8 @@ def draft(bearing: JournalBearing) -> JournalBearing:
 def _takes_long(bearing: JournalBearing) -> bool:
     if isinstance(bearing.geometry, FloatingRing):  # two plain films
         return False
+    if isinstance(bearing.geometry, TiltingPads):  # free ones share the films of one pad
+        return bearing.geometry.rotational_stiffness > 0.0
     # Recesses and foils are solved anew, whatever of them changes.
     return isinstance(bearing.geometry, Hydrostatic | Foil) or takes_long(pads_of(bearing))
 

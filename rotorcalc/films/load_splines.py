@@ -14,7 +14,7 @@ from scipy.interpolate import CubicSpline
 from rotorcalc.arrays import Array
 
 # Coefficients grow at heavy loads about as the load to this power, by which they are divided.
-_GROWTH = 1.25
+GROWTH = 1.25
 
 
 def half_whirl(C: Array) -> Array:
@@ -45,8 +45,8 @@ class LoadSplines:
     def through(cls, load: Array, values: Array, *, scale: float = math.inf) -> "LoadSplines":
         """Return splines through values (n + 1, k), without load and at rising loads (n,)."""
         unloaded, values = values[0], values[1:]
-        growth = (1.0 + load / scale) ** _GROWTH
-        slope = _GROWTH * load[0] / (scale + load[0])
+        growth = (1.0 + load / scale) ** GROWTH
+        slope = GROWTH * load[0] / (scale + load[0])
         # They continue the line from no load.
         start = (values[0] - unloaded - values[0] * slope) / growth[0]
         spline = CubicSpline(
@@ -59,7 +59,7 @@ class LoadSplines:
         lightest = self.load[0]
         inside = np.clip(load, lightest, self.load[-1])
         values = np.asarray(self._spline(np.log(inside)))
-        values *= ((1.0 + inside / self.scale) ** _GROWTH)[..., None]
+        values *= ((1.0 + inside / self.scale) ** GROWTH)[..., None]
         light = load < lightest
         if light.any():
             share = (load[light] / lightest)[:, None]

@@ -96,6 +96,8 @@ class InnerMotion:
     gap : callable or None
         Thinnest film, in C, from the journal's places (..., 2), and the inner states; None where
         the journal's place alone says it.
+    tables, seconds, revolution
+        As of a `FilmMotion`.
     """
 
     states: int
@@ -105,6 +107,9 @@ class InnerMotion:
     loaded: "Callable[[float], InnerMotion] | None" = None
     beside: Callable[[OperatingPoints, Array], Array] | None = None
     gap: Callable[[Array, Array], Array] | None = None
+    tables: Hashable | None = None
+    seconds: float = 0.0
+    revolution: float = 0.0
 
 
 @dataclass(frozen=True)

@@ -110,6 +110,8 @@ class FilmState(Result):
         Highest pressure above ambient, in μΩ(L/C)².
     peak_angle : array, (...)
         Where that is: angle Θ around the bearing from X in the sense of rotation [rad].
+    unloaded_pads : boolean array, (..., pads), or None
+        Which tilting pads carry nothing; None of other bearings.
     """
 
     sommerfeld: Array
@@ -122,6 +124,7 @@ class FilmState(Result):
     drag: Array
     peak_pressure: Array
     peak_angle: Array
+    unloaded_pads: BoolArray | None = None
 
     @property
     def eccentricity_ratio(self) -> Array:

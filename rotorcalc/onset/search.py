@@ -30,7 +30,7 @@ from rotorcalc.onset.whirl import Method, Onset, whirl_onset
 _POINTS_PER_DECADE, _SIGMAS = 30, 200
 # Speeds evaluated at once, in floats and in sixty digits; the scan ends with the block it needs.
 _BLOCK, _EXACT_BLOCK = 64, 4
-# Whirl ratio assumed where synchronous coefficients allow no whirl but inner coordinates may.
+# Whirl ratio assumed with inner coordinates, where synchronous coefficients do not tell of whirl.
 _HALF = 0.5
 # Factor on the range of the search for inner coordinates: no bound is known for the modes of the
 # film's own parts, whose stiffness and mass may be anything. And extensions for a stiffening film.
@@ -411,5 +411,5 @@ def _highest_onset(machine: Machine, centred: float, flexible: bool) -> float:
         # Maximum of k²C_s/|k + z|² over frequency; a light damper's resonance is cut off, as it
         # suppresses no whirl.
         taken = C_s if C_s**2 >= 2.0 * k * m else min(2.0 * k * m / C_s, 1e6 * C)
-    ratio = float(film.whirl_ratio) or _HALF
+    ratio = (0.0 if film_of(machine.bearing).inner else float(film.whirl_ratio)) or _HALF
     return math.sqrt(max(squares)) * (1.0 + taken / C) / ratio

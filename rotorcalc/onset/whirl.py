@@ -21,6 +21,9 @@ Method: TypeAlias = Literal[
     "closed form", "polynomial", "extended precision", "eigenvalues", "film"
 ]
 
+# A film's drive of a whirl over k_eq² below which it is rounding: about (1e-14)².
+_ROUNDING = 1e-28
+
 
 @dataclass(frozen=True, eq=False)
 class WhirlOnset(Result):
@@ -102,14 +105,17 @@ def whirl_onset(k: ArrayLike, c: ArrayLike) -> WhirlOnset:
         # Eq. 5.45
         k_eq = (k_XX * c_YY + k_YY * c_XX - c_YX * k_XY - c_XY * k_YX) / (c_XX + c_YY)
         # Eq. 5.46
-        ratio2 = ((k_eq - k_XX) * (k_eq - k_YY) - k_XY * k_YX) / (c_XX * c_YY - c_XY * c_YX)
+        drives = (k_eq - k_XX) * (k_eq - k_YY) - k_XY * k_YX
+        ratio2 = drives / (c_XX * c_YY - c_XY * c_YX)
+        # A film that is alike in all directions and without cross-coupling leaves rounding only.
+        none = drives <= _ROUNDING * k_eq**2
     # Without load: k_XX, k_YY, c_XY, c_YX are finite beside k_XY = −k_YX = c_XX/2 → ∞, which leave
     # the mean of the direct terms in Eq. 5.45 and 1/4 in Eq. 5.46.
     centred = np.isinf(k_XY)
     if np.any(centred):
         k_eq = np.where(centred, 0.5 * (k_XX + k_YY), k_eq)
         ratio2 = np.where(centred, 0.25, ratio2)
-    can_whirl = ratio2 > 0.0  # else no real whirl frequency exists: stable at any mass
+    can_whirl = (ratio2 > 0.0) & ~none  # else no real whirl frequency exists: stable at any mass
     p_s2 = np.where(can_whirl, k_eq / np.where(can_whirl, ratio2, 1.0), np.inf)
     return WhirlOnset(
         equivalent_stiffness=k_eq,

@@ -34,6 +34,7 @@ from rotorcalc.geometry import (
     OffsetHalves,
     PartialArc,
     PressureDam,
+    TiltingPads,
 )
 from rotorcalc.machine import JournalBearing
 from rotorcalc.records import Bound
@@ -460,11 +461,17 @@ SHORT_PADS = {
     f"short {name}": replace(FINITE[name], film="short")
     for name in ("partial arc", "axial grooves", "elliptical", "offset halves", "lobes")
 }
+# Pads that tilt, and on flexures.
+PADS = {
+    "tilting pads": replace(_PLAIN, geometry=TiltingPads()),
+    "heavy tilting pads": replace(_PLAIN, geometry=TiltingPads(load="on pad", pad_inertia=2e-4)),
+    "flexure pads": replace(_PLAIN, geometry=TiltingPads(number=4, rotational_stiffness=2e4)),
+}
 # Those above run on oil, as the machines of the tests do; these on gas.
 GAS = {"foil": replace(_PLAIN, length=0.150, geometry=Foil.usual(60e-6))}
 # Those whose film has a force on a journal in any motion.
 MOVING = [name for name in BEARINGS | SHORT_PADS | SHORT_RINGS if name != "lossy"]
-BEARINGS |= FINITE | SHORT_PADS | RINGS
+BEARINGS |= FINITE | SHORT_PADS | RINGS | PADS
 # A supply that carries every load of the tests; linear motions only.
 BEARINGS["hydrostatic"] = replace(_PLAIN, geometry=Hydrostatic(supply_pressure=15e6))
 

@@ -25,7 +25,7 @@ SECONDS, REVOLUTION = 2.0, 0.03
 _BESIDE = 1e-3
 
 
-class _Drive(NamedTuple):
+class Drive(NamedTuple):
     """What one pad's film is driven by: G = 6h_β + 12h_τ = a sin θ + b cos θ, θ from `cos`, `sin`.
 
     V is `speed`, and a = −V sin m, b = −V cos m. `row`, `turn` and `column` are its place in the
@@ -100,7 +100,7 @@ class FinitePadsInMotion:
         """
         f_x = f_y = 0.0
         for table, pads in self._groups:
-            drives = [_drive(table, pad, (x, y, dx, dy)) for pad in pads]
+            drives = [drive(table, pad, (x, y, dx, dy)) for pad in pads]
             found = table.scaled(
                 [
                     (one.row + half, one.turn, one.column)
@@ -126,19 +126,13 @@ class FinitePadsInMotion:
     def _answer(self, x: float, y: float, dx: float, dy: float) -> Answer:
         total = np.zeros(7)
         for table, pads in self._groups:
-            drives = [_drive(table, pad, (x, y, dx, dy)) for pad in pads]
-            found = table.scaled([
-                (one.row + half, one.turn, one.column + beside)
-                for one in drives
-                for half in (0, table.rows)
-                for beside in (0.0, _BESIDE, -_BESIDE)
-            ])  # fmt: skip
-            for i, one in enumerate(drives):
-                total += _pad_answer(one, found[6 * i : 6 * i + 6])
+            drives = [drive(table, pad, (x, y, dx, dy)) for pad in pads]
+            total += np.sum(pad_answers(table, drives), axis=0)
         return Answer(*(total * self._unit).tolist())
 
 
-def _drive(table: Impedance, pad: Pad, motion: tuple[float, float, float, float]) -> _Drive:
+def drive(table: Impedance, pad: Pad, motion: tuple[float, float, float, float]) -> Drive:
+    """Return what drives a pad's film, of the journal's motion (x, y, x', y') in C and CΩ."""
     x, y, dx, dy = motion
     e_x, e_y = x - pad.a_x, y - pad.a_y
     e = math.hypot(e_x, e_y)
@@ -151,12 +145,23 @@ def _drive(table: Impedance, pad: Pad, motion: tuple[float, float, float, float]
     m = math.atan2(-a, -b)
     column, slope = table.middle(share, m)
     scale = (1.0 - share * share) ** -1.5
-    return _Drive(
+    return Drive(
         cos, sin, math.cos(m), math.sin(m), math.hypot(a, b), scale, row, turn, column, slope
     )
 
 
-def _pad_answer(at: _Drive, found: list[float]) -> tuple[float, ...]:
+def pad_answers(table: Impedance, drives: list[Drive]) -> list[tuple[float, ...]]:
+    """Return the fields of `Answer` for each of some pads, in μΩR³L/C² and its like."""
+    found = table.scaled([
+        (one.row + half, one.turn, one.column + beside)
+        for one in drives
+        for half in (0, table.rows)
+        for beside in (0.0, _BESIDE, -_BESIDE)
+    ])  # fmt: skip
+    return [_pad_answer(one, found[6 * i : 6 * i + 6]) for i, one in enumerate(drives)]
+
+
+def _pad_answer(at: Drive, found: list[float]) -> tuple[float, ...]:
     """Return the fields of `Answer` for one pad, from its table's six values."""
     f_r, f_t = (at.scale * found[0], at.scale * found[3])
     by_middle = at.scale * at.slope / (2.0 * _BESIDE)

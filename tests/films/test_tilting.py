@@ -1,0 +1,206 @@
+"""Tilting pads: a second program, symmetry, limits, frequency, and small motions."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+from rotorcalc import JournalBearing, Lobes, Machine, TiltingPads, onset_speed, simulate
+from rotorcalc.coefficients import dynamics, equilibrium
+from rotorcalc.films import FilmDynamics, film_of, film_state, reduced
+from rotorcalc.films.state import OperatingPoints
+from rotorcalc.films.tilting.family import family
+from rotorcalc.films.tilting.pivots import pivots_of
+from rotorcalc.modes import state_matrix
+from tests.films import plain_program
+from tests.machines import ROTORS, SHEET
+
+DEGREE = math.pi / 180
+MANY = (3, 4, 5, 6)
+
+
+def on(geometry, ratio=0.5):
+    return JournalBearing(
+        diameter=0.1, length=0.1 * ratio, radial_clearance=1e-4, geometry=geometry
+    )
+
+
+def at_sigma(bearing, sigma):
+    return OperatingPoints.at_sommerfeld(bearing, sigma)
+
+
+def coefficients_at(film, sigma, whirl_ratio):
+    """Return k and c in units of the load, tilts eliminated at a whirl ratio."""
+    found = film.dynamics(at_sigma(film.bearing, sigma))
+    free = FilmDynamics(found.stiffness, found.damping, np.zeros(film.inner))
+    return [4.0 * sigma * one for one in reduced(free, whirl_ratio)]
+
+
+@pytest.mark.parametrize(
+    ("whirl_ratio", "k_XX", "k_YY"),
+    [(1.0, 3.749, 2.611), (0.5, 5.130, 3.827), (1e-4, 6.034, 4.504)],
+)
+def test_five_pads_with_the_load_between(whirl_ratio, k_XX, k_YY):
+    """Numbers on which three programs agree: two of finite volumes, one of this project before."""
+    film = film_of(on(TiltingPads()))
+    state = film.state(at_sigma(film.bearing, 0.5))
+    assert state.position == pytest.approx([0.2389, 0.0], abs=2e-4)
+    k, c = coefficients_at(film, 0.5, whirl_ratio)
+    assert np.diag(k) == pytest.approx([k_XX, k_YY], rel=3e-3)
+    if whirl_ratio == 1.0:
+        assert np.diag(c) == pytest.approx([5.420, 4.454], rel=3e-3)
+
+
+@pytest.mark.parametrize("load", ["on pad", "between pads"])
+@pytest.mark.parametrize("number", MANY)
+def test_pads_that_stand_evenly_about_the_load_couple_nothing(number, load):
+    film = film_of(on(TiltingPads(number=number, load=load, arc=50 * DEGREE)))
+    state = film.state(at_sigma(film.bearing, np.array([0.1, 0.5, 5.0, np.inf])))
+    assert np.all(state.position[:, 1] == 0.0)
+    for whirl_ratio in (0.3, 1.0):
+        for one in coefficients_at(film, 0.5, whirl_ratio):
+            assert abs(one[0, 1]) + abs(one[1, 0]) < 1e-12 * one[0, 0]
+
+
+@pytest.mark.parametrize(
+    ("geometry", "sigma"),
+    [
+        (TiltingPads(), 0.5),
+        (TiltingPads(preload=0.1), 0.15),  # the upper pad carries nothing
+        (TiltingPads(number=4, arc=75 * DEGREE, pivot_offset=0.6, load="on pad"), 1.0),
+    ],
+)
+def test_a_second_program_agrees(geometry, sigma):
+    """Forces and moments of the tilted pads, and K and C from differences of each pad's force."""
+    film = film_of(on(geometry))
+    state = film.state(at_sigma(film.bearing, sigma))
+    tilts = film.tilts(at_sigma(film.bearing, sigma)) * 0.05 / 1e-4
+    pivots = pivots_of(film.bearing)
+    arc, pad = geometry.arc, (-geometry.pivot_offset * geometry.arc, 0.0)
+    pad = (pad[0], pad[0] + arc, 0.0, 0.0)
+    force, K, C = np.zeros(2), np.zeros((2, 2)), np.zeros((2, 2))
+    for angle, tilt, unloaded in zip(pivots.angle, tilts, state.unloaded_pads, strict=True):
+        n, t = (math.cos(angle), math.sin(angle)), (-math.sin(angle), math.cos(angle))
+        place = np.array([
+            geometry.preload + np.dot(state.position, n), np.dot(state.position, t) + tilt
+        ])  # fmt: skip
+        f = plain_program.force([pad], 0.5, place)
+        if unloaded:
+            assert np.abs(f).max() < 1e-9
+            continue
+        assert abs(f[1]) < 2e-3 * abs(f[0])
+        force += np.array([n, t]).T @ f
+        k, c = plain_program.coefficients([pad], 0.5, place)
+        Z = k + 1j * c
+        z = Z[0, 0] - Z[0, 1] * Z[1, 0] / Z[1, 1]
+        K, C = K + z.real * np.outer(n, n), C + z.imag * np.outer(n, n)
+    assert force == pytest.approx([-0.25 / sigma, 0.0], abs=3e-3 * 0.25 / sigma)
+    assert np.abs(K - state.stiffness).max() < 5e-3 * np.abs(K).max()
+    assert np.abs(C - state.damping).max() < 5e-3 * np.abs(C).max()
+
+
+@pytest.mark.parametrize("offset", [0.5, 0.55, 0.6])
+def test_a_pads_films_are_the_stable_ones(offset):
+    """The second root, with the pad tilted the other way, has K_ηη below 0."""
+    one = family(60 * DEGREE, offset, 4.0, coarse=True)
+    assert one.first == 0.0 if offset == 0.5 else one.first < 0.0
+    xi = np.linspace(one.first, one.last, 200)[1:]
+    films = one.at(xi)
+    assert np.all(films.stiffness[:, 1, 1] > 0.0)
+    assert np.all(np.diff(films.force) > 0.0)
+    force, slope = one.force(xi)
+    step = 1e-6
+    assert np.gradient(force, xi)[60:-60] == pytest.approx(slope[60:-60], rel=0.05)
+    reduced = (
+        films.stiffness[:, 0, 0]
+        - films.stiffness[:, 0, 1] * films.stiffness[:, 1, 0] / (films.stiffness[:, 1, 1])
+    )
+    assert np.median(np.abs(reduced / slope - 1.0)) < 5e-3
+    assert not one.at(np.array(one.first - step)).loaded
+
+
+def test_a_pads_films_are_known_to_half_a_per_cent():
+    for geometry in (TiltingPads(), TiltingPads(pivot_offset=0.6, load="on pad")):
+        for sigma in (0.05, 0.5, 5.0):
+            found = film_of(on(geometry, 1.0)).accuracy(sigma)
+            assert found.place < 5e-4
+            assert max(found.stiffness, found.damping) < 5e-3
+
+
+def test_one_pad_alone_holds_no_journal():
+    with pytest.raises(ValueError, match="preload = 0: only the pad under the load"):
+        film_state(on(TiltingPads(number=3, preload=0.0, load="on pad")), 1.0)
+
+
+def test_without_preload_upper_pads_carry_nothing():
+    film = film_of(on(TiltingPads(preload=0.0)))
+    state = film.state(at_sigma(film.bearing, np.array([0.5, np.inf])))
+    assert state.unloaded_pads.tolist() == [[False, True, True, True, False]] * 2
+    assert np.all(np.isfinite(state.stiffness))
+
+
+def test_a_load_between_two_films_of_a_pad_is_carried():
+    """A pad with its pivot behind its middle gives up its film with a force left."""
+    film = film_of(on(TiltingPads(pivot_offset=0.55, preload=0.1)))
+    load = np.geomspace(0.1, 2.0, 300)
+    rest = film._rest(at_sigma(film.bearing, 0.25 / load))
+    carried = (rest.pads.force * pivots_of(film.bearing).frames[:, 0, 0]).sum(axis=-1)
+    assert carried == pytest.approx(load, rel=1e-8)
+
+
+def test_stiff_flexures_are_fixed_pads_and_soft_ones_tilt():
+    sigma = np.array([0.15, 0.5, 5.0])
+    fixed = film_state(
+        on(Lobes(number=4, arc=75 * DEGREE, preload=0.3, load="between pads")), sigma
+    )
+    free = film_state(on(TiltingPads(number=4, arc=75 * DEGREE)), sigma)
+    for stiffness, other in ((1e-6, free), (1e9, fixed)):
+        flexure = film_of(
+            on(TiltingPads(number=4, arc=75 * DEGREE, rotational_stiffness=stiffness))
+        )
+        for i, one in enumerate(sigma):
+            unit = 1.0 * 0.05 * 0.05**3 / 1e-8  # μΩRL³/C² at 1 Pa·s, 1 rad/s
+            points = OperatingPoints.of(
+                flexure.bearing, viscosity=1.0, speed=1.0, load=unit / (4.0 * one)
+            )
+            state = flexure.state(points)
+            assert state.position == pytest.approx(other.position[i], abs=2e-3)
+            K, C = other.stiffness[i], other.damping[i]
+            assert np.abs(state.stiffness - K).max() < 1e-2 * np.abs(K).max()
+            assert np.abs(state.damping - C).max() < 1e-2 * np.abs(C).max()
+
+
+def machine(geometry, **changes) -> Machine:
+    return replace(SHEET, bearing=replace(SHEET.bearing, geometry=geometry), **changes)
+
+
+def test_preload_keeps_a_machine_from_whirling():
+    """A light pad's damping is as 1 − 1/(4ν²), below 0 for a whirl slower than half the speed."""
+    assert math.isinf(onset_speed(machine(TiltingPads())).speed)
+    assert math.isinf(onset_speed(machine(TiltingPads(number=4))).speed)
+    whirls = onset_speed(machine(TiltingPads(preload=0.0)))
+    assert 0.4 < whirls.whirl_frequency / whirls.speed < 0.5
+    for share, grows in ((0.99, False), (1.01, True)):
+        film = dynamics(machine(TiltingPads(preload=0.0)), share * whirls.speed)
+        A = state_matrix(SHEET.rotor, film.stiffness, film.damping, inertia=film.inertia)
+        assert (np.linalg.eigvals(A).real.max() > 0.0) == grows
+
+
+@pytest.mark.parametrize("inertia", [0.0, 2e-4])
+def test_a_small_motion_is_the_linear_theorys(inertia):
+    """Journal and tilts from a place beside their rest, by the full forces and by the matrix."""
+    one = machine(TiltingPads(pad_inertia=inertia), rotor=replace(ROTORS["rigid"], imbalance=0.0))
+    speed, C = 600.0, SHEET.bearing.radial_clearance
+    rest = equilibrium(one, speed).film.position * C
+    start = rest + 1e-3 * C * np.array([0.6, 0.8])
+    # The tables of motion know the rest itself to some 2e-5 C.
+    found, still = (simulate(one, speed, revolutions=1, start=each) for each in (start, rest))
+    film = dynamics(one, speed)
+    A = state_matrix(one.rotor, film.stiffness, film.damping, inertia=film.inertia)
+    q = np.zeros(len(A))
+    q[:2] = start - rest
+    for i in (16, 32, 64):
+        expected = (expm(A * found.time[i]) @ q)[:2]
+        assert np.abs(found.journal[i] - still.journal[i] - expected).max() < 1.5e-2 * 1e-3 * C
