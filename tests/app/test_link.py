@@ -76,7 +76,9 @@ def _of_bore(field: Field, usual: Value, share: float) -> st.SearchStrategy[Valu
         return st.sampled_from([float(usual), float(usual) - 1.0])
     if math.isinf(check.below):
         return st.floats(1e-3, 1e3) | st.just(usual)
-    return st.just(share * float(usual)) if usual else st.just(usual) | st.floats(1e-3, 0.9)
+    if usual:
+        return st.just(max(check.at_least, share * float(usual)))
+    return st.just(usual) | st.floats(1e-3, 0.9)
 
 
 @pytest.mark.parametrize("preset", PRESETS)

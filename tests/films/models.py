@@ -461,11 +461,11 @@ SHORT_PADS = {
     f"short {name}": replace(FINITE[name], film="short")
     for name in ("partial arc", "axial grooves", "elliptical", "offset halves", "lobes")
 }
-# Pads that tilt, and on flexures.
+# Pads on flexures, and pads that tilt freely.
 PADS = {
-    "tilting pads": replace(_PLAIN, geometry=TiltingPads()),
-    "heavy tilting pads": replace(_PLAIN, geometry=TiltingPads(load="on pad", pad_inertia=2e-4)),
     "flexure pads": replace(_PLAIN, geometry=TiltingPads(number=4, rotational_stiffness=2e4)),
+    "heavy tilting pads": replace(_PLAIN, geometry=TiltingPads(load="on pad", pad_inertia=2e-4)),
+    "tilting pads": replace(_PLAIN, geometry=TiltingPads()),
 }
 # Those above run on oil, as the machines of the tests do; these on gas.
 GAS = {"foil": replace(_PLAIN, length=0.150, geometry=Foil.usual(60e-6))}

@@ -26,6 +26,8 @@ from rotorcalc.films.tilting.rest import FreePads, Rest
 _PER_DECADE, _LIGHTEST, _FREE = 8, 1e-4, 3e-3
 # Loads put between two about which a tilt, in C, turns off its course: a pad takes up its film.
 _MORE, _BEND = 3, 0.02
+# From so many κ in units of the load on in one question they are solved without tables.
+_MANY = 8
 # κ, in units of the film, below which a pad is free at any load.
 _SOFTEST = 1e-4
 # The load from which on values grow about as its power.
@@ -289,17 +291,40 @@ class FlexurePads:
         if none.any():
             found = unloaded_table(self.pivots, self.slenderness, coarse=self.coarse)
             values[none], loaded[none] = found.at(np.minimum(k[none], found.load[-1]))
-        with np.errstate(divide="ignore", invalid="ignore"):
-            # Loads of one machine give one number but for its rounding.
-            ratio = np.array([float(f"{one:.9g}") for one in k / flat])
-        for each in np.unique(ratio[~none]):
-            here = ~none & (ratio == each)
-            if each * self.heaviest < _SOFTEST:
-                free = FreePads.of(self.pivots, self.slenderness, coarse=self.coarse)
-                rest = free.at(flat[here], k[here])
-                values[here], loaded[here] = _flat(rest), rest.pads.loaded
-                continue
-            found = flexure_table(self.pivots, self.slenderness, float(each), coarse=self.coarse)
-            values[here], loaded[here] = found.at(flat[here])
+        left = ~none & (k > 0.0)
+        soft = left & (k * self.heaviest < _SOFTEST * flat)
+        if soft.any():
+            rest = self._free.at(flat[soft], k[soft])
+            values[soft], loaded[soft] = _flat(rest), rest.pads.loaded
+        left &= ~soft
+        ratio = np.zeros_like(flat)
+        # Loads of one machine give one number but for its rounding.
+        ratio[left] = [float(f"{one:.9g}") for one in k[left] / flat[left]]
+        if len(np.unique(ratio[left])) > _MANY:
+            solved = np.flatnonzero(left)
+            solved = solved[np.argsort(flat[solved])]
+            good, found, films_there = self._solved(flat[solved], k[solved])
+            values[solved[good]], loaded[solved[good]] = found, films_there
+            left[solved[good]] = False
+        for each in np.unique(ratio[left]):
+            here = left & (ratio == each)
+            table_there = flexure_table(
+                self.pivots, self.slenderness, float(each), coarse=self.coarse
+            )
+            values[here], loaded[here] = table_there.at(flat[here])
         shape = w.shape
         return _rest(self.pivots, values.reshape(*shape, -1), loaded.reshape(*shape, -1))
+
+    @property
+    def _free(self) -> FreePads:
+        return FreePads.of(self.pivots, self.slenderness, coarse=self.coarse)
+
+    def _solved(self, load: Array, stiffness: Array) -> tuple[BoolArray, Array, BoolArray]:
+        """Return where balances were found at rising loads and κ, their values and pads' films.
+
+        Of many κ in units of the load each would need a table of its own.
+        """
+        found = _raised(self._free, load, stiffness)
+        good = found.good
+        some = _only(found, good, self.pivots.number)
+        return good, *_values(self._free.family.mesh, self.pivots, some)
