@@ -59,6 +59,7 @@ from rotorcalc.onset.whirl import WhirlOnset, whirl_onset
 from rotorcalc.presets import PRESETS, Preset
 from rotorcalc.recesses import RecessEquilibrium, recess_equilibrium, recess_pressure
 from rotorcalc.ring import RingEquilibrium, ring_equilibrium, ring_speed
+from rotorcalc.tilting import pad_tilts
 from rotorcalc.tolerances.statistics import Influence, Probability
 from rotorcalc.tolerances.study import Tolerance, tolerance
 from rotorcalc.unbalance_curves import unstable_ranges
@@ -143,6 +144,7 @@ __all__ = [
     "onset_speed",
     "onsets",
     "orbit_ellipse",
+    "pad_tilts",
     "read_machines",
     "recess_equilibrium",
     "recess_pressure",

@@ -15,11 +15,13 @@ from rotorcalc.arrays import Array
 from rotorcalc.coefficients import checked_speed
 from rotorcalc.display import Result
 from rotorcalc.films.pads import Pad
+from rotorcalc.films.tilting.pivots import pivots_of
 from rotorcalc.foils import foil_deflection
-from rotorcalc.geometry import FloatingRing, Foil, Geometry, Hydrostatic
+from rotorcalc.geometry import FloatingRing, Foil, Geometry, Hydrostatic, TiltingPads
 from rotorcalc.machine import Machine
 from rotorcalc.recesses import recess_pressure
 from rotorcalc.ring import ring_equilibrium
+from rotorcalc.tilting import pad_tilts
 
 # Angles at which a foil's deflection is asked, every two degrees.
 _AROUND = np.linspace(0.0, 2.0 * np.pi, 181)
@@ -113,6 +115,15 @@ def _foil(geometry: Foil, machine: Machine, speed: Array) -> Parts:
     C = machine.bearing.radial_clearance
     pressed = np.array([foil_deflection(machine, one, _AROUND) for one in speed.tolist()]) / C
     return Parts(speed=speed, foil=pressed, slit=geometry.slit)
+
+
+@_parts.register
+def _pads(_geometry: TiltingPads, machine: Machine, speed: Array) -> Parts:
+    bearing, pivots = machine.bearing, pivots_of(machine.bearing)
+    # As a displacement on the pad's surface, in C.
+    tilts = pad_tilts(machine, speed) * bearing.radius / bearing.radial_clearance
+    pads = tuple(pivots.tilted(one) for one in tilts)
+    return Parts(speed=speed, pads=pads, pivots=pivots.angle)
 
 
 @_parts.register

@@ -26,6 +26,7 @@ from rotorcalc.geometry import (
     PartialArc,
     Plain,
     PressureDam,
+    TiltingPads,
 )
 from rotorcalc.machine import JournalBearing, Machine, Oil
 from rotorcalc.numerics.first_answer import from_first_answer
@@ -42,6 +43,7 @@ KINDS: tuple[type[Geometry], ...] = (
     Lobes,
     PressureDam,
     MultiDam,
+    TiltingPads,
     FloatingRing,
     Hydrostatic,
     Foil,

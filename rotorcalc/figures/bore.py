@@ -10,7 +10,8 @@ from rotorcalc.arrays import Array
 from rotorcalc.bearing_parts import recess_ends
 from rotorcalc.figures import style
 from rotorcalc.films.pads import Pad, pads_of
-from rotorcalc.geometry import FloatingRing, Foil, Geometry, Hydrostatic
+from rotorcalc.films.tilting.pivots import pivots_of
+from rotorcalc.geometry import FloatingRing, Foil, Geometry, Hydrostatic, TiltingPads
 from rotorcalc.machine import JournalBearing
 
 # Clearance over the bore's radius in a small picture, and the deepest pocket drawn there, in C.
@@ -148,6 +149,22 @@ def _strokes(_geometry: Geometry, bearing: JournalBearing) -> list[str]:
     lines = pad_lines(pads_of(bearing), journal=1.0 - _SHOWN, gap=_SHOWN, deepest=_DEEPEST)
     strokes = [_path(one.surface, style.GREY, 0.07) for one in lines]
     return strokes + [_path(one.pocket, style.UNSTABLE, 0.05) for one in lines if len(one.pocket)]
+
+
+@_strokes.register
+def _tilting(_geometry: TiltingPads, bearing: JournalBearing) -> list[str]:
+    pivots = pivots_of(bearing)
+    journal = 1.0 - _SHOWN
+    lines = pad_lines(pivots.tilted(np.zeros(pivots.number)), journal=journal, gap=_SHOWN)
+    supports = [
+        np.array([journal + _SHOWN, 1.2])[:, None] * np.array([[math.cos(one), math.sin(one)]])
+        for one in pivots.angle.tolist()
+    ]
+    return [
+        *(_path(one.surface, style.GREY, 0.09) for one in lines),
+        *(_path(one, style.UNSTABLE, 0.07) for one in supports),
+        _path(_arc(_MIDDLE, 1.2, 0.0, _TURN), style.GREY, 0.04),
+    ]
 
 
 @_strokes.register

@@ -115,6 +115,14 @@ _JUDGEMENTS = {
         "dimensions to get right.",
         (_LATER,),
     ),
+    "tilting-pads": Judgement(
+        "Each pad takes its own position, which leaves almost no cross-coupling to feed a whirl; "
+        "costly, hard to set to a clearance, and it damps critical speeds poorly.",
+        (
+            _LATER,
+            Claim("Its peak response is higher", "peak_response", "amplitude", more=True),
+        ),
+    ),
     "floating-ring": Judgement(
         "Easy to make and cheap, for turbochargers above all; each of its two films feeds a whirl, "
         "and such machines run on limit cycles, far above their onset.",
