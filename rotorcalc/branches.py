@@ -11,6 +11,8 @@ from rotorcalc.arrays import Array, BoolArray, ComplexArray, complex_array, real
 
 # How many times nearer its own value than any other a branch must be for the order to be clear.
 _CLEAR = 3.0
+# Difference of two values over their size at which they are one.
+_SAME = 1e-7
 # Points put at a time into an interval whose order is not clear, and how often: to 1/256 of it.
 _WITHIN, _DEPTH = 3, 4
 
@@ -111,7 +113,15 @@ def _is_clear(distance: Array, here: ComplexArray, there: ComplexArray) -> bool:
     # Two that meet on the real axis or leave it are one another's images: either may be either.
     met = (here[:, None] == here.conj()) & (there.imag == 0.0)
     left = (there[:, None] == there.conj()) & (here.imag == 0.0)
-    return not np.any(_rivals(distance) & ~met & ~left)
+    # So are modes that coincide before and after, as those of pads that are alike.
+    alike = _coincide(here) & _coincide(there)
+    return not np.any(_rivals(distance) & ~met & ~left & ~alike)
+
+
+def _coincide(values: ComplexArray) -> BoolArray:
+    """Return which values are one but for rounding, (m, m)."""
+    size = np.abs(values[:, None]) + np.abs(values)
+    return np.abs(values[:, None] - values) <= _SAME * size
 
 
 def _rivals(distance: Array) -> BoolArray:

@@ -22,7 +22,7 @@ from tests.app.session import (
     visit,
 )
 from tests.app.test_bearings import EVERYWHERE, SPEED, TOP, machine, query, refusal
-from tests.films.models import BEARINGS, FINITE, MOVING, RINGS, SHORT_PADS
+from tests.films.models import BEARINGS, FINITE, MOVING, PADS, RINGS, SHORT_PADS
 from tests.machines import SHEET
 from ui.computed import Computed
 from ui.inputs import machine_of, values_of
@@ -72,6 +72,10 @@ def test_the_short_film_names_what_the_notes_have() -> None:
     assert own("sprung") == own("ringed") == set()
 
 
+# Films that feed no synchronous whirl.
+STEADY = {"sprung", "tilting pads"}
+
+
 @pytest.mark.usefixtures("coarse_maps")
 @pytest.mark.parametrize("path", [page for page in PAGES if page != NOTES])
 @pytest.mark.parametrize("name", EVERYWHERE)
@@ -85,9 +89,11 @@ def test_every_page_shows_every_film_and_cites_only_what_it_names(path: str, nam
     if name != "short":
         assert [text for text in said if any(words in text for words in SHORT_ALONE)] == []
     # Orbits need a force in any motion; without one they say so and show nothing to cite. Nor do
-    # the notes have an onset on a film known by its impedance alone, or a balance of heat.
+    # the notes have an onset on a film known by its impedance alone or on pads that never whirl, or
+    # a balance of heat.
     uncited = {
-        BEARINGS_PAGE: True, HEAT: True, ORBITS: name not in MOVING, STABILITY: name == "lossy",
+        BEARINGS_PAGE: True, HEAT: True, ORBITS: name not in MOVING,
+        STABILITY: name in {"lossy", *PADS},
     }  # fmt: skip
     assert any(numbers(text) for text in said) or uncited.get(path)
 
@@ -108,11 +114,12 @@ def test_the_report_cites_what_the_film_names(name: str) -> None:
     text = page[: page.index("<script>")]
     assert numbers(text) - ON_ANY_FILM - own(name) == set()
     # The films made for the tests know nothing of pressure, flow or drag.
-    gives_all = name in {"short", "hydrostatic", *FINITE, *SHORT_PADS, *RINGS}
+    gives_all = name in {"short", "hydrostatic", *FINITE, *SHORT_PADS, *RINGS, *PADS}
     assert ("The model of this bearing&#x27;s film does not give it." in text) == (not gives_all)
     assert ("This film cannot whirl" in text) == (name == "sprung")
     assert ('id="power"' in text) == gives_all
-    assert ('id="threshold"' in text) == (name != "sprung")
+    assert ('id="threshold"' in text) == (name not in STEADY)
+    assert ("At no load does this film feed a whirl" in text) == (name in STEADY - {"sprung"})
 
 
 @pytest.mark.parametrize("path", [page for page in PAGES if page != NOTES])

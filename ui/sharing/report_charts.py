@@ -72,7 +72,7 @@ def _unknown_film(computed: Computed) -> str:
 
 
 def _no_whirl(computed: Computed) -> str:
-    return "" if ask.whirls(computed) else ask.NO_WHIRL
+    return "" if ask.whirls(computed) else ask.no_whirl(computed)
 
 
 def _of_sweep(draw: Callable[..., Chart]) -> Callable[[Computed, Units], Chart]:

@@ -24,6 +24,11 @@ NO_WHIRL = (
     "This film cannot whirl: at no load does it have the cross-coupled stiffness that feeds a "
     "whirl. Every rotor is stable on it, so there is no threshold speed to draw."
 )
+SLOWER_WHIRL = (
+    "At no load does this film feed a whirl at running speed, so there is no threshold speed to "
+    "draw. Its stiffness and damping depend on the whirl's frequency, and a slower whirl may still "
+    "grow: the machine's onset is searched for with all its moving parts."
+)
 WORK = r"""
 \begin{gathered}
 \oint \mathbf F\cdot d\mathbf x = \underbrace{(K_{XY}-K_{YX})\,A}_{\text{fed in}}
@@ -121,10 +126,16 @@ def meets(computed: Computed) -> str:
     return f"{words} Eqs. 5.45, 5.46, 5.50."
 
 
+def no_whirl(computed: Computed) -> str:
+    """Return why there is no threshold speed to draw."""
+    film = film_of(computed.machine.bearing)
+    return SLOWER_WHIRL if film.can_whirl and film.frequency_dependent else NO_WHIRL
+
+
 def can_whirl(computed: Computed) -> bool:
     """Return whether any load lets the film feed a whirl; say so if none does."""
     if not whirls(computed):
-        st.info(NO_WHIRL)
+        st.info(no_whirl(computed))
         return False
     return True
 
