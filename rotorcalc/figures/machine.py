@@ -196,6 +196,10 @@ class _Bore:
     def of(cls, point: Sweep, parts: Parts | None, *, to_scale: bool) -> "_Bore":
         bearing = point.machine.bearing
         outline = film_of(bearing).outline(_AROUND)
+        if parts is not None and parts.foil is not None:
+            # A foil can be pressed back much farther than it is: the drawing has room for what is.
+            # In steps, so that a slider seldom changes its scale.
+            outline = _circle(1.0 + math.ceil(4.0 * parts.foil.max()) / 4.0, _AROUND)
         widest = float(np.hypot(*outline.T).max())
         C = bearing.radial_clearance
         thick = _ring_thickness(bearing, parts)

@@ -196,8 +196,9 @@ class _SoFar(NamedTuple):
 def _asked(machine: Machine, speed: float) -> list[tuple[Machine, float, Geometry | None]]:
     """Return what is computed: the machine as it is, then on every kind of bore by itself."""
     # The last visitor's bore does not matter to the others: their results are then the same.
-    bores = usual_bores(machine.bearing)
-    return [(machine, speed, None), *((_plain(machine), speed, one) for one in bores)]
+    plain = _plain(machine)
+    others = ((plain, speed, one) for one in usual_bores(plain.bearing))
+    return [(machine, speed, None), *others]
 
 
 def _worded(one: BearingResult, page: Page) -> BearingResult:
