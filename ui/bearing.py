@@ -19,7 +19,7 @@ from ui.bores import BORES, FILM, FILMS, KIND, Value, Values
 _TAKEN = frozenset((
     "mass", "load", "T", "T_in", "flow", "share", "mu", "TR", "alpha", "rho", "cp", "law", "C", "D",
     "L", "k", "u", "cs", "mj", "rpm", "rpm_max", "bearing", "film", "preset", "units", "tab",
-    "present", "amplitude",
+    "present", "amplitude", "mu_gas", "TR_gas", "S_gas",
 ))  # fmt: skip
 _UNITS = {
     "rad": "angle", "m": "length", "Pa": "pressure", "m³/s": "flow", "kg": "mass",

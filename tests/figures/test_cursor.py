@@ -32,7 +32,11 @@ def over_speed(units) -> Iterator[Chart]:
     for draw in (place.power_loss, place.side_flow, place.position_over_speed):
         yield draw(SWEEP, POINT, units)
     locus = locus_of(
-        SWEEP.speed, SWEEP.branches(), running_speed=PRESET.speed, shapes=POINT.mode_shapes()
+        SWEEP.speed,
+        SWEEP.branches(),
+        running_speed=PRESET.speed,
+        shapes=POINT.mode_shapes(),
+        bearing=PRESET.machine.bearing,
     )
     yield modes.growth(modes.OverSpeed(locus, crossing.onset, units))
 
@@ -86,7 +90,11 @@ def test_the_orbit_in_the_clearance_moves_about_its_speeds_equilibrium() -> None
 
 def test_the_line_along_which_a_speed_moves_has_its_speeds() -> None:
     locus = locus_of(
-        SWEEP.speed, SWEEP.branches(), running_speed=PRESET.speed, shapes=POINT.mode_shapes()
+        SWEEP.speed,
+        SWEEP.branches(),
+        running_speed=PRESET.speed,
+        shapes=POINT.mode_shapes(),
+        bearing=PRESET.machine.bearing,
     )
     chart = root_locus.plane(locus, onset_speed(PRESET.machine), SI)
     lines = [trace for trace in chart["data"] if trace["name"] == said(chart)["along"]]
