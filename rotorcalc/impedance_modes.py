@@ -5,6 +5,8 @@ coefficients at its own natural frequency, ω = |λ|: exact for a mode that neit
 so for the onset, and to the first order of its damping ratio else.
 """
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from rotorcalc import modes
@@ -15,6 +17,8 @@ from rotorcalc.machine import Rotor
 
 # Steps at most, and the difference of |λ| and ω, as a share of |λ|, that ends them.
 _STEPS, _SETTLED = 90, 1e-13
+# Modes of one speed that differ by less are one.
+_SAME = 1e-6
 # A mode that still differs by more than this has not converged.
 _UNSETTLED = 1e-9
 # Slope of |λ| − ω over ω: −1 where the coefficients do not depend on the frequency, and between
@@ -61,24 +65,56 @@ def _own_modes(rotor: Rotor, film: FilmDynamics, flexible: bool) -> tuple[Comple
     values, frequency = _starts(rotor, film, flexible)
     # A motion faster than the high frequency at which it was sought stays as it is there.
     lost = ~_swings(values) & (np.abs(values) > frequency)
+    _follow(rotor, film, flexible, _Followed(values, frequency, ~lost))
+    repeated = _repeated(values)
+    if repeated.any():
+        # Two modes nearly alike have become one: the other is beside it, with its coefficients.
+        _follow(rotor, film, flexible, _Followed(values, frequency, repeated), nearest=1)
+    settled = lost | (np.abs(np.abs(values) - frequency) <= _UNSETTLED * np.abs(values))
+    return np.where(settled, values, complex(np.nan, np.nan)), frequency
+
+
+@dataclass(frozen=True, eq=False)
+class _Followed:
+    """Modes on the way to their own frequencies, (..., n) each, changed in place."""
+
+    values: ComplexArray
+    frequency: Array
+    left: BoolArray
+
+
+def _follow(
+    rotor: Rotor, film: FilmDynamics, flexible: bool, on: _Followed, *, nearest: int = 0
+) -> None:
+    """Take modes to where |λ| is the frequency of their coefficients, where `left`.
+
+    At first each is the one nearest to its value, or the next but `nearest`.
+    """
+    values, frequency, left = on.values, on.frequency, on.left.copy()
+    own, at = np.moveaxis(values, -1, 0), np.moveaxis(frequency, -1, 0)
+    some = np.moveaxis(left, -1, 0)
     step = difference = np.zeros_like(frequency)
-    left = ~lost
     for _ in range(_STEPS):
         # Modes first, as the film takes frequencies; only those that are left are solved.
-        own, some = np.moveaxis(values, -1, 0), np.moveaxis(left, -1, 0)
-        K, C = _at_frequencies(film, frequency)
+        K, C = reduced(film, at)
         found = modes.eigenvalues(rotor, K[some], C[some], flexible=flexible)
-        own[some] = _nearest_to(own[some], found)
+        own[some], nearest = _nearest_to(own[some], found, nearest), 0
         before, difference = difference, np.abs(values) - frequency
         left &= np.abs(difference) > _SETTLED * np.abs(values)
         if not left.any():
-            break
+            return
         after = frequency - difference / _slope(difference - before, step)
         near = np.clip(after, frequency / _LONGEST, frequency * _LONGEST)
         after = np.where(left, np.where(_swings(values), near, np.abs(after)), frequency)
-        step, frequency = after - frequency, after
-    settled = lost | (np.abs(difference) <= _UNSETTLED * np.abs(values))
-    return np.where(settled, values, complex(np.nan, np.nan)), frequency
+        step = after - frequency
+        frequency[...] = after
+
+
+def _repeated(values: ComplexArray) -> BoolArray:
+    """Return which modes (..., n) are one before them."""
+    apart = np.abs(values[..., :, None] - values[..., None, :])
+    same = apart <= _SAME * np.abs(values)[..., None]
+    return np.asarray(np.tril(same, -1).any(axis=-1))
 
 
 def _starts(rotor: Rotor, film: FilmDynamics, flexible: bool) -> tuple[ComplexArray, Array]:
@@ -108,7 +144,7 @@ def _starts(rotor: Rotor, film: FilmDynamics, flexible: bool) -> tuple[ComplexAr
         amid = np.where(some.any(axis=-1), _mean(size, some), high)
         values = np.where(some, at(amid), values)
         frequency = np.where(some, amid[..., None], frequency)
-    return values, frequency
+    return values.copy(), frequency.copy()
 
 
 def _mean(sizes: Array, counted: BoolArray) -> Array:
@@ -117,9 +153,9 @@ def _mean(sizes: Array, counted: BoolArray) -> Array:
     return np.asarray(np.exp(total / np.maximum(counted.sum(axis=-1), 1)))
 
 
-def _nearest_to(values: ComplexArray, found: ComplexArray) -> ComplexArray:
-    """Return of modes (k, n) the one nearest to each λ (k,)."""
-    place = np.abs(found - values[:, None]).argmin(axis=-1)
+def _nearest_to(values: ComplexArray, found: ComplexArray, after: int) -> ComplexArray:
+    """Return of modes (k, n) the one nearest to each λ (k,), or the next but some."""
+    place = np.abs(found - values[:, None]).argsort(axis=-1)[:, after]
     return found[np.arange(len(values)), place]
 
 

@@ -64,6 +64,21 @@ class Gas:
         over = np.where(p.real > 1.0, p - 1.0, 0.0).sum(axis=1) * cell
         return np.array([over @ np.cos(self.beta), over @ np.sin(self.beta)])
 
+    def drag(self, p, q):
+        """Return ∫∫(1/h + 3 h p_β/Λ) over half the bearing, in μΩR³L/C."""
+        h = self.rigid(q, self.beta) + self.bent(p)
+        slit = self.rigid(q, np.array([self.slit])) + np.zeros(self.along)
+        H, P = np.concatenate([slit, h, slit]), np.pad(p, ((1, 1), (0, 0)), constant_values=1.0)
+        shear = 2 * np.pi / self.around * (1.0 / H[1:]).sum()
+        pressed = (0.5 * (H[1:] + H[:-1]) * np.diff(P, axis=0)).sum()
+        return (shear + 3.0 * pressed / self.number) / self.along
+
+    def side_flow(self, p, q):
+        """Return the volume at ambient density that leaves at both ends, in ΩRLC."""
+        h = self.rigid(q, self.beta)[:, 0] + self.bent(p)[:, -1]
+        slope = h**3 * (0.5 * p[:, -1] ** 2 - 0.5) * 2.0 * self.along
+        return 0.5 * self.ratio**2 / self.number * 2 * np.pi / self.around * slope.sum()
+
     def by_cells(self, function, values):
         """Return the derivatives of a function of the cells' values, each of few neighbours."""
         n, m = values.shape
