@@ -284,7 +284,9 @@ def dynamics(machine: Machine, speed: ArrayLike) -> FilmDynamics:
 
 
 @checked
-def stiffness_and_damping(machine: Machine, speed: ArrayLike) -> tuple[Array, Array]:
+def stiffness_and_damping(
+    machine: Machine, speed: ArrayLike, *, whirl_ratio: ArrayLike = 1.0
+) -> tuple[Array, Array]:
     """Return the force coefficients of a machine's film in static equilibrium.
 
     Parameters
@@ -293,21 +295,27 @@ def stiffness_and_damping(machine: Machine, speed: ArrayLike) -> tuple[Array, Ar
         The machine.
     speed : array_like, (...)
         Running speed, Ω [rad/s], positive.
+    whirl_ratio : array_like, (...)
+        Frequency of the whirl over the running speed, ν [-], positive; broadcast with the speed. A
+        film's own moving parts follow the journal in that whirl. Other films do not depend on it.
 
     Returns
     -------
     K, C : array, (..., 2, 2)
-        Stiffness [N/m] and damping [N·s/m] in X, Y, in synchronous motion: those of
+        Stiffness [N/m] and damping [N·s/m] in X, Y; by default in synchronous motion: those of
         `equilibrium`, in half the time.
 
     Raises
     ------
     ValueError
-        Where a speed is not positive and finite.
+        Where a speed or a whirl ratio is not positive and finite.
     """
-    speed = checked_speed(speed)
-    # Imbalance shakes the film at running speed, so inner coordinates are eliminated at ω = Ω.
-    return reduced(_dynamics(machine, speed), speed)
+    omega, ratio = checked_speed(speed), real_array("whirl_ratio", whirl_ratio)
+    if not np.all((ratio > 0.0) & np.isfinite(ratio)):
+        raise ValueError(f"whirl_ratio = {shown(whirl_ratio)}: must be positive and finite")
+    omega, ratio = np.broadcast_arrays(omega, ratio)
+    # Imbalance shakes the film at running speed, ν = 1: inner coordinates are eliminated at ω.
+    return reduced(_dynamics(machine, omega), ratio * omega)
 
 
 @checked

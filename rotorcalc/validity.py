@@ -16,10 +16,11 @@ from rotorcalc import heat
 from rotorcalc.analysis import Sweep
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
+from rotorcalc.coefficients import operating_points
 from rotorcalc.display import Result, in_brief
 from rotorcalc.films import film_of
 from rotorcalc.gas import air_density, mean_free_path
-from rotorcalc.geometry import Foil, Hydrostatic
+from rotorcalc.geometry import Foil, Hydrostatic, TiltingPads
 from rotorcalc.machine import Machine, Oil
 from rotorcalc.recesses import recess_equilibrium
 from rotorcalc.unbalance_response import orbit_ellipse
@@ -119,6 +120,7 @@ def validity(sweep: Sweep) -> tuple[Check, ...]:
         _above("Static sag over clearance, Γ/C", machine.static_sag / C * everywhere, 1.0, 10.0,
                "so flexible a shaft is inclined in its bearings, which the model assumes aligned"),
         *_suction(sweep),
+        *_unloaded(sweep),
         *_heat(sweep),
         *_gas(sweep),
     )  # fmt: skip
@@ -171,6 +173,20 @@ def _suction(sweep: Sweep) -> tuple[Check, ...]:
     suction = (0.0 - recess_equilibrium(machine, sweep.speed).lowest_pressure) / atmosphere
     return (_above("Suction in the film over atmospheric pressure, −p/pₐ", suction, 0.1, 1.0,
                    "the oil cavitates there, where the model takes the film as full"),)  # fmt: skip
+
+
+def _unloaded(sweep: Sweep) -> tuple[Check, ...]:
+    """Return the check of tilting pads that carry nothing, of a bearing that has such pads."""
+    if not isinstance(sweep.machine.bearing.geometry, TiltingPads):
+        return ()
+    points = operating_points(sweep.machine, sweep.speed)
+    pads = film_of(sweep.machine.bearing).state(points).unloaded_pads
+    count = np.zeros(sweep.speed.shape) if pads is None else pads.sum(axis=-1).astype(float)
+    return (
+        _above("Pads that carry nothing", count, 0.0, np.inf,
+               "nothing holds a pad without a film: it may flutter and touch the journal with its "
+               "leading edge, which the model leaves out"),
+    )  # fmt: skip
 
 
 def _heat(sweep: Sweep) -> tuple[Check, ...]:

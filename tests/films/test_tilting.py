@@ -7,8 +7,17 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from rotorcalc import JournalBearing, Lobes, Machine, TiltingPads, onset_speed, simulate
-from rotorcalc.coefficients import dynamics, equilibrium
+from rotorcalc import (
+    JournalBearing,
+    Lobes,
+    Machine,
+    TiltingPads,
+    analyse,
+    onset_speed,
+    simulate,
+    validity,
+)
+from rotorcalc.coefficients import dynamics, equilibrium, stiffness_and_damping
 from rotorcalc.films import FilmDynamics, film_of, film_state, reduced
 from rotorcalc.films.state import OperatingPoints
 from rotorcalc.films.tilting.family import family
@@ -204,3 +213,67 @@ def test_a_small_motion_is_the_linear_theorys(inertia):
     for i in (16, 32, 64):
         expected = (expm(A * found.time[i]) @ q)[:2]
         assert np.abs(found.journal[i] - still.journal[i] - expected).max() < 1.5e-2 * 1e-3 * C
+
+
+def test_coefficients_depend_on_the_whirl_ratio():
+    one, ratio = machine(TiltingPads()), np.array([0.25, 0.5, 1.0])
+    K, C = stiffness_and_damping(one, 600.0, whirl_ratio=ratio)
+    assert K.shape == C.shape == (3, 2, 2)
+    assert K[2] == pytest.approx(stiffness_and_damping(one, 600.0)[0], rel=1e-12)
+    for i, each in enumerate(ratio):
+        k, c = reduced(dynamics(one, 600.0), each * 600.0)
+        assert (K[i], C[i]) == (pytest.approx(k, rel=1e-12), pytest.approx(c, rel=1e-12))
+    assert K[0, 0, 0] > K[1, 0, 0] > K[2, 0, 0]
+    for wrong in (0.0, -1.0, math.nan, math.inf):
+        with pytest.raises(ValueError, match=r"whirl_ratio = .*must be positive and finite"):
+            stiffness_and_damping(one, 600.0, whirl_ratio=[0.5, wrong])
+
+
+def test_a_heavier_pads_own_motion_is_slower():
+    """A pad's tilt and rate are states; its fastest motion is C_ηη over its inertia."""
+    fastest = []
+    for inertia in (1e-6, 1e-5):
+        film = dynamics(machine(TiltingPads(pad_inertia=inertia)), 600.0)
+        A = state_matrix(SHEET.rotor, film.stiffness, film.damping, inertia=film.inertia)
+        assert np.all(film.inertia == inertia / SHEET.bearing.radius**2)
+        fastest.append(np.abs(np.linalg.eigvals(A)).max())
+        own = np.diag(film.damping)[2:].max() / film.inertia[0]
+        assert fastest[-1] == pytest.approx(own, rel=0.05)
+    assert fastest[0] == pytest.approx(10.0 * fastest[1], rel=0.05)
+
+
+def test_the_assumptions_name_pads_that_carry_nothing():
+    for preload, level in ((0.3, "good"), (0.0, "caution")):
+        checks = validity(analyse(machine(TiltingPads(preload=preload)), 600.0))
+        (found,) = (check for check in checks if check.name == "Pads that carry nothing")
+        assert found.worst == level
+
+
+def test_a_journal_set_far_off_finds_its_pads_out_of_its_way():
+    """At rest the upper pads are tilted as no journal so near to them would leave them."""
+    film = film_of(on(TiltingPads()))
+    points, motion = at_sigma(film.bearing, 0.5), film.motion()
+    for place in ([0.5, 0.3], [-0.6, 0.1], [0.0, -0.65]):
+        states = motion.beside(points, np.array(place))
+        assert motion.gap(np.array(place), states) > 0.2 * film.gap(place)
+    rest = film.state(points)
+    assert motion.beside(points, rest.position) == pytest.approx(motion.rest(points))
+    gap = motion.gap(rest.position, motion.rest(points))
+    assert gap == pytest.approx(rest.minimum_thickness, rel=1e-3)
+
+
+def test_many_stiffnesses_at_once_agree_with_the_table_of_each():
+    """To one per cent, which is what a table over the load is to know of pads on flexures."""
+    film = film_of(on(TiltingPads(number=4, arc=75 * DEGREE, rotational_stiffness=2e4)))
+    sigma = np.geomspace(0.2, 20.0, 12)
+    unit = float(film.bearing.length**3 * film.bearing.radius / film.bearing.radial_clearance**2)
+    load = 0.0127 * 600.0 * unit / (4.0 * sigma)
+    whole = film.state(OperatingPoints.of(film.bearing, viscosity=0.0127, speed=600.0, load=load))
+    for i in (2, 9):
+        alone = film.state(
+            OperatingPoints.of(film.bearing, viscosity=0.0127, speed=600.0, load=load[i])
+        )
+        place = np.hypot(*alone.position)
+        assert whole.position[i] == pytest.approx(alone.position, abs=1e-2 * place)
+        K = alone.stiffness
+        assert np.abs(whole.stiffness[i] - K).max() < 1e-2 * np.abs(K).max()

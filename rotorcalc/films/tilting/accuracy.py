@@ -8,9 +8,10 @@ from rotorcalc.films.finite.reynolds import films, mesh
 from rotorcalc.films.finite.table import settled_pressures
 from rotorcalc.films.model import Accuracy
 from rotorcalc.films.tilting import linear
-from rotorcalc.films.tilting.balance import Asked, Balance, balanced, places
+from rotorcalc.films.tilting.balance import Asked, Balance, balanced
 from rotorcalc.films.tilting.family import columns, states
 from rotorcalc.films.tilting.flexure import wet_near
+from rotorcalc.films.tilting.pivots import places
 from rotorcalc.films.tilting.rest import FreePads, Rest
 
 

@@ -15,7 +15,7 @@ import numpy as np
 from rotorcalc.arrays import Array, BoolArray, IntArray
 from rotorcalc.films.finite.reynolds import Films, Mesh, Solution, films, solved, stiffness
 from rotorcalc.films.pads import gap
-from rotorcalc.films.tilting.pivots import Pivots
+from rotorcalc.films.tilting.pivots import Pivots, places
 
 # A step is at most this share of any pad's film.
 _LONGEST, _MOST_STEPS = 0.5, 40
@@ -51,14 +51,6 @@ def rows_of(loads: IntArray, number: int) -> IntArray:
     """Return where the films of the pads at some loads lie among those of all, (P·N,)."""
     each: IntArray = loads[:, None] * number + np.arange(number)
     return each.reshape(-1)
-
-
-def places(pivots: Pivots, position: Array, tilt: Array) -> Array:
-    """Return (ξ, η) of the journal in each pad's frame, (P, N, 2)."""
-    found = np.einsum("nai,pi->pna", pivots.frames, position)
-    found[..., 0] += pivots.preload
-    found[..., 1] += tilt
-    return found
 
 
 class Asked(NamedTuple):

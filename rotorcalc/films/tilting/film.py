@@ -13,6 +13,7 @@ from rotorcalc.films.dynamics import FilmDynamics, reduced
 from rotorcalc.films.finite.pressure import Pressures
 from rotorcalc.films.finite.reynolds import mesh
 from rotorcalc.films.model import Accuracy, InnerMotion, Limit, Source
+from rotorcalc.films.pads import gap
 from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
 from rotorcalc.films.tilting import linear, pivots
 from rotorcalc.films.tilting.accuracy import accuracy
@@ -25,6 +26,9 @@ from rotorcalc.films.tilting.words import SOURCES
 from rotorcalc.films.units import FilmUnits
 from rotorcalc.geometry import TiltingPads
 from rotorcalc.machine import JournalBearing
+
+# Share of the film over its pivot below which a pad at rest is in the journal's way.
+_HALF = 0.5
 
 
 @dataclass(frozen=True)
@@ -217,6 +221,8 @@ class TiltingFilm:
             rest=self._resting_states,
             force=moving.force,
             velocity=moving.velocity,
+            beside=self._states_beside,
+            gap=self._gap_of_states,
             tables=(moving.shape,),
             seconds=SECONDS,
             revolution=REVOLUTION,
@@ -228,6 +234,26 @@ class TiltingFilm:
         if self._shape.pad_inertia == 0.0:
             return tilt
         return np.concatenate([tilt, np.zeros_like(tilt)], axis=-1)
+
+    def _states_beside(self, points: OperatingPoints, journal: Array) -> Array:
+        """Return the states at rest, or of pads that have tilted for a journal far off.
+
+        Where the tilts at rest would leave it less than half of the film over their pivots.
+        """
+        rest = self._resting_states(points)
+        tilt = rest[..., : self.inner]
+        e = pivots.places(self._pivots, journal, tilt)
+        last = self._family.last
+        follows = self._family.at(np.minimum(e[..., 0], last)).eta - (e[..., 1] - tilt)
+        close = gap(self._family.mesh.pads, e) < _HALF * (1.0 - e[..., 0])
+        moved = np.where(close, follows, tilt)
+        still = np.zeros((*moved.shape[:-1], rest.shape[-1] - self.inner))
+        return np.concatenate([moved, still], axis=-1)
+
+    def _gap_of_states(self, journal: Array, states: Array) -> Array:
+        """Return the thinnest film at places of the journal and states of the pads."""
+        e = pivots.places(self._pivots, journal, states[..., : self.inner])
+        return gap(self._family.mesh.pads, e).min(axis=-1)
 
     def accuracy(self, sommerfeld: float) -> Accuracy:
         """Return the mesh of the pads, and their distance from a solution on a finer one.

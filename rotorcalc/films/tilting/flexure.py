@@ -17,9 +17,9 @@ from rotorcalc.arrays import Array, BoolArray, IntArray
 from rotorcalc.films.finite.reynolds import Mesh, films, mesh
 from rotorcalc.films.finite.table import carried, settled_pressures, table
 from rotorcalc.films.load_splines import GROWTH
-from rotorcalc.films.tilting.balance import Asked, Balance, balanced, places, rows_of
+from rotorcalc.films.tilting.balance import Asked, Balance, balanced, rows_of
 from rotorcalc.films.tilting.family import COLUMNS, PadFamily, columns, states
-from rotorcalc.films.tilting.pivots import Pivots
+from rotorcalc.films.tilting.pivots import Pivots, places
 from rotorcalc.films.tilting.rest import FreePads, Rest
 
 # Loads of the table per decade; the lightest over the heaviest, and κ there, where pads are free.

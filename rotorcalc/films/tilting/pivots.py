@@ -86,6 +86,22 @@ def pivots_of(bearing: JournalBearing) -> Pivots:
     )
 
 
+def places(pivots: Pivots, position: Array, tilt: Array) -> Array:
+    """Return (ξ, η) of the journal in each pad's frame, (..., N, 2).
+
+    Parameters
+    ----------
+    pivots : Pivots
+        The pads.
+    position : array, (..., 2)
+        The journal's centre, in C.
+    tilt : array, (..., N)
+        δ of the pads, in C.
+    """
+    found: Array = np.einsum("nai,...i->...na", pivots.frames, position)
+    return found + vector(pivots.preload + 0.0 * tilt, tilt)
+
+
 def gap(pivots: Pivots, position: ArrayLike) -> Array:
     """Return the least distance from the journal to a pivot's place on its pad.
 
