@@ -277,3 +277,30 @@ def test_many_stiffnesses_at_once_agree_with_the_table_of_each():
         assert whole.position[i] == pytest.approx(alone.position, abs=1e-2 * place)
         K = alone.stiffness
         assert np.abs(whole.stiffness[i] - K).max() < 1e-2 * np.abs(K).max()
+
+
+def test_a_second_program_agrees_on_flexures():
+    """Each pad's moment in N·m is k_θ times its tilt in rad; K and C with the tilts eliminated."""
+    geometry = TiltingPads(number=4, arc=75 * DEGREE, rotational_stiffness=2e4)
+    film, speed, R, C = film_of(on(geometry)), 600.0, 0.05, 1e-4
+    unit = 0.0127 * speed * R * 0.05**3 / C**2
+    points = OperatingPoints.of(
+        film.bearing, viscosity=0.0127, speed=speed, load=unit / (4.0 * 0.15)
+    )
+    state, tilts, pivots = film.state(points), film.tilts(points), pivots_of(film.bearing)
+    pad = (-geometry.arc / 2, geometry.arc / 2, 0.0, 0.0)
+    kappa, load = 2e4 / R**2 / (unit / C), 0.25 / 0.15
+    force, whole = np.zeros(2), np.zeros((2, 2), dtype=complex)
+    for angle, tilt in zip(pivots.angle, tilts, strict=True):
+        T = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
+        place = T @ state.position + [geometry.preload, tilt * R / C]
+        f = plain_program.force([pad], 0.5, place)
+        # A pad without a film has no moment and all but no tilt: errors are beside the load's.
+        assert f[1] * unit * R == pytest.approx(2e4 * tilt, abs=2e-3 * load * unit * R)
+        force += T.T @ f
+        k, c = plain_program.coefficients([pad], 0.5, place)
+        Z = k + 1j * c
+        whole += T.T @ (Z - np.outer(Z[:, 1], Z[1]) / (Z[1, 1] + kappa)) @ T
+    assert force == pytest.approx([-load, 0.0], abs=1e-2 * load)
+    assert np.abs(whole.real - state.stiffness).max() < 1e-2 * np.abs(whole.real).max()
+    assert np.abs(whole.imag - state.damping).max() < 1e-2 * np.abs(whole.imag).max()
