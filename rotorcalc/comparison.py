@@ -48,6 +48,10 @@ KINDS: tuple[type[Geometry], ...] = (
     Hydrostatic,
     Foil,
 )
+_TOUCHES = (
+    "the journal touches the foil at the bearing's ends, where no pressure presses it back; the "
+    "load is too heavy for it"
+)
 # Speeds up to this share of the running speed, and as many, are searched for peaks.
 _TOP, _SPEEDS = 1.5, 240
 
@@ -205,8 +209,9 @@ def bearing_result(machine: Machine, speed: float) -> BearingResult:
     try:
         sweep = analyse(machine, speed)
     except ValueError as error:
-        given = math.nan if machine.temperature is None else machine.temperature
-        return BearingResult(machine.bearing, given, refusal=str(error))
+        return _refused(machine, str(error))
+    if sweep.minimum_film_thickness <= 0.0:
+        return _refused(machine, _TOUCHES)
     onset = onset_speed(machine)
     peak, at = _largest_peak(machine, speed)
     return BearingResult(
@@ -223,6 +228,11 @@ def bearing_result(machine: Machine, speed: float) -> BearingResult:
         peak_response=peak,
         peak_speed=at,
     )
+
+
+def _refused(machine: Machine, reason: str) -> BearingResult:
+    given = math.nan if machine.temperature is None else machine.temperature
+    return BearingResult(machine.bearing, given, refusal=reason)
 
 
 def _log_decrement(sweep: Sweep) -> float:

@@ -29,14 +29,15 @@ def test_every_kind_is_compared_on_the_same_journal():
     done = []
     found = compare_bearings(SHEET, speed=SPEED, progress=done.append)
     assert [type(one.bearing.geometry) for one in found] == list(KINDS)
-    assert all(one.refusal == "" for one in found)
+    # This load presses the journal onto the foil.
+    refused = {type(one.bearing.geometry) for one in found if one.refusal}
+    assert refused == {Foil}
     assert all(one.bearing.model == "finite" for one in found)
-    for one in found:
+    for one in found[:-1]:
         assert one.bearing == replace(
             SHEET.bearing, geometry=one.bearing.geometry, film=one.bearing.film
         )
-        # At the ends of a foil that is loaded beyond its film, it touches.
-        assert one.minimum_film_thickness > 0.0 or isinstance(one.bearing.geometry, Foil)
+        assert one.minimum_film_thickness > 0.0
         assert one.power_loss > 0.0
         assert one.temperature == SHEET.temperature
     assert done == pytest.approx(np.arange(1, len(KINDS) + 1) / len(KINDS))

@@ -177,13 +177,13 @@ def test_bearings_that_do_not_whirl_are_named(monkeypatch: pytest.MonkeyPatch) -
     at = visit(BEARINGS_PAGE, bearing="elliptical", preload="0.9")
     assert table(at)["Onset [rpm]"][0] is None
     assert faults(at) == []
-    # Tilting pads and foil do not whirl here, every other kind at its default does.
+    # Tilting pads do not whirl here; the foil does not carry the load.
     results = computed(session_of(at))
     results[3] = replace(results[3], onset=math.inf)
     said: list[str] = []
     monkeypatch.setattr(words.st, "info", said.append)
     words.say_exceptions(results)
-    assert said == ["No onset was found on: elliptical (two-lobe), tilting pads, foil."]
+    assert said == ["No onset was found on: elliptical (two-lobe), tilting pads."]
     assert any("none against" in said for said in words.here(results[3], results, SI))
 
 
