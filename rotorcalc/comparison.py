@@ -48,6 +48,8 @@ KINDS: tuple[type[Geometry], ...] = (
     Hydrostatic,
     Foil,
 )
+# Load of a foil over p_a D L up to which its model was checked.
+_CHECKED = 1.5
 _TOUCHES = (
     "the journal touches the foil at the bearing's ends, where no pressure presses it back; the "
     "load is too heavy for it"
@@ -206,6 +208,8 @@ def bearing_result(machine: Machine, speed: float) -> BearingResult:
         With the reason where the film has no answer there.
     """
     checked_speed(speed)
+    if reason := _too_heavy_for_gas(machine):
+        return _refused(machine, reason)
     try:
         sweep = analyse(machine, speed)
     except ValueError as error:
@@ -227,6 +231,20 @@ def bearing_result(machine: Machine, speed: float) -> BearingResult:
         side_flow=float(sweep.side_flow),
         peak_response=peak,
         peak_speed=at,
+    )
+
+
+def _too_heavy_for_gas(machine: Machine) -> str:
+    """Return why a foil's load is beyond what its model was checked for, before any table of it."""
+    bearing = machine.bearing
+    if not isinstance(bearing.geometry, Foil):
+        return ""
+    most = _CHECKED * bearing.geometry.ambient_pressure * bearing.diameter * bearing.length
+    if machine.static_load <= most:
+        return ""
+    return (
+        f"static load = {machine.static_load:.6g} N: must be at most {most:.4g} N, "
+        f"F/(pₐ D L) = {_CHECKED:g}, up to which this foil was checked"
     )
 
 
