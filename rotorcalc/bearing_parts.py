@@ -41,8 +41,6 @@ class Parts(Result):
         Angles of their pivots from X [rad].
     ring : array, (k, 2), optional
         Centre of a floating ring from the bearing's, in C.
-    ring_clearance : float, optional
-        Clearance of the ring's outer film, in C.
     ring_ratio : array, (k,), optional
         Speed of the ring over running speed [-].
     recesses : array, (N, 2), optional
@@ -59,7 +57,6 @@ class Parts(Result):
     pads: tuple[tuple[Pad, ...], ...] | None = None
     pivots: Array | None = None
     ring: Array | None = None
-    ring_clearance: float | None = None
     ring_ratio: Array | None = None
     recesses: Array | None = None
     recess_pressure: Array | None = None
@@ -127,11 +124,10 @@ def _pads(_geometry: TiltingPads, machine: Machine, speed: Array) -> Parts:
 
 
 @_parts.register
-def _ring(geometry: FloatingRing, machine: Machine, speed: Array) -> Parts:
+def _ring(_geometry: FloatingRing, machine: Machine, speed: Array) -> Parts:
     found, C = ring_equilibrium(machine, speed), machine.bearing.radial_clearance
     return Parts(
         speed=speed,
         ring=found.outer.position / C,
-        ring_clearance=geometry.outer_clearance / C,
         ring_ratio=found.speed_ratio,
     )

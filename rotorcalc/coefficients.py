@@ -344,13 +344,9 @@ def over_whirl_ratio(machine: Machine, speed: float, *, whirl_ratio: ArrayLike) 
     ValueError
         Where the speed or a whirl ratio is not positive and finite.
     """
-    omega = checked_speed(speed)
     ratio = np.atleast_1d(real_array("whirl_ratio", whirl_ratio))
-    if not np.all((ratio > 0.0) & np.isfinite(ratio)):
-        raise ValueError(f"whirl_ratio = {shown(whirl_ratio)}: must be positive and finite")
-    K, C = reduced(_dynamics(machine, omega), ratio * omega)
-    shape = (len(ratio), 2, 2)
-    return OverWhirlRatio(omega, ratio, np.broadcast_to(K, shape), np.broadcast_to(C, shape))
+    K, C = stiffness_and_damping(machine, speed, whirl_ratio=ratio)
+    return OverWhirlRatio(checked_speed(speed), ratio, K, C)
 
 
 @checked

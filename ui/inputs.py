@@ -198,13 +198,13 @@ def values_of(machine: Machine, speed: float, top_speed: float) -> Values:
     """Return the kept values of a machine and its speeds [rad/s]."""
     speeds = {"speed": speed, "top_speed": top_speed}
     values: Values = {}
-    gas = isinstance(machine.oil, Gas)
+    oil = machine.oil
     for key, item in INPUTS.items():
-        if key in (OIL if gas else GAS):
+        if key in (OIL if isinstance(oil, Gas) else GAS):
             continue
         value = speeds[item.field] if item.field in speeds else _at(machine, item.field)
         values[key] = None if value is None else tidy(float(item.unit(SI).of(value)))
-    lubricant = {} if isinstance(machine.oil, Gas) else dict.fromkeys(GAS) | {LAW: machine.oil.law}
+    lubricant = {} if isinstance(oil, Gas) else dict.fromkeys(GAS) | {LAW: oil.law}
     return values | lubricant | bearing_values(machine.bearing)
 
 
