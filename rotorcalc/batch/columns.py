@@ -31,6 +31,7 @@ _DECIMAL: dict[str, dict[str, float]] = {
     "kg": {"g": 1e3},
     "Pa·s": {"mPa·s": 1e3, "cP": 1e3},
     "-": {"%": 1e2},
+    "s": {"ms": 1e3, "µs": 1e6},
 }
 _OTHERS: dict[str, dict[str, float]] = {
     "m": {"in": inch, "mil": mil},

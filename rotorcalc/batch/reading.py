@@ -5,11 +5,9 @@ wrong on one line costs that line alone; it is named with its line and column, a
 read all the same. What is wrong with the file as a whole, its header for instance, is an error.
 """
 
-import csv
-import io
 import json
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
@@ -17,6 +15,7 @@ from rotorcalc.arguments import checked
 from rotorcalc.arrays import shown
 from rotorcalc.batch.columns import KIND, KIND_PATH, OWN, Column, column_of
 from rotorcalc.batch.numbers import Mark, decimal_mark, number
+from rotorcalc.batch.text import readable, rows
 from rotorcalc.machine import APP, Machine
 from rotorcalc.oils import iso_oil
 from rotorcalc.records import from_tree, parsed_value, to_tree
@@ -24,7 +23,6 @@ from rotorcalc.units import rpm
 from rotorcalc.working_point import load_for, stiffness_for
 
 MOST_BYTES, MOST_MACHINES, MOST_COLUMNS, MOST_LETTERS = 20_000_000, 100_000, 200, 1000
-_DELIMITERS = ";\t,"
 # With Walther's law an oil is its grade at every temperature, whatever the reference.
 _REFERENCE = 40.0
 _LOADS = ("eccentricity_ratio", "sommerfeld", "classical_sommerfeld")
@@ -119,29 +117,9 @@ def read_machines(text: str | bytes, base: Machine | None = None) -> MachineFile
     ValueError
         Where the file is empty, too large, or its header or JSON cannot be read.
     """
-    if len(text) > MOST_BYTES:
-        raise ValueError(f"the file has more than {MOST_BYTES / 1e6:g} MB")
-    words = text if isinstance(text, str) else _decoded(text)
-    words = words.removeprefix("\ufeff")
-    if "\0" in words:
-        raise ValueError("the file has characters of code 0: it is no text")
-    if not words.strip():
-        raise ValueError("the file is empty")
+    words = readable(text, most_bytes=MOST_BYTES)
     is_json = words.lstrip()[0] in "{["
     return _from_json(words) if is_json else _from_table(words, base)
-
-
-def _decoded(raw: bytes) -> str:
-    if raw.startswith((b"\xff\xfe", b"\xfe\xff")):
-        encodings = ("utf-16",)
-    else:
-        encodings = ("utf-8-sig", "cp1252")
-    for encoding in encodings:
-        try:
-            return raw.decode(encoding)
-        except UnicodeDecodeError:
-            continue
-    raise ValueError("the file is no text in UTF-8, UTF-16 or Windows-1252")
 
 
 # --- JSON -----------------------------------------------------------------------------------
@@ -183,18 +161,18 @@ def _of_document(place: int, document: object) -> Case:
 
 
 def _from_table(text: str, base: Machine | None) -> MachineFile:
-    lines = list(_lines(text))
+    lines = list(rows(text, most=MOST_MACHINES, things="machines"))
     header = lines[0][1]
     if len(header) > MOST_COLUMNS:
         raise ValueError(f"the header has more than {MOST_COLUMNS} columns")
     columns = _columns(header)
-    rows = [(line, row) for line, row in lines[1:] if any(cell.strip() for cell in row)]
+    filled = [(line, row) for line, row in lines[1:] if any(cell.strip() for cell in row)]
     mark = decimal_mark(
-        cell for _, row in rows for column, cell in zip(columns, row, strict=False) if column.unit
+        cell for _, row in filled for column, cell in zip(columns, row, strict=False) if column.unit
     )
     cases: list[Case] = []
     problems: list[Problem] = []
-    for line, row in rows:
+    for line, row in filled:
         try:
             cases.append(_of_row(line, _cells(columns, row, mark), base))
         except _ProblemError as error:
@@ -203,29 +181,6 @@ def _from_table(text: str, base: Machine | None) -> MachineFile:
             column = _blamed(str(error), columns)
             problems.append(Problem(line, column, str(error), _name(columns, row)))
     return MachineFile(tuple(cases), tuple(problems))
-
-
-def _lines(text: str) -> Iterable[tuple[int, list[str]]]:
-    """Yield the first line number and the cells of each row from the header on."""
-    reader = csv.reader(io.StringIO(text, newline=""), delimiter=_delimiter(text), strict=True)
-    count, before, begun = 0, 0, False
-    try:
-        for row in reader:
-            first, before = before + 1, reader.line_num
-            if not begun and not any(cell.strip() for cell in row):
-                continue
-            begun, count = True, count + 1
-            if count > MOST_MACHINES + 1:
-                raise ValueError(f"the file has more than {MOST_MACHINES} machines")
-            yield first, row
-    except csv.Error as error:
-        raise ValueError(f"line {reader.line_num}: no table: {error}") from error
-
-
-def _delimiter(text: str) -> str:
-    """Return what separates the cells of the header: units have none of these."""
-    header = next(line for line in text.splitlines() if line.strip())
-    return next((mark for mark in _DELIMITERS if mark in header), ",")
 
 
 def _columns(header: Sequence[str]) -> list[Column]:
