@@ -6,6 +6,7 @@ rotation. `analyse(machine, speed)` computes the whole chain; the modules hold i
 
 from rotorcalc import (
     batch,
+    coefficient_files,
     coefficients,
     criteria,
     films,
@@ -18,6 +19,7 @@ from rotorcalc import (
 )
 from rotorcalc.analysis import FilmCurves, Sweep, analyse, film_curves
 from rotorcalc.batch import read_machines
+from rotorcalc.coefficient_files import read_coefficients
 from rotorcalc.comparison import BearingResult, compare_bearings
 from rotorcalc.criteria import Amplification, LevelOne, amplification, level_one
 from rotorcalc.design import onset_map, sensitivities, solve_onset
@@ -121,6 +123,7 @@ __all__ = [
     "analyse",
     "batch",
     "bifurcation",
+    "coefficient_files",
     "coefficients",
     "compare_bearings",
     "criteria",
@@ -145,6 +148,7 @@ __all__ = [
     "onsets",
     "orbit_ellipse",
     "pad_tilts",
+    "read_coefficients",
     "read_machines",
     "recess_equilibrium",
     "recess_pressure",
