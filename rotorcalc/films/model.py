@@ -96,7 +96,11 @@ class InnerMotion:
     gap : callable or None
         Thinnest film, in C, from the journal's places (..., 2), and the inner states; None where
         the journal's place alone says it.
-    tables, seconds, revolution
+    share : callable or None
+        The same over the clearance of the film that is thinnest in its own; None where all have C.
+    thinnest : float
+        Share below which the force is not known.
+    tables, seconds, revolution, apart
         As of a `FilmMotion`.
     """
 
@@ -107,9 +111,12 @@ class InnerMotion:
     loaded: "Callable[[float], InnerMotion] | None" = None
     beside: Callable[[OperatingPoints, Array], Array] | None = None
     gap: Callable[[Array, Array], Array] | None = None
+    share: Callable[[Array, Array], Array] | None = None
+    thinnest: float = 0.0
     tables: Hashable | None = None
     seconds: float = 0.0
     revolution: float = 0.0
+    apart: float = 0.0
 
 
 @dataclass(frozen=True)

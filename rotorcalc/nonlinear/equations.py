@@ -118,14 +118,12 @@ class Equations:
         model = film_of(bearing)
         film = model.motion()
         self.inner: _Inner | None = None
-        # The gap at which a motion ends, in C: at the wall, or where the film's force is not known.
-        self.thinnest = 0.0
+        # Where a motion ends, over the clearance: at the wall, or where the force is not known.
+        self.thinnest = film.thinnest
         if isinstance(film, InnerMotion):
             if film.loaded is not None:
                 film = film.loaded(machine.static_load)
             film = self.inner = _Inner(film, model.inner, mu)
-        else:
-            self.thinnest = film.thinnest
         self.force, self.velocity = film.force, film.velocity
 
     def speed(self, angle: ArrayLike) -> Array:
@@ -304,9 +302,9 @@ class Equations:
         return both
 
     def gap(self, states: Array) -> Array:
-        """Return the thinnest film in states, in C."""
+        """Return the thinnest film in states, over its own clearance."""
         inner = None if self.inner is None else states[..., self.own_states :]
-        return film_gap(self.machine.bearing, self.journal(states), inner)
+        return film_share(self.machine.bearing, self.journal(states), inner)
 
     def journal(self, states: Array) -> Array:
         """Return the journal's positions in states, in C."""
@@ -408,12 +406,23 @@ def film_gap(bearing: JournalBearing, journal: Array, inner: Array | None) -> Ar
     array, (...)
         Where the film has no inner states, or they do not matter, that of the journal alone.
     """
-    film = film_of(bearing)
-    if inner is not None:
-        motion = film.motion()
-        if isinstance(motion, InnerMotion) and motion.gap is not None:
-            return motion.gap(journal, inner)
-    return film.gap(journal)
+    motion = _inner_motion(bearing) if inner is not None else None
+    if inner is None or motion is None or motion.gap is None:
+        return film_of(bearing).gap(journal)
+    return motion.gap(journal, inner)
+
+
+def film_share(bearing: JournalBearing, journal: Array, inner: Array | None) -> Array:
+    """Return the same over the clearance of the film that is thinnest in its own, (...)."""
+    motion = _inner_motion(bearing) if inner is not None else None
+    if inner is None or motion is None or motion.share is None:
+        return film_gap(bearing, journal, inner)
+    return motion.share(journal, inner)
+
+
+def _inner_motion(bearing: JournalBearing) -> InnerMotion | None:
+    motion = film_of(bearing).motion()
+    return motion if isinstance(motion, InnerMotion) else None
 
 
 def integrated(

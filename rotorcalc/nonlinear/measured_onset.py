@@ -20,7 +20,7 @@ from rotorcalc.analysis import analyse
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
 from rotorcalc.display import Result
-from rotorcalc.films import FilmMotion, film_of
+from rotorcalc.films import film_of
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.linear_motion import linear_theory
 from rotorcalc.nonlinear.signals import fitted_modes
@@ -143,8 +143,7 @@ def onsets(machine: Machine, *, progress: Callable[[float], object] | None = Non
 
 def _apart(machine: Machine) -> float:
     """Return how far a film's force in motion may be from its linear theory."""
-    motion = film_of(machine.bearing).motion()
-    return motion.apart if isinstance(motion, FilmMotion) else 0.0
+    return film_of(machine.bearing).motion().apart
 
 
 @checked

@@ -323,16 +323,19 @@ def _stretch(
     good = np.isfinite(states).all(axis=1) & (model.gap(states) > model.thinnest)
     reached = int(np.argmin(good)) if not good.all() else len(states)
     if reached < len(states):
-        return states[: max(reached, 1)], _too_close(model.thinnest)
+        return states[: max(reached, 1)], _too_close(model)
     return states, ""
 
 
-def _too_close(thinnest: float) -> str:
-    if thinnest == 0.0:
+def _too_close(model: Equations) -> str:
+    if model.thinnest == 0.0:
         return "the journal came too close to the wall"
+    place = "the journal came closer to the wall than" if model.inner is None else (
+        "a film became thinner than"
+    )  # fmt: skip
     return (
-        f"the journal came closer to the wall than {thinnest:.2g} of the clearance, beyond which "
-        "this film's force is not computed"
+        f"{place} {model.thinnest:.2g} of {'the' if model.inner is None else 'its'} clearance, "
+        "beyond which its force is not computed"
     )
 
 

@@ -28,7 +28,7 @@ from tests.app.session import (
     tours,
     visit,
 )
-from tests.films.models import BEARINGS, FINITE, MOVING, PADS, SHORT_PADS, Ringed
+from tests.films.models import BEARINGS, FINITE, MOVING, PADS, RINGS, SHORT_PADS, Ringed
 from tests.machines import SHEET
 from ui.bearing import _TAKEN, bearing_values, fields_of, shape_of
 from ui.bores import name_of
@@ -176,7 +176,7 @@ def test_files_are_written_for_every_bearing(name: str) -> None:
 
 def refusal(path: str, name: str) -> list[str]:
     """Return what a page refuses: Orbits need a force in any motion, and every tab says so."""
-    if path != ORBITS or name in (*MOVING, *FINITE, *PADS):
+    if path != ORBITS or name in (*MOVING, *FINITE, *PADS, *RINGS):
         return []
     with pytest.raises(ValueError, match="motion") as refused:
         film_of(BEARINGS[name]).motion()

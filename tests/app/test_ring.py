@@ -8,7 +8,17 @@ from streamlit.testing.v1 import AppTest
 
 from rotorcalc.figures import ring as figures
 from rotorcalc.units import SI
-from tests.app.session import HOME, NOTES, ORBITS, faults, session_of, texts, tours, visit
+from tests.app.session import (
+    HOME,
+    NOTES,
+    ORBITS,
+    charts,
+    faults,
+    open_part,
+    texts,
+    tours,
+    visit,
+)
 from ui import ring
 from ui.bearing import defaults_of
 from ui.computed import Computed, computed_from
@@ -92,13 +102,16 @@ def test_pages_of_a_ring_at_the_ends_of_load_and_mass(path: str, query: dict[str
         assert not faults(at) or "Sommerfeld" in said(at), tab
 
 
-def test_orbits_offer_the_short_film_where_the_other_has_no_motion() -> None:
+def test_orbits_follow_a_ring_on_films_of_finite_length_once_asked() -> None:
     at = visit(ORBITS, **RINGED)
-    assert "two short films only" in at.error[0].value
-    at.button(key="orbits_short").click().run()
-    assert session_of(at).values["film"] == "short"
     assert not at.error
-    assert at.get("plotly_chart")
+    assert re.search(r"tabulated once .* about \d+ s", said(at)), said(at)
+    at.button(key="orbits_slow_release").click().run()
+    assert set(charts(at)) == {"chart_orbits_path", "chart_orbits_time"}
+    assert not faults(at)
+    open_part(at, "orbits_tab", "Limit cycles")
+    assert "parts that move on their own" in at.info[0].value
+    assert not any(button.key == "orbits_cycles" for button in at.button)
 
 
 def test_the_misprint_of_the_two_whirls_is_shown_by_eigenvalues() -> None:

@@ -5,18 +5,38 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorcalc import Rotor, bifurcation, hopf, mode_onsets, ring_equilibrium, simulate
+from rotorcalc import (
+    Plain,
+    Rotor,
+    TransientError,
+    analyse,
+    bifurcation,
+    energy_balance,
+    hopf,
+    mode_onsets,
+    ring_equilibrium,
+    simulate,
+)
 from rotorcalc.films import OperatingPoints, film_of
+from rotorcalc.films.finite.motion import FinitePadsInMotion
 from rotorcalc.films.short import film_force
 from rotorcalc.nonlinear.equations import film_gap
+from rotorcalc.nonlinear.linear_motion import linear_theory
+from rotorcalc.nonlinear.measured_onset import measured_growth
 from rotorcalc.nonlinear.release import release
 from rotorcalc.nonlinear.transient import last_state
+from tests.films import plain_program
 from tests.films.models import RINGS
+from tests.films.test_finite_motion import open_circle
 from tests.films.test_ring import MACHINE, SMALL, SPEED, ring
-from tests.machines import SHEET
+from tests.machines import ROTORS, SHEET
 
 C, WIDER = SMALL.radial_clearance, 3.5
 MU = MACHINE.viscosity
+FINITE = replace(SMALL, film="finite")
+BOTH = pytest.mark.parametrize("bearing", [SMALL, FINITE], ids=["short", "finite"])
+# A machine on a finite ring whose whirl decays well.
+SHEETS = replace(SHEET, bearing=RINGS["finite floating ring"])
 
 
 def kernel(bearing=SMALL, load=1.0):
@@ -36,12 +56,21 @@ def moves(count):
         yield (ring_place + relative).tolist(), ring_place.tolist(), rng.uniform(-0.5, 0.5, 2)
 
 
+def plain_force(bearing, place, velocity):
+    """Return the force of one film; of finite length by the table for pads of any arc."""
+    if bearing.model == "short":
+        return film_force(place, velocity)
+    return np.array(FinitePadsInMotion(bearing).force(*place, *velocity))
+
+
 def forces(film, r, moving, ring_place, ring_velocity):
     """Return the force of the inner film on the journal and of the outer one on the ring."""
     place, velocity = np.subtract(moving, [ring_place, ring_velocity])
-    inside = film_force(place, velocity / (1.0 + r))
-    outside = film_force(np.array(ring_place) / WIDER, np.array(ring_velocity) / (WIDER * r))
-    return (1.0 + r) * inside, film.pair.force * r * outside
+    pair = film.pair
+    inside = plain_force(pair.inside.bearing, place, velocity / (1.0 + r))
+    drift = np.array(ring_velocity) / (WIDER * r)
+    outside = plain_force(pair.outside.bearing, np.array(ring_place) / WIDER, drift)
+    return (1.0 + r) * inside, pair.force * r * outside
 
 
 def ratio(film, load=1.0):
@@ -49,8 +78,9 @@ def ratio(film, load=1.0):
     return float(film.speed_ratio(points))
 
 
-def test_a_massless_ring_moves_so_that_both_films_load_it_alike():
-    film, motion = kernel()
+@BOTH
+def test_a_massless_ring_moves_so_that_both_films_load_it_alike(bearing):
+    film, motion = kernel(bearing)
     r = ratio(film)
     for place, ring_place, velocity in moves(40):
         f_x, f_y, found = motion.force((*place, *velocity), ring_place, MU, SPEED)
@@ -63,9 +93,10 @@ def test_a_massless_ring_moves_so_that_both_films_load_it_alike():
         assert again == pytest.approx(found, abs=1e-7)
 
 
-def test_a_ring_with_a_mass_is_pushed_by_both_films():
+@BOTH
+def test_a_ring_with_a_mass_is_pushed_by_both_films(bearing):
     mass = 4e-3
-    film, motion = kernel(ring(ring_mass=mass))
+    film, motion = kernel(ring(bearing, ring_mass=mass))
     r, unit = ratio(film), MU * SPEED * 4e-3 * 5e-3**3 / C**2
     for place, ring_place, velocity in moves(10):
         spin = (0.1, -0.2)
@@ -78,6 +109,29 @@ def test_a_ring_with_a_mass_is_pushed_by_both_films():
         dx, dy, same = motion.velocity((*place, f_x, f_y), [*ring_place, *spin], MU, SPEED)
         assert [dx, dy] == pytest.approx(velocity, abs=1e-9)
         assert same == pytest.approx(rates, rel=1e-9)
+
+
+def test_a_second_program_finds_the_forces_of_two_films_of_finite_length():
+    film, motion = kernel(ring(FINITE, ring_mass=4e-3))
+    r, outer = ratio(film), film.pair.outside.bearing
+    unit = MU * SPEED * 4e-3 * 5e-3**3 / C**2
+    for place, ring_place, velocity in moves(1):
+        *f, rates = motion.force((*place, *velocity), [*ring_place, 0.1, -0.2], MU, SPEED)
+        relative = np.subtract(place, ring_place)
+        slip = np.subtract(velocity, (0.1, -0.2)) / (1.0 + r)
+        inside = (1.0 + r) * circle_force(FINITE, relative, slip)
+        assert np.abs(inside - f).max() < 0.01 * np.abs(inside).max()
+        drift = np.array((0.1, -0.2)) / (WIDER * r)
+        outside = film.pair.force * r * circle_force(outer, np.array(ring_place) / WIDER, drift)
+        pushed = np.array(rates[2:]) * 4e-3 * C * SPEED**2 / unit
+        assert np.abs(outside - inside - pushed).max() < 0.01 * np.abs(outside).max()
+
+
+def circle_force(bearing, place, velocity):
+    """Return the force of a film of finite length by the tests' own solution."""
+    cut, ratio = open_circle((*place, *velocity)), bearing.length / bearing.diameter
+    # From μΩR³L/C² to μΩRL³/C².
+    return plain_program.force([cut], ratio, place, velocity) / (2.0 * ratio) ** 2
 
 
 def test_without_load_a_ring_at_half_its_whirl_feels_nothing():
@@ -156,6 +210,81 @@ def test_above_its_onset_the_journal_whirls_in_its_ring_and_the_films_hold_it():
     assert whirl == pytest.approx(inner.whirl_ratio, abs=0.03)
     swing = np.hypot(*(motion.journal - motion.inner)[-1024:].T) / C
     assert 0.05 < swing.max() < 0.95
+
+
+def balanced(kind):
+    return replace(ROTORS[kind], imbalance=0.0)
+
+
+@pytest.mark.parametrize("mass", [0.0, 12.0])
+@pytest.mark.parametrize("kind", ["rigid", "massless journals"])
+def test_on_films_of_finite_length_a_small_whirl_grows_as_the_eigenvalues_say(mass, kind):
+    machine = replace(SHEETS, bearing=ring(SHEETS.bearing, ring_mass=mass), rotor=balanced(kind))
+    whirl = linear_theory(machine, 500.0).whirl
+    assert abs(measured_growth(machine, 500.0) - whirl.real) < 5e-3 * abs(whirl)
+    rest = ring_equilibrium(machine, 500.0)
+    still = simulate(machine, 500.0, revolutions=1, tolerance=1e-6)
+    gap = machine.bearing.radial_clearance
+    assert np.abs(still.inner[:, :2] - rest.outer.position).max() < 2e-3 * gap
+    place = rest.inner.position + rest.outer.position
+    assert np.abs(still.journal - place).max() < 2e-3 * gap
+
+
+@pytest.mark.parametrize("mass", [0.0, 12.0])
+def test_on_films_of_finite_length_the_energy_of_a_wide_motion_balances(mass):
+    gap = SHEETS.bearing.radial_clearance
+    rotor = replace(ROTORS["massless journals"], imbalance=0.05 * gap)
+    machine = replace(SHEETS, bearing=ring(SHEETS.bearing, ring_mass=mass), rotor=rotor)
+    rest = analyse(machine, 500.0).journal_position
+    motion = simulate(machine, 500.0, revolutions=1, start=rest + np.array([-0.4, 0.2]) * gap)
+    balance = energy_balance(machine, motion)
+    assert np.abs(balance.residual).max() < 1e-6 * balance.exchanged
+
+
+def test_the_orbit_of_a_small_imbalance_is_that_of_the_linear_theory():
+    gap = SHEETS.bearing.radial_clearance
+    machine = replace(SHEETS, rotor=replace(ROTORS["rigid"], imbalance=0.01 * gap))
+    expected = analyse(machine, 400.0).journal_response
+    motion = simulate(machine, 400.0, revolutions=30, tolerance=1e-7)
+    late = slice(-64, None)
+    phase = np.exp(-1j * motion.angle[late])
+    found = 2.0 * np.mean(motion.journal[late] * phase[:, None], axis=0)
+    assert np.abs(found - expected).max() < 0.01 * np.abs(expected).max()
+
+
+def test_in_a_narrow_outer_film_the_ring_stands_and_the_journal_moves_as_in_a_plain_bearing():
+    narrow = ring(FINITE, outer_clearance=C / 50.0)
+    plain = replace(FINITE, geometry=Plain())
+    orbits = [
+        simulate(replace(MACHINE, bearing=one), SPEED, revolutions=6, start=(0.5 * C, 0.2 * C))
+        for one in (narrow, plain)
+    ]
+    inside, alone = (one.journal for one in orbits)
+    assert np.abs(alone - alone[0]).max() > 0.3 * C
+    assert np.abs(inside - alone).max() < 0.03 * C
+
+
+def test_a_ring_of_two_very_short_finite_films_moves_as_one_of_short_films():
+    small = ring(replace(SMALL, length=5e-4), outer_length=7e-4)
+    machine, start = replace(MACHINE, bearing=small, load=1e-3), (0.5 * C, 0.2 * C)
+    moved = [
+        simulate(replace(machine, bearing=replace(small, film=film)), SPEED, revolutions=2,
+                 start=start, tolerance=1e-7)
+        for film in ("short", "finite")
+    ]  # fmt: skip
+    short, finite = (np.concatenate([one.journal, one.inner], axis=1) for one in moved)
+    assert np.abs(finite - short).max() < 0.02 * np.ptp(short, axis=0).max()
+
+
+def test_a_motion_on_films_of_finite_length_ends_where_either_is_thinner_than_computed():
+    machine = replace(MACHINE, bearing=ring(FINITE, ring_mass=4e-3), load=1.0)
+    start = last_state(simulate(machine, SPEED, revolutions=1))
+    for away in (np.array([0.0, 0.985 * WIDER * C]), np.array([0.985 * C, 0.0])):
+        ring_place = np.array([*away, 0.0, 0.0])
+        journal = away if away[1] else np.zeros(2)
+        thin = replace(start, journal=journal, disk=journal, inner=ring_place)
+        with pytest.raises(TransientError, match=r"thinner than 0\.02 of its clearance"):
+            simulate(machine, SPEED, revolutions=1, start=thin)
 
 
 @pytest.mark.parametrize("computation", [bifurcation, hopf])

@@ -20,7 +20,7 @@ from rotorcalc import (
 )
 from rotorcalc.arrays import Array
 from rotorcalc.figures import Units
-from rotorcalc.films import FilmMotion, film_of
+from rotorcalc.films import FilmMotion, InnerMotion, film_of
 from rotorcalc.nonlinear.limit_cycles import sweep
 from rotorcalc.nonlinear.measured_onset import GrowthCurve
 from ui.computed import Computed
@@ -46,6 +46,11 @@ _CYCLES = (
 _THREE = (
     "The onset comes three ways: by the notes' equations, by eigenvalues, and measured on the "
     "nonlinear motion. A few seconds …"
+)
+_NOT_FOLLOWED = (
+    "Limit cycles are followed on films whose force depends on the journal's motion alone. This "
+    "film has parts that move on their own, which the method leaves out; a release and a run-up "
+    "show the whirl on which this machine ends."
 )
 _STARTED_AGAIN = "This computation was interrupted and has started again."
 
@@ -107,6 +112,9 @@ def ask_cycles(page: Page) -> Bifurcation | None:
     computed, onset = page.computed, page.computed.onset.speed
     if not 0.0 < onset < math.inf:
         st.info(_no_onset(computed))
+        return None
+    if isinstance(film_of(computed.machine.bearing).motion(), InnerMotion):
+        st.info(_NOT_FOLLOWED)
         return None
     machine = balanced(computed.machine)
     comes = _CYCLES.format(_SLOW_CYCLES_TAKE if slow_film(computed) else _CYCLES_TAKE)
@@ -228,28 +236,18 @@ def _no_onset(computed: Computed) -> str:
     return f"{without_onset(computed)}: no onset was found, and no limit cycles."
 
 
-def slow_film(computed: Computed) -> FilmMotion | None:
+def slow_film(computed: Computed) -> FilmMotion | InnerMotion | None:
     """Return the force of a film whose motion a page cannot have at once, else None."""
     try:
         motion = film_of(computed.machine.bearing).motion()
     except ValueError:
         return None
-    return motion if isinstance(motion, FilmMotion) and motion.revolution > 0.0 else None
+    return motion if motion.revolution > 0.0 else None
 
 
 def has_motion(bearing: JournalBearing) -> bool:
-    """Return whether a film gives a force in any motion; show why not where it gives none.
-
-    Where the short bearing gives one, offer it.
-    """
-    if attempt(lambda: film_of(bearing).motion()) is not None:
-        return True
-    if "short" in bearing.geometry.models and bearing.model != "short":
-        st.button(
-            "Take the short bearing's film", key="orbits_short", type="primary",
-            on_click=session().set_film, args=("short",),
-        )  # fmt: skip
-    return False
+    """Return whether a film gives a force in any motion; show why not where it gives none."""
+    return attempt(lambda: film_of(bearing).motion()) is not None
 
 
 def attempt(work: Callable[[], T]) -> T | None:

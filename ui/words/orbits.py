@@ -30,6 +30,8 @@ _AT_REST, _WHIRLS = 2e-3, 0.02
 _STAYS = (0.8, 1.25)
 # Revolutions of a release while a slider is dragged: some 20 ms.
 _COARSE = 20
+# Seconds of a revolution from which each release is asked for, not the first alone.
+_SLOW_REVOLUTION = 0.1
 _COARSELY = f"Coarse while dragging, {_COARSE} revolutions at most. "
 # A rigid rotor just below a subcritical onset: ε = 0.06, p² one per cent below critical.
 _SUBCRITICAL = PRESET_VALUES["sheet-1e8"] | {
@@ -40,8 +42,12 @@ Demo = Literal["below", "above", "small", "big"]
 # What a film has whose motion comes by tables, or by a solution at each step.
 _TABULATED = (
     "The force of this film in any motion comes from solutions of Reynolds' equation, tabulated "
-    "once for the pads' arc and L/D. With this release that takes about {} s; then other loads, "
+    "once for each pad's arc and L/D. With this release that takes about {} s; then other loads, "
     "speeds, clearances and preloads follow at once."
+)
+_BALANCED = (
+    "At each step the tilts of the pads are balanced with their films, whose forces are tabulated. "
+    "This release takes about {} s."
 )
 _SOLVED = (
     "Pads with pockets have no table of their force in motion: Reynolds' equation is solved at "
@@ -157,7 +163,7 @@ def _of(computed: Computed, ask: Ask) -> tuple[Machine, float, float, int]:
 def _is_solved(computed: Computed) -> bool:
     """Return whether each release takes long, not the first alone."""
     film = slow_film(computed)
-    return film is not None and film.tables is None
+    return film is not None and (film.tables is None or film.revolution > _SLOW_REVOLUTION)
 
 
 def coarse(computed: Computed, ask: Ask) -> Release:
@@ -215,7 +221,7 @@ def _asked_for(page: Page, ask: Ask) -> bool:
         return True
     seconds = math.ceil(film.seconds + ask.revolutions * film.revolution)
     if _is_solved(page.computed):
-        how = _SOLVED.format(seconds)
+        how = (_SOLVED if film.tables is None else _BALANCED).format(seconds)
         about = "release", page.computed.machine, page.computed.speed, ask
     else:
         how, about = _TABULATED.format(seconds), ("tables", film.tables)

@@ -6,6 +6,17 @@ vanish (Swift and Stieber). A bore's film depends on σ alone: it is tabulated o
 each geometry and L/D, and every result is read from the table.
 """
 
+from rotorcalc.films.finite.circle import CIRCLE_SECONDS, CircleInMotion
 from rotorcalc.films.finite.film import CoarseFilm, FiniteFilm
+from rotorcalc.films.finite.impedance import Shape
+from rotorcalc.films.finite.motion import APART, THINNEST
 
-__all__ = ["CoarseFilm", "FiniteFilm"]
+__all__ = [
+    "APART",
+    "CIRCLE_SECONDS",
+    "THINNEST",
+    "CircleInMotion",
+    "CoarseFilm",
+    "FiniteFilm",
+    "Shape",
+]

@@ -11,8 +11,14 @@ from numpy.typing import ArrayLike
 from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.films.dynamics import NO_INERTIA, FilmDynamics
 from rotorcalc.films.finite.accuracy import accuracy
+from rotorcalc.films.finite.circle import (
+    CIRCLE_REVOLUTION,
+    CIRCLE_SECONDS,
+    CircleInMotion,
+    is_circle,
+)
 from rotorcalc.films.finite.direct_motion import SOLVED_REVOLUTION, SolvedPadsInMotion
-from rotorcalc.films.finite.motion import REVOLUTION, SECONDS, THINNEST, FinitePadsInMotion
+from rotorcalc.films.finite.motion import APART, REVOLUTION, SECONDS, THINNEST, FinitePadsInMotion
 from rotorcalc.films.finite.pressure import Pressures
 from rotorcalc.films.finite.table import FilmTable, table
 from rotorcalc.films.model import Accuracy, FilmMotion, Limit, Source
@@ -199,6 +205,17 @@ class FiniteFilm:
                 revolution=SOLVED_REVOLUTION,
                 apart=0.012,
             )
+        if is_circle(self.bearing):
+            circle = CircleInMotion(self.bearing)
+            return FilmMotion(
+                force=circle.force,
+                velocity=circle.velocity,
+                thinnest=THINNEST,
+                tables=(circle.shape,),
+                seconds=CIRCLE_SECONDS,
+                revolution=CIRCLE_REVOLUTION,
+                apart=APART,
+            )
         moving = FinitePadsInMotion(self.bearing)
         return FilmMotion(
             force=moving.force,
@@ -207,7 +224,7 @@ class FiniteFilm:
             tables=moving.shapes,
             seconds=SECONDS * len(moving.shapes),
             revolution=REVOLUTION,
-            apart=0.005,
+            apart=APART,
         )
 
     def accuracy(self, sommerfeld: float) -> Accuracy:

@@ -47,7 +47,7 @@ _PLACES, _DIRECTIONS, _MIDDLES = 22, 32, 40
 _FARTHEST = 0.985
 _DEGREE = 5
 # Rows beyond an end of the table from which its splines' coefficients no longer feel the end.
-_BEYOND, _AROUND = 8, 6
+_BEYOND, MARGIN = 8, 6
 _TURN = 2.0 * math.pi
 _GRADING = 0.9
 # E(γ) is 2/(c + 1/2 + √((c − 1/2)² + soft²)), c the cosine beside the pad: smoothly the larger of c
@@ -129,7 +129,7 @@ class Impedance:
             share = 2.0 / root * math.sinh(math.asinh(1.5 * e * root) / 3.0)
         share = min(share, _FARTHEST)
         row = math.atanh(share) / self.step - 0.5 + _BEYOND
-        return share, row, gamma % _TURN / _TURN * self.directions + _AROUND
+        return share, row, gamma % _TURN / _TURN * self.directions + MARGIN
 
     def middle(self, share: float, theta: float) -> tuple[float, float]:
         """Return the column of the film's middle θ in the table, and its derivative by θ."""
@@ -139,7 +139,7 @@ class Impedance:
         chi = 0.5 * (u + 2.0 * math.atan2(b * math.sin(u), 1.0 - b * math.cos(u)) - math.pi)
         scale = _MIDDLES / _TURN
         slope = (1.0 - b * b) / (1.0 - 2.0 * b * math.cos(u) + b * b)
-        return chi % _TURN * scale + _AROUND, slope * scale
+        return chi % _TURN * scale + MARGIN, slope * scale
 
     def scaled(self, rows: list[tuple[float, float, float]]) -> list[float]:
         """Return the table's values at places (τ, γ, χ) in rows and columns."""
@@ -214,7 +214,7 @@ def _extended(found: Array) -> Array:
     through = -np.roll(found[:, :_BEYOND], (-(found.shape[2] // 2), -middles // 2), (2, 3))
     outside = 2.0 * found[:, -1:] - found[:, -2 : -_BEYOND - 2 : -1]
     whole = np.concatenate([through[:, ::-1], found, outside], axis=1)
-    return np.pad(whole, ((0, 0), (0, 0), (_AROUND, _AROUND), (_AROUND, _AROUND)), mode="wrap")
+    return np.pad(whole, ((0, 0), (0, 0), (MARGIN, MARGIN), (MARGIN, MARGIN)), mode="wrap")
 
 
 def _forces(

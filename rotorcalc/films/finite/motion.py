@@ -19,6 +19,8 @@ from rotorcalc.machine import JournalBearing
 
 # Gap below which the force is held, in C.
 THINNEST = 0.02
+# How far stiffness and damping at rest may be from the film's own, over their largest entry.
+APART = 0.005
 # About how long a table and a revolution take on a laptop's core, at the tolerance of a chart.
 SECONDS, REVOLUTION = 2.0, 0.03
 # Difference of a film's middle for derivatives, in columns of the table.

@@ -9,9 +9,10 @@ from numpy.typing import ArrayLike
 
 from rotorcalc.arrays import Array
 from rotorcalc.films.dynamics import FilmDynamics
+from rotorcalc.films.finite import APART, CIRCLE_SECONDS, THINNEST
 from rotorcalc.films.model import Accuracy, InnerMotion, Limit, Source
 from rotorcalc.films.ring import balance
-from rotorcalc.films.ring.motion import RingInMotion
+from rotorcalc.films.ring.motion import REVOLUTION, RingInMotion
 from rotorcalc.films.ring.pair import Pair
 from rotorcalc.films.ring.series import in_series, synchronous
 from rotorcalc.films.ring.sources import SOURCES
@@ -216,22 +217,12 @@ class RingFilm:
         )
 
     def motion(self) -> InnerMotion:
-        """Return the force on a moving journal and the motion of the ring, of two short films.
-
-        Raises
-        ------
-        ValueError
-            For films of finite length.
-        """
-        if self.bearing.model != "short":
-            raise ValueError(
-                f"film = {self.bearing.model}: the motion of a journal in a floating ring is "
-                "computed on two short films only"
-            )
+        """Return the force on a moving journal and the motion of the ring."""
         return self._motion(0.0)
 
     def _motion(self, load: float) -> InnerMotion:
         moving, starts = RingInMotion(self.pair, load), RingStarts(self.pair)
+        closed_form = self.bearing.model == "short"
         return InnerMotion(
             states=moving.states,
             rest=starts.rest,
@@ -240,6 +231,12 @@ class RingFilm:
             loaded=self._motion,
             beside=starts.beside,
             gap=starts.gap,
+            share=starts.share,
+            thinnest=0.0 if closed_form else THINNEST,
+            tables=moving.shapes or None,
+            seconds=CIRCLE_SECONDS * len(moving.shapes),
+            revolution=0.0 if closed_form else REVOLUTION,
+            apart=0.0 if closed_form else APART,
         )
 
     def accuracy(self, sommerfeld: float) -> Accuracy | None:

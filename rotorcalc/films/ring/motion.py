@@ -1,7 +1,9 @@
-"""The forces of two short films on a moving journal and its ring, one point at a time.
+"""The forces of two films on a moving journal and its ring, one point at a time.
 
-Both films are those of `short.motion`, each in its own units and at the place and velocity of its
-inner surface in the outer one: the journal's in the ring, the ring's in the bearing. The ring moves
+Both films are plain ones, short or of finite length, each in its own units and at the place and
+velocity of its inner surface in the outer one: the journal's in the ring, the ring's in the
+bearing. In a frame that turns at half the sum of its surfaces' speeds a film sees squeeze only, so
+the force of a film with one turning surface serves both. The ring moves
 freely but keeps turning at the speed of static equilibrium: its spin is slow to change. A massless
 ring moves so that both films load it alike. Of all its velocities that one makes the sum of both
 films' potentials the least (`convex`), so there is one and Newton's method finds it.
@@ -13,25 +15,44 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TypeAlias
+from typing import Protocol, TypeAlias
 
 import numpy as np
 from scipy.interpolate import CubicSpline
 
 from rotorcalc.films import convex
 from rotorcalc.films.convex import Answer
+from rotorcalc.films.finite import CircleInMotion, Shape
 from rotorcalc.films.ring import balance
 from rotorcalc.films.ring.pair import Pair
 from rotorcalc.films.short import motion as short
 from rotorcalc.films.units import FilmUnits
+from rotorcalc.machine import JournalBearing
 
 # Loads per decade at which r is known, between which a run-up has it from a spline, to some 1e-8.
 _PER_DECADE, _LIGHT = 40, 1e8
+# About how long a revolution takes on two films of finite length.
+REVOLUTION = 0.03
 # A force so small in film units that no motion comes of it.
 _NOTHING = 1e-9
 
 _Vector: TypeAlias = tuple[float, float]
 _Motion: TypeAlias = tuple[float, float, float, float]
+
+
+class PlainMotion(Protocol):
+    """The force of a plain film on a moving surface; see `short.motion`, which is one."""
+
+    def force(self, x: float, y: float, dx: float, dy: float) -> _Vector: ...  # noqa: D102
+    def answer(self, x: float, y: float, dx: float, dy: float) -> Answer: ...  # noqa: D102
+    def velocity(  # noqa: D102
+        self, x: float, y: float, f_x: float, f_y: float, near: list[float] | None = None
+    ) -> _Vector: ...
+
+
+def plain_motion(bearing: JournalBearing) -> PlainMotion:
+    """Return the force of a plain bearing's film on a moving journal."""
+    return short if bearing.model == "short" else CircleInMotion(bearing)
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,6 +79,21 @@ class RingInMotion:
     def __reduce__(self) -> tuple[type, tuple[Pair, float]]:
         """Return what another process makes it from again."""
         return type(self), (self.pair, self.load)
+
+    @cached_property
+    def _inner_film(self) -> PlainMotion:
+        return plain_motion(self.pair.inside.bearing)
+
+    @cached_property
+    def _outer_film(self) -> PlainMotion:
+        return plain_motion(self.pair.outside.bearing)
+
+    @property
+    def shapes(self) -> tuple[Shape, ...]:
+        """The shapes of films of finite length, each of which has a table."""
+        both = self._inner_film, self._outer_film
+        found = [one.shape for one in both if isinstance(one, CircleInMotion)]
+        return tuple(dict.fromkeys(found))
 
     @property
     def states(self) -> int:
@@ -136,7 +172,7 @@ class RingInMotion:
         x, y, f_x, f_y = moving
         r, (p, q) = self._ratio(viscosity, speed), inner[:2]
         one = 1.0 + r
-        a, b = short.velocity(x - p, y - q, f_x / one, f_y / one, self._slip)
+        a, b = self._inner_film.velocity(x - p, y - q, f_x / one, f_y / one, self._slip)
         if self._mass > 0.0:
             u, v = inner[2:]
             rates = [u, v, *self._pushed((f_x, f_y), ((p, q), (u, v), r), viscosity, speed)]
@@ -148,20 +184,20 @@ class RingInMotion:
     def _inside(self, place: _Vector, velocity: _Vector, r: float) -> _Vector:
         """Return the force of the inner film on the journal, which moves so in the ring."""
         one = 1.0 + r
-        f_x, f_y = short.force(*place, velocity[0] / one, velocity[1] / one)
+        f_x, f_y = self._inner_film.force(*place, velocity[0] / one, velocity[1] / one)
         return one * f_x, one * f_y
 
     def _outside(self, place: _Vector, velocity: _Vector, r: float) -> _Vector:
         """Return the force of the outer film on the ring."""
         wide, unit = self.pair.wider, self.pair.force * r
         at, to = wide * r, (place[0] / wide, place[1] / wide)
-        f_x, f_y = short.force(*to, velocity[0] / at, velocity[1] / at)
+        f_x, f_y = self._outer_film.force(*to, velocity[0] / at, velocity[1] / at)
         return unit * f_x, unit * f_y
 
     def _drifting(self, place: _Vector, f: _Vector, r: float) -> _Vector:
         """Return the velocity at which the outer film's force on the ring is the given one."""
         wide, unit = self.pair.wider, self.pair.force * r
-        a, b = short.velocity(
+        a, b = self._outer_film.velocity(
             place[0] / wide, place[1] / wide, f[0] / unit, f[1] / unit, self._drift
         )
         return wide * r * a, wide * r * b
@@ -181,10 +217,11 @@ class RingInMotion:
         one, wide, unit = 1.0 + r, self.pair.wider, self.pair.force * r
         at = wide * r
         X, Y = outside[0] / wide, outside[1] / wide
+        inner, outer = self._inner_film, self._outer_film
 
         def both(u: float, v: float) -> Answer:
-            i = short.answer(*inside, (velocity[0] - u) / one, (velocity[1] - v) / one)
-            o = short.answer(X, Y, u / at, v / at)
+            i = inner.answer(*inside, (velocity[0] - u) / one, (velocity[1] - v) / one)
+            o = outer.answer(X, Y, u / at, v / at)
             more = unit / at
             return Answer(
                 unit * o.f_x - one * i.f_x, unit * o.f_y - one * i.f_y,

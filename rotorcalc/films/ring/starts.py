@@ -50,8 +50,16 @@ class RingStarts:
 
     def gap(self, journal: Array, states: Array) -> Array:
         """Return the thinner of the two films at places of the journal and states of the ring."""
-        ring, wide = states[..., :2], self.pair.wider
-        return np.minimum(thinnest(journal - ring), wide * thinnest(ring / wide))
+        inner, outer = self._each(journal, states)
+        return np.minimum(inner, self.pair.wider * outer)
+
+    def share(self, journal: Array, states: Array) -> Array:
+        """Return the smaller of both films' thinnest places, each over its own clearance."""
+        return np.minimum(*self._each(journal, states))
+
+    def _each(self, journal: Array, states: Array) -> tuple[Array, Array]:
+        ring = states[..., :2]
+        return thinnest(journal - ring), thinnest(ring / self.pair.wider)
 
 
 def thinnest(place: Array) -> Array:
