@@ -9,7 +9,6 @@ from scipy.linalg import expm
 
 from rotorcalc import (
     JournalBearing,
-    Lobes,
     Machine,
     TiltingPads,
     analyse,
@@ -159,28 +158,6 @@ def test_a_load_between_two_films_of_a_pad_is_carried():
     assert carried == pytest.approx(load, rel=1e-8)
 
 
-def test_stiff_flexures_are_fixed_pads_and_soft_ones_tilt():
-    sigma = np.array([0.15, 0.5, 5.0])
-    fixed = film_state(
-        on(Lobes(number=4, arc=75 * DEGREE, preload=0.3, load="between pads")), sigma
-    )
-    free = film_state(on(TiltingPads(number=4, arc=75 * DEGREE)), sigma)
-    for stiffness, other in ((1e-6, free), (1e9, fixed)):
-        flexure = film_of(
-            on(TiltingPads(number=4, arc=75 * DEGREE, rotational_stiffness=stiffness))
-        )
-        for i, one in enumerate(sigma):
-            unit = 1.0 * 0.05 * 0.05**3 / 1e-8  # μΩRL³/C² at 1 Pa·s, 1 rad/s
-            points = OperatingPoints.of(
-                flexure.bearing, viscosity=1.0, speed=1.0, load=unit / (4.0 * one)
-            )
-            state = flexure.state(points)
-            assert state.position == pytest.approx(other.position[i], abs=2e-3)
-            K, C = other.stiffness[i], other.damping[i]
-            assert np.abs(state.stiffness - K).max() < 1e-2 * np.abs(K).max()
-            assert np.abs(state.damping - C).max() < 1e-2 * np.abs(C).max()
-
-
 def machine(geometry, **changes) -> Machine:
     return replace(SHEET, bearing=replace(SHEET.bearing, geometry=geometry), **changes)
 
@@ -260,47 +237,3 @@ def test_a_journal_set_far_off_finds_its_pads_out_of_its_way():
     assert motion.beside(points, rest.position) == pytest.approx(motion.rest(points))
     gap = motion.gap(rest.position, motion.rest(points))
     assert gap == pytest.approx(rest.minimum_thickness, rel=1e-3)
-
-
-def test_many_stiffnesses_at_once_agree_with_the_table_of_each():
-    """To one per cent, which is what a table over the load is to know of pads on flexures."""
-    film = film_of(on(TiltingPads(number=4, arc=75 * DEGREE, rotational_stiffness=2e4)))
-    sigma = np.geomspace(0.2, 20.0, 12)
-    unit = float(film.bearing.length**3 * film.bearing.radius / film.bearing.radial_clearance**2)
-    load = 0.0127 * 600.0 * unit / (4.0 * sigma)
-    whole = film.state(OperatingPoints.of(film.bearing, viscosity=0.0127, speed=600.0, load=load))
-    for i in (2, 9):
-        alone = film.state(
-            OperatingPoints.of(film.bearing, viscosity=0.0127, speed=600.0, load=load[i])
-        )
-        place = np.hypot(*alone.position)
-        assert whole.position[i] == pytest.approx(alone.position, abs=1e-2 * place)
-        K = alone.stiffness
-        assert np.abs(whole.stiffness[i] - K).max() < 1e-2 * np.abs(K).max()
-
-
-def test_a_second_program_agrees_on_flexures():
-    """Each pad's moment in N·m is k_θ times its tilt in rad; K and C with the tilts eliminated."""
-    geometry = TiltingPads(number=4, arc=75 * DEGREE, rotational_stiffness=2e4)
-    film, speed, R, C = film_of(on(geometry)), 600.0, 0.05, 1e-4
-    unit = 0.0127 * speed * R * 0.05**3 / C**2
-    points = OperatingPoints.of(
-        film.bearing, viscosity=0.0127, speed=speed, load=unit / (4.0 * 0.15)
-    )
-    state, tilts, pivots = film.state(points), film.tilts(points), pivots_of(film.bearing)
-    pad = (-geometry.arc / 2, geometry.arc / 2, 0.0, 0.0)
-    kappa, load = 2e4 / R**2 / (unit / C), 0.25 / 0.15
-    force, whole = np.zeros(2), np.zeros((2, 2), dtype=complex)
-    for angle, tilt in zip(pivots.angle, tilts, strict=True):
-        T = np.array([[math.cos(angle), math.sin(angle)], [-math.sin(angle), math.cos(angle)]])
-        place = T @ state.position + [geometry.preload, tilt * R / C]
-        f = plain_program.force([pad], 0.5, place)
-        # A pad without a film has no moment and all but no tilt: errors are beside the load's.
-        assert f[1] * unit * R == pytest.approx(2e4 * tilt, abs=2e-3 * load * unit * R)
-        force += T.T @ f
-        k, c = plain_program.coefficients([pad], 0.5, place)
-        Z = k + 1j * c
-        whole += T.T @ (Z - np.outer(Z[:, 1], Z[1]) / (Z[1, 1] + kappa)) @ T
-    assert force == pytest.approx([-load, 0.0], abs=1e-2 * load)
-    assert np.abs(whole.real - state.stiffness).max() < 1e-2 * np.abs(whole.real).max()
-    assert np.abs(whole.imag - state.damping).max() < 1e-2 * np.abs(whole.imag).max()

@@ -2,15 +2,14 @@
 
 import numpy as np
 
-from rotorcalc.arrays import Array
+from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.films.dynamics import reduced
-from rotorcalc.films.finite.reynolds import films, mesh
-from rotorcalc.films.finite.table import settled_pressures
+from rotorcalc.films.finite.reynolds import Mesh, films, mesh
+from rotorcalc.films.finite.table import carried, settled_pressures
 from rotorcalc.films.model import Accuracy
 from rotorcalc.films.tilting import linear
 from rotorcalc.films.tilting.balance import Asked, Balance, balanced
-from rotorcalc.films.tilting.family import columns, states
-from rotorcalc.films.tilting.flexure import wet_near
+from rotorcalc.films.tilting.family import PadFamily, columns, states
 from rotorcalc.films.tilting.pivots import places
 from rotorcalc.films.tilting.rest import FreePads, Rest
 
@@ -42,7 +41,9 @@ def accuracy(pads: FreePads, sommerfeld: float) -> Accuracy:
     fine = mesh(known.pads, known.slenderness, 2 * cells, along + 1)
     load = np.array([0.25 / sommerfeld])
     here = pads.at(load, np.zeros(1))
-    start = Balance(here.position, here.tilt, wet_near(pads.family, here.pads.xi, fine), load < 0.0)
+    start = Balance(
+        here.position, here.tilt, _wet_near(pads.family, here.pads.xi, fine), load < 0.0
+    )
     found = balanced(fine, pivots, Asked(load, np.zeros(1), ~here.pads.loaded), start)
     if not found.good.all():
         return Accuracy(words, np.nan, np.nan, np.nan)
@@ -65,3 +66,9 @@ def _synchronous(rest: Rest, pads: FreePads) -> tuple[Array, Array]:
     """Return stiffness and damping with the tilts eliminated at ν = 1."""
     found = linear.dynamics(rest, pads.pivots.frames, np.zeros(1), 0.0)
     return reduced(found, np.ones(1))
+
+
+def _wet_near(family: PadFamily, xi: Array, grid: Mesh) -> BoolArray:
+    """Return where films of pads at ξ (...) may be full, on a mesh, (..., flat)."""
+    nearest = np.abs(xi.reshape(-1)[:, None] - family.xi).argmin(axis=1)
+    return carried(family.wet[nearest], grid)

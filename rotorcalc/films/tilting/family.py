@@ -152,11 +152,16 @@ class PadFamily:
 
     def _without_film(self, xi: Array, eta: Array) -> tuple[Array, Array]:
         """Return drag and thinnest film of pads without pressure."""
-        pad = self.mesh.pads[0]
-        theta = np.linspace(pad.start, pad.end, 33)
-        h = 1.0 - xi[..., None] * np.cos(theta) - eta[..., None] * np.sin(theta)
-        h = np.maximum(h, 1e-6)
-        return np.asarray(np.trapezoid(1.0 / h, theta)), h.min(axis=-1)
+        pads = self.mesh.pads
+        e = np.stack(np.broadcast_arrays(xi, eta), axis=-1)
+        return film_drag(pads[0], e), gap(pads, e)
+
+
+def film_drag(pad: Pad, e: Array) -> Array:
+    """Return the drag of a pad without pressure at places (..., 2), in μΩR³L/C."""
+    theta = np.linspace(pad.start, pad.end, 33)
+    h = 1.0 - e[..., :1] * np.cos(theta) - e[..., 1:] * np.sin(theta)
+    return np.asarray(np.trapezoid(1.0 / np.maximum(h, 1e-6), theta))
 
 
 def generic_pad(arc: float, pivot_offset: float) -> Pad:

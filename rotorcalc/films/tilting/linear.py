@@ -40,13 +40,13 @@ def dynamics(rest: Rest, frames: Array, stiffness: Array, inertia: float) -> Fil
     held: Array = np.where(rest.pads.loaded, 0.0, _HELD)
     pivots = np.broadcast_to(np.asarray(stiffness, dtype=float)[..., None], held.shape)
     return FilmDynamics(
-        stiffness=_joined(rest.pads.stiffness, frames, pivots + held),
-        damping=_joined(rest.pads.damping, frames, held),
+        stiffness=joined(rest.pads.stiffness, frames, pivots + held),
+        damping=joined(rest.pads.damping, frames, held),
         inertia=np.full(number, inertia),
     )
 
 
-def _joined(pads: Array, frames: Array, own: Array) -> Array:
+def joined(pads: Array, frames: Array, own: Array) -> Array:
     """Return (..., 2+N, 2+N) of pads' (..., N, 2, 2) and what acts on each tilt alone (..., N)."""
     number = len(frames)
     whole = np.zeros((*pads.shape[:-3], 2 + number, 2 + number))

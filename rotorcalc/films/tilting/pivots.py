@@ -54,7 +54,7 @@ class Pivots:
         place = np.arange(self.number) + (0.0 if self.on_pad else 0.5)
         return pitch * np.where(place > self.number / 2.0, place - self.number, place)
 
-    @property
+    @functools.cached_property
     def frames(self) -> Array:
         """Rows n and t of each pad's frame, (N, 2, 2)."""
         cos, sin = np.cos(self.angle), np.sin(self.angle)
