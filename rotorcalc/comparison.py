@@ -224,7 +224,7 @@ def bearing_result(machine: Machine, speed: float) -> BearingResult:
         onset=onset.speed,
         margin=onset.speed / speed - 1.0,
         whirl_ratio=float(sweep.whirl_ratio),
-        log_decrement=_log_decrement(sweep),
+        log_decrement=log_decrement(sweep),
         minimum_film_thickness=float(sweep.minimum_film_thickness),
         eccentricity_ratio=float(sweep.eccentricity_ratio),
         power_loss=float(sweep.power_loss),
@@ -253,7 +253,7 @@ def _refused(machine: Machine, reason: str) -> BearingResult:
     return BearingResult(machine.bearing, given, refusal=reason)
 
 
-def _log_decrement(sweep: Sweep) -> float:
+def log_decrement(sweep: Sweep) -> float:
     """Return the smallest decrement of an oscillating mode, infinite where there is none."""
     values = sweep.flexible_eigenvalues
     swings = values[values.imag > 0.0]

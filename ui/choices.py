@@ -20,6 +20,7 @@ NAMES = frozenset((
     "tab", "scale", "over", "axes", "shaft", "spiral", "shown", "varied", "x", "y", "vary",
     "wanted", "margin", "target", "kick", "revolutions",
     "speeds", "balance", "pace", "picture",
+    "spreads", "samples", "seed",
 ))  # fmt: skip
 _KEY = "rotorcalc_choices"
 # The choices of a release, which undo brings back: least and largest value of each.

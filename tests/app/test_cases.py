@@ -31,7 +31,9 @@ from ui.results.table import RESULTS
 from ui.sharing import address
 
 # The drawing of the axes shows no machine; these results are computed once a visitor asks.
-ALONE = {"conventions", "orbits_hysteresis", "orbits_waterfall", "orbits_cycles"}
+ALONE = {"conventions", "orbits_hysteresis", "orbits_waterfall", "orbits_cycles"} | {
+    f"tolerances_{name}" for name in ("onset", "margin", "ranking", "cloud")
+}
 DEFAULT = PRESET_VALUES[DEFAULT_PRESET]
 TWO = "Wide~3~C~95~~Thin oil~1~T~90~mu~9"
 

@@ -34,7 +34,9 @@ every_drawn_page = pytest.mark.parametrize(
 )
 
 # Charts that show nothing but the running speed, or no machine at all.
-UNMARKED = {"energy_bars", "tornado", "orbits", "conventions"}
+UNMARKED = {
+    "energy_bars", "tornado", "orbits", "conventions", "tolerances_ranking", "tolerances_cloud",
+}  # fmt: skip
 
 # A quantity with its unit, or in or over another of its kind.
 NAMED = re.compile(r"\w.*\[.+\]|\w/\w|, in \w")

@@ -7,10 +7,12 @@ from collections.abc import Callable
 
 import numpy as np
 
-from rotorcalc import Machine, Onsets, compare_bearings, design, onsets
+from rotorcalc import Machine, Onsets, Tolerance, compare_bearings, design, onsets, tolerance
+from rotorcalc import input_sweep as sweeps
 from rotorcalc.arrays import Array
 from rotorcalc.comparison import BearingResult, bearing_result
 from rotorcalc.geometry import Geometry
+from rotorcalc.input_sweep import InputSweep
 from rotorcalc.nonlinear import release as releases
 from rotorcalc.nonlinear import run_up as run_ups
 from rotorcalc.nonlinear.measured_onset import GrowthCurve, growth_curve
@@ -19,6 +21,8 @@ from rotorcalc.nonlinear.run_up import RunUp
 Progress = Callable[[float], object]
 # An input's name in the core, the ends of its axis, and whether that is logarithmic.
 Axis = tuple[str, float, float, bool]
+# Inputs and their distributions, as `tolerance` has them in a mapping.
+Spreads = tuple[tuple[str, tuple[str | float, ...]], ...]
 
 # Revolutions from which a release is sampled half as finely.
 LONG = 150
@@ -78,6 +82,29 @@ def bearing(machine: Machine, speed: float, geometry: Geometry | None) -> Bearin
     if geometry is None:
         return bearing_result(machine, speed)
     return compare_bearings(machine, (geometry,), speed=speed)[0]
+
+
+def study(  # noqa: PLR0913, PLR0917 - what is drawn, which is also what its result is kept by
+    machine: Machine,
+    speed: float,
+    spreads: Spreads,
+    samples: int,
+    seed: int,
+    progress: Progress | None = None,
+) -> Tolerance:
+    """Return the onsets of machines drawn within spreads, and what follows at a speed."""
+    return tolerance(machine, dict(spreads), samples, seed, speed=speed, progress=progress)
+
+
+def input_sweep(
+    machine: Machine,
+    field: str,
+    values: tuple[float, ...],
+    speed: float,
+    progress: Progress | None = None,
+) -> InputSweep:
+    """Return a machine over the values of one input."""
+    return sweeps.input_sweep(machine, vary=field, values=values, speed=speed, progress=progress)
 
 
 def _places(axis: Axis, points: int) -> tuple[str, Array]:

@@ -66,7 +66,7 @@ def sweep_csv(computed: Computed, units: Units) -> bytes:
     numbers = np.stack([unit.of(values) for _, unit, values in columns], axis=-1)
     file = io.StringIO(newline="")
     writer = csv.writer(file)
-    writer.writerows(_head(computed, units))
+    writer.writerows(head(computed, units))
     writer.writerow(f"{words} [{unit.name}]" for words, unit, _ in columns)
     writer.writerows([f"{number:.10g}" for number in row] for row in numbers.tolist())
     return file.getvalue().encode("utf-8-sig")
@@ -87,8 +87,22 @@ def ross_axes(coefficients: Array) -> Array:
     return _TO_ROSS @ coefficients @ _TO_ROSS.T + 0.0
 
 
-def _head(computed: Computed, units: Units) -> Iterator[tuple[str, str]]:
-    """Yield the lines before the table: inputs and onset."""
+def head(computed: Computed, units: Units) -> Iterator[tuple[str, str]]:
+    """Yield the lines before a table: inputs, onset and modes."""
+    yield from inputs(computed, units)
+    onset = computed.onset
+    for words, speed in (
+        ("Onset of whirl", onset.speed),
+        ("Whirl frequency at the onset", onset.whirl_frequency),
+    ):
+        yield f"# {words} [{units.speed.name}]", f"{float(units.speed.of(speed)):.10g}"
+    if not computed.machine.rotor.is_rigid:
+        yield from _parts_moving("Mode", computed.locus(True))
+    yield from _parts_moving("Rigid rotor, mode", computed.locus(False))
+
+
+def inputs(computed: Computed, units: Units) -> Iterator[tuple[str, str]]:
+    """Yield the lines of a machine's inputs."""
     values = values_of(computed.machine, computed.speed, computed.top_speed)
     for key, item in INPUTS.items():
         if not applies(key, values):
@@ -99,15 +113,6 @@ def _head(computed: Computed, units: Units) -> Iterator[tuple[str, str]]:
     yield "# Film", film_name(values)
     for field in fields_of(values[KIND]).values():
         yield f"# {field.name_in(units)}", field.shown(values.get(field.key), units)
-    onset = computed.onset
-    for words, speed in (
-        ("Onset of whirl", onset.speed),
-        ("Whirl frequency at the onset", onset.whirl_frequency),
-    ):
-        yield f"# {words} [{units.speed.name}]", f"{float(units.speed.of(speed)):.10g}"
-    if not computed.machine.rotor.is_rigid:
-        yield from _parts_moving("Mode", computed.locus(True))
-    yield from _parts_moving("Rigid rotor, mode", computed.locus(False))
 
 
 def _parts_moving(words: str, locus: Locus) -> Iterator[tuple[str, str]]:

@@ -13,6 +13,7 @@ import streamlit as st
 
 from rotorcalc import Machine, design, rpm, variation
 from rotorcalc.figures.design import Quantity
+from rotorcalc.records import Bound
 from rotorcalc.units import SI, Units
 from ui.bearing import Field
 from ui.bearing import fields_of as bore_fields
@@ -47,12 +48,16 @@ TORNADO = (
 
 
 def fields_of(machine: Machine) -> dict[str, str]:
-    """Return the core's names of the inputs that move a machine's onset, by their keys."""
+    """Return the core's names of the inputs that move a machine's onset, by their keys.
+
+    A number of pads is none: between two whole numbers there is no machine.
+    """
     gas = machine.bearing.geometry.lubricant == "gas"
     own = {key: item.field for key, item in INPUTS.items() if key not in (OIL if gas else GAS)}
     named = own | {
         key: f"bearing.geometry.{field.name}"
         for key, field in bore_fields(machine.bearing.geometry.kind).items()
+        if isinstance(field.rule.check, Bound) and not field.rule.check.whole
     }
     moving = design.inputs_of(machine)
     return {key: field for key, field in named.items() if field in moving}

@@ -1,0 +1,124 @@
+"""What one input does, all others as they are: onset, margin, damping and film over its values.
+
+An input is named by its field, "radial_clearance" or "bearing.geometry.preload".
+"""
+
+from collections.abc import Callable
+from concurrent.futures import Executor
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rotorcalc.analysis import analyse
+from rotorcalc.arguments import checked
+from rotorcalc.arrays import Array, checked_speed, real_array
+from rotorcalc.comparison import log_decrement
+from rotorcalc.display import Result
+from rotorcalc.machine import Machine
+from rotorcalc.numerics.parts import in_parts
+from rotorcalc.onset.many import onset_speeds
+from rotorcalc.variation import address, changed
+
+# Values that are solved together, so that progress can be told.
+_TOGETHER = 8
+
+
+@dataclass(frozen=True, eq=False)
+class InputSweep(Result):
+    """A machine over the values of one input.
+
+    Attributes
+    ----------
+    field : str
+        The input.
+    speed : float
+        Running speed, Ω [rad/s].
+    values : array, (n,)
+        Its values in SI.
+    onset : array, (n,)
+        Onset speed, Ω_s [rad/s]; infinite where there is none.
+    margin : array, (n,)
+        Onset speed over running speed, less 1 [-].
+    log_decrement : array, (n,)
+        Smallest logarithmic decrement of an oscillating mode at the running speed [-]; infinite
+        where none oscillates.
+    minimum_film_thickness : array, (n,)
+        Smallest film at the running speed, h_min [m].
+
+    Everywhere NaN where a value is no valid machine, or its film has no answer.
+    """
+
+    field: str
+    speed: float
+    values: Array
+    onset: Array
+    margin: Array
+    log_decrement: Array
+    minimum_film_thickness: Array
+
+
+@checked
+def input_sweep(  # noqa: PLR0913 - an input with its values, and where to compute
+    machine: Machine,
+    *,
+    vary: str,
+    values: ArrayLike,
+    speed: float,
+    executor: Executor | None = None,
+    progress: Callable[[float], object] | None = None,
+) -> InputSweep:
+    """Return a machine over the values of one input.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    vary : str
+        The input, "bearing.radial_clearance" or "radial_clearance".
+    values : array_like, (n,)
+        Its values in SI.
+    speed : float
+        Running speed, Ω [rad/s], positive.
+    executor : concurrent.futures.Executor, optional
+        Computes values at the same time.
+    progress : callable, optional
+        Called with the share that is done, from above 0 to 1.
+
+    Returns
+    -------
+    InputSweep
+        A number for each value.
+
+    Raises
+    ------
+    ValueError
+        Where there is no such input, the values are no list, or the speed is not positive.
+    """
+    running = float(checked_speed(speed))
+    given = real_array("values", values)
+    if given.ndim != 1 or not given.size:
+        raise ValueError(f"values: must be a list, (n,), has the shape {given.shape}")
+    solved = partial(_solved, machine, address(machine, vary), running)
+    parts = [given[first : first + _TOGETHER] for first in range(0, len(given), _TOGETHER)]
+    found = np.concatenate(list(in_parts(solved, parts, executor=executor, progress=progress)))
+    onset, decrement, film = found.T
+    return InputSweep(
+        field=vary, speed=running, values=given, onset=onset, margin=onset / running - 1.0,
+        log_decrement=decrement, minimum_film_thickness=film,
+    )  # fmt: skip
+
+
+def _solved(machine: Machine, path: tuple[str, ...], speed: float, values: Array) -> Array:
+    """Return onset, log decrement and smallest film for each value, (n, 3)."""
+    found = np.full((len(values), 3), np.nan)
+    for i, value in enumerate(values.tolist()):
+        try:
+            one = changed(machine, {path: value})
+            point = analyse(one, speed)
+            found[i, 0] = onset_speeds([one])[0]
+        except ValueError:
+            continue
+        found[i, 1:] = log_decrement(point), point.minimum_film_thickness
+    return found
