@@ -20,6 +20,7 @@ from rotorcalc import (
 from rotorcalc.analysis import FilmCurves, Sweep, analyse, film_curves
 from rotorcalc.batch import read_machines
 from rotorcalc.coefficient_files import read_coefficients
+from rotorcalc.coefficient_table import CoefficientTable
 from rotorcalc.comparison import BearingResult, compare_bearings
 from rotorcalc.criteria import Amplification, LevelOne, amplification, level_one
 from rotorcalc.design import onset_map, sensitivities, solve_onset
@@ -81,6 +82,7 @@ __all__ = [
     "BearingResult",
     "Bifurcation",
     "BifurcationError",
+    "CoefficientTable",
     "Elliptical",
     "EnergyBalance",
     "FilmCurves",

@@ -18,7 +18,7 @@ from rotorcalc.display import Result
 from rotorcalc.films import FilmDynamics, FilmState, film_of, film_state
 from rotorcalc.films.dynamics import NO_INERTIA
 from rotorcalc.frames import rotate
-from rotorcalc.machine import JournalBearing, Machine
+from rotorcalc.machine import Bearing, Machine
 from rotorcalc.onset.eigenvalues import certain_eigenvalues, certain_mode_shapes
 from rotorcalc.onset.whirl import WhirlOnset, flexible_threshold, whirl_onset
 from rotorcalc.tables import columns, dataframe, eigenvalue_columns
@@ -292,7 +292,7 @@ class FilmCurves(Result):
 
 @checked
 def film_curves(
-    bearing: JournalBearing,
+    bearing: Bearing,
     sommerfeld: ArrayLike,
     *,
     viscosity: ArrayLike = 1.0,
@@ -302,7 +302,7 @@ def film_curves(
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         The bearing.
     sommerfeld : array_like, (...)
         σ [-], positive; infinite without load, where the threshold is the limit for a vanishing

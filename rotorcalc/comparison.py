@@ -10,6 +10,7 @@ import numpy as np
 from rotorcalc import heat, modes
 from rotorcalc.analysis import Sweep, analyse
 from rotorcalc.arguments import checked
+from rotorcalc.coefficient_table import CoefficientTable
 from rotorcalc.coefficients import checked_speed, equilibrium
 from rotorcalc.display import Result
 from rotorcalc.gas import Gas
@@ -28,7 +29,7 @@ from rotorcalc.geometry import (
     PressureDam,
     TiltingPads,
 )
-from rotorcalc.machine import JournalBearing, Machine, Oil
+from rotorcalc.machine import Bearing, Machine, Oil
 from rotorcalc.numerics.first_answer import from_first_answer
 from rotorcalc.onset import onset_speed
 from rotorcalc.unbalance_peaks import response_peaks
@@ -64,7 +65,7 @@ class BearingResult(Result):
 
     Attributes
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         The bearing.
     temperature : float
         Temperature of the film [°C]; with a supply by each bearing's own balance of heat.
@@ -95,7 +96,7 @@ class BearingResult(Result):
         Speed of that peak [rad/s].
     """
 
-    bearing: JournalBearing
+    bearing: Bearing
     temperature: float
     refusal: str = ""
     onset: float = math.nan
@@ -163,25 +164,40 @@ def compare_bearings(
 
 
 @checked
-def usual_bores(bearing: JournalBearing) -> tuple[Geometry, ...]:
+def usual_bores(bearing: Bearing) -> tuple[Geometry, ...]:
     """Return a bore of every kind as is usual around a bearing's journal.
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         Its diameter, length and clearance enter, and whether it runs on a gas.
 
     Returns
     -------
     tuple of Geometry
         In the order of `KINDS`; in place of a bearing on gas only those that take a gas.
+
+    Raises
+    ------
+    ValueError
+        Where the bearing is known by its coefficients alone: its size is not known then.
     """
+    _refuse_table(bearing)
     D, L, C = bearing.diameter, bearing.length, bearing.radial_clearance
     on_oil = bearing.geometry.lubricant == "oil"
     return tuple(kind.around(D, L, C) for kind in KINDS if on_oil or kind.lubricant == "gas")
 
 
+def _refuse_table(bearing: Bearing) -> None:
+    if isinstance(bearing, CoefficientTable):
+        raise ValueError(
+            f"bearing = {bearing.geometry.kind}: a table of coefficients has no diameter, length "
+            "and clearance with which another bearing could take its place"
+        )
+
+
 def _with(machine: Machine, geometry: Geometry) -> Machine:
+    _refuse_table(machine.bearing)
     film = "finite" if "finite" in geometry.models else None
     bearing = replace(machine.bearing, geometry=geometry, film=film)
     if geometry.lubricant == "gas" and isinstance(machine.oil, Oil):

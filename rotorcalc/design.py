@@ -20,6 +20,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, real_array
+from rotorcalc.coefficient_table import CoefficientTable
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine, Oil
 from rotorcalc.numerics.parts import in_parts
@@ -160,6 +161,8 @@ class OnsetSolution(Result):
 def inputs_of(machine: Machine) -> tuple[str, ...]:
     """Return the inputs that affect the onset of a machine, those of its bearing's bore too.
 
+    With a table of coefficients they are the rotor's alone.
+
     Parameters
     ----------
     machine : Machine
@@ -170,6 +173,8 @@ def inputs_of(machine: Machine) -> tuple[str, ...]:
     tuple of str
         "rotor.mass", …, "bearing.geometry.preload".
     """
+    if isinstance(machine.bearing, CoefficientTable):
+        return tuple(name for name in INPUTS if name.startswith("rotor."))
     bore = (path for path in number_paths(machine) if path[:2] == ("bearing", "geometry"))
     own = INPUTS if isinstance(machine.oil, Oil) else GAS_INPUTS
     if machine.supply is not None:

@@ -28,7 +28,7 @@ from scipy.special import wrightomega
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, checked_speed, real_array
 from rotorcalc.display import Result
-from rotorcalc.films import FilmUnits, OperatingPoints, film_of, turning_bounds
+from rotorcalc.films import FilmUnits, OperatingPoints, film_of, has_answer, turning_bounds
 from rotorcalc.machine import HOTTEST, Machine, Supply, oil_of
 
 # A step of θ below this share of it is the last: it leaves an error about a hundred thousand times
@@ -167,9 +167,9 @@ def has_film(machine: Machine, speed: ArrayLike) -> BoolArray:
     """
     speeds = checked_speed(speed)
     if machine.temperature is not None:
-        least, largest = turning_bounds(machine.bearing, machine.static_load)
-        turning = machine.viscosity * speeds
-        return np.asarray((turning >= least) & (turning <= largest))
+        return has_answer(
+            machine.bearing, speeds, viscosity=machine.viscosity, load=machine.static_load
+        )
     return ~np.isnan(_temperatures(machine, speeds))
 
 

@@ -9,13 +9,14 @@ import json
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Annotated, Any, ClassVar, Self, cast
+from typing import Annotated, Any, ClassVar, Self, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.constants import g, zero_Celsius
 
 from rotorcalc.arrays import Array, real_array, shown
+from rotorcalc.coefficient_table import BearingRecord, CoefficientTable
 from rotorcalc.gas import Gas, Lubricant
 from rotorcalc.geometry import WIDEST, Geometry, Plain
 from rotorcalc.records import Bound, Choice, Record, from_tree, parsed, to_tree
@@ -231,7 +232,7 @@ class Supply(Record):
 
 
 @dataclass(frozen=True, kw_only=True)
-class JournalBearing(Record):
+class JournalBearing(BearingRecord):
     """A journal bearing.
 
     Parameters
@@ -254,6 +255,8 @@ class JournalBearing(Record):
     ValueError
         Naming the field, its value and its bound; also where the geometry has no such film model.
     """
+
+    kind: ClassVar[str] = "journal"
 
     diameter: Annotated[float, Bound("m", above=0.0)]
     length: Annotated[float, Bound("m", above=0.0)]
@@ -297,6 +300,9 @@ class JournalBearing(Record):
     def model(self) -> str:
         """Name of this bearing's film model."""
         return self.geometry.models[0] if self.film is None else self.film
+
+
+Bearing: TypeAlias = JournalBearing | CoefficientTable
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -360,8 +366,9 @@ class Machine(Record):
     Parameters
     ----------
     oil : Oil or Gas
-        The lubricant: a gas in a foil bearing, an oil in every other.
-    bearing : JournalBearing
+        The lubricant: a gas in a foil bearing, an oil in every other. Of a bearing's own
+        coefficients neither it nor its temperature changes anything.
+    bearing : JournalBearing or CoefficientTable
         Either of the two bearings.
     rotor : Rotor
         The rotor.
@@ -371,7 +378,7 @@ class Machine(Record):
         Static load per bearing, F_o [N], zero or more; None for half the rotor's weight.
     supply : Supply or None
         The oil supplied to each bearing, in place of the film's temperature: that then follows at
-        each speed from the balance of heat (`heat`).
+        each speed from the balance of heat (`heat`), which a table of coefficients does not know.
 
     Raises
     ------
@@ -381,7 +388,7 @@ class Machine(Record):
     """
 
     oil: Annotated[Oil | Gas, Lubricant]
-    bearing: JournalBearing
+    bearing: Annotated[Bearing, BearingRecord]
     rotor: Rotor
     temperature: Annotated[float | None, Bound("°C", at_least=-zero_Celsius)] = None
     load: Annotated[float | None, Bound("N", at_least=0.0)] = None
@@ -415,6 +422,13 @@ class Machine(Record):
             )
 
     def _check_lubricant(self) -> None:
+        if isinstance(self.bearing, CoefficientTable):  # its coefficients may be those of any
+            if self.supply is not None:
+                raise ValueError(
+                    "supply: sets the film's temperature by its loss, which a table of "
+                    "coefficients does not know; give a temperature, which changes nothing"
+                )
+            return
         geometry, is_gas = self.bearing.geometry, isinstance(self.oil, Gas)
         if is_gas != (geometry.lubricant == "gas"):
             given, wanted = ("a Gas", "an Oil") if is_gas else ("an Oil", "a Gas")

@@ -9,7 +9,7 @@ import numpy as np
 from rotorcalc import modes
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import BoolArray
-from rotorcalc.machine import JournalBearing
+from rotorcalc.machine import Bearing
 from rotorcalc.modes import ModeShapes
 
 # The parts' share from which on a mode is theirs: they move twice as far as the journal.
@@ -20,12 +20,12 @@ _PARTS = {"floating-ring": "ring", "tilting-pads": "pads", "foil": "foil"}
 
 
 @checked
-def mode_names(bearing: JournalBearing, shapes: ModeShapes) -> tuple[str, ...]:
+def mode_names(bearing: Bearing, shapes: ModeShapes) -> tuple[str, ...]:
     """Return what moves in each mode where it is not the rotor alone.
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         The bearing.
     shapes : ModeShapes
         The n modes of a rotor on it at one speed.

@@ -20,6 +20,9 @@ from typing import (
     get_type_hints,
 )
 
+import numpy as np
+from numpy.typing import NDArray
+
 from rotorcalc.arrays import shown
 
 
@@ -77,10 +80,49 @@ class Choice:
 
 
 @dataclass(frozen=True)
+class Grid:
+    """A list of numbers, (n,), or of arrays of numbers of one shape, (n, *ends), in a unit."""
+
+    unit: str
+    ends: tuple[int, ...] = ()
+
+    def check(self, name: str, value: object) -> tuple[Any, ...]:
+        """Return `value` as tuples of floats, or raise ValueError naming the place in it."""
+        wanted = "n" + "".join(f", {size}" for size in self.ends)
+        rows = _rows(value)
+        if rows is None:
+            raise ValueError(f"{name} = {shown(value)}: must be a list of numbers, ({wanted})")
+        return tuple(
+            self._checked(f"{name}[{i}]", row, self.ends, wanted) for i, row in enumerate(rows)
+        )
+
+    def _checked(self, name: str, value: object, ends: tuple[int, ...], wanted: str) -> Any:
+        if not ends:
+            return Bound(self.unit).check(name, value)
+        rows = _rows(value)
+        if rows is None or len(rows) != ends[0]:
+            raise ValueError(
+                f"{name} = {shown(value)}: must be a list of {ends[0]}; the whole has the shape "
+                f"({wanted})"
+            )
+        return tuple(
+            self._checked(f"{name}[{i}]", row, ends[1:], wanted) for i, row in enumerate(rows)
+        )
+
+
+def _rows(value: object) -> list[Any] | None:
+    """Return the rows of a list, a tuple or an array; None of anything else."""
+    if isinstance(value, np.ndarray):
+        array = cast("NDArray[Any]", value)
+        return list(array) if array.ndim else None
+    return list(cast("list[Any]", value)) if isinstance(value, list | tuple) else None
+
+
+@dataclass(frozen=True)
 class Rule:
     """What a field of a record accepts: a check or a class, whether None too, and its default."""
 
-    check: "Bound | Choice | type[Record]"
+    check: "Bound | Choice | Grid | type[Record]"
     optional: bool
     default: object
 

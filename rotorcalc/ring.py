@@ -14,7 +14,7 @@ from rotorcalc.coefficients import operating_points
 from rotorcalc.display import Result
 from rotorcalc.films import FilmState, FilmUnits, film_of
 from rotorcalc.films.ring import RingFilm, balance
-from rotorcalc.machine import JournalBearing, Machine
+from rotorcalc.machine import Bearing, Machine
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,12 +112,12 @@ def ring_speed(machine: Machine, speed: ArrayLike) -> Array:
 
 
 @checked
-def unloaded_speed_ratio(bearing: JournalBearing) -> float:
+def unloaded_speed_ratio(bearing: Bearing) -> float:
     """Return the ring's speed over the shaft's without load, the most that it can be.
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         The bearing, with a floating ring.
 
     Returns
@@ -179,7 +179,7 @@ def ring_equilibrium(machine: Machine, speed: ArrayLike) -> RingEquilibrium:
 class _Turning:
     """A plain film whose inner and outer surface turn at Ω_a and Ω_b, under a load."""
 
-    bearing: JournalBearing
+    bearing: Bearing
     viscosity: Array | float
     inner_speed: Array
     outer_speed: Array
@@ -216,7 +216,7 @@ def _with_dimensions(state: FilmState, film: _Turning) -> RingFilmEquilibrium:
     )
 
 
-def ring_film(bearing: JournalBearing) -> RingFilm:
+def ring_film(bearing: Bearing) -> RingFilm:
     """Return the film of a bearing with a floating ring, or raise ValueError."""
     film = film_of(bearing)
     if not isinstance(film, RingFilm):

@@ -14,7 +14,7 @@ from scipy.optimize import linear_sum_assignment
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.display import Result
-from rotorcalc.machine import JournalBearing
+from rotorcalc.machine import Bearing
 from rotorcalc.mode_names import mode_names
 from rotorcalc.modes import ModeShapes, leading_place
 
@@ -64,7 +64,7 @@ def root_locus(
     *,
     running_speed: float,
     shapes: ModeShapes,
-    bearing: JournalBearing,
+    bearing: Bearing,
 ) -> Locus:
     """Return followed eigenvalues and the modes at the running speed, in one order.
 
@@ -78,7 +78,7 @@ def root_locus(
         Ω [rad/s].
     shapes : ModeShapes
         All m modes at the running speed.
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         The bearing, whose parts may move too.
 
     Returns

@@ -21,7 +21,7 @@ from rotorcalc.arrays import Array, real_array
 from rotorcalc.coefficients import dynamics
 from rotorcalc.display import Result
 from rotorcalc.films import film_of
-from rotorcalc.machine import JournalBearing
+from rotorcalc.machine import Bearing
 from rotorcalc.onset.whirl import flexible_threshold
 
 # Over the disk's own mass: up to these its critical mass is sought, and down to their inverses.
@@ -169,12 +169,12 @@ def flexible_curves(curves: FilmCurves, sag_ratio: ArrayLike) -> Array:
 
 
 @checked
-def film_limit(bearing: JournalBearing) -> FilmCurves:
+def film_limit(bearing: Bearing) -> FilmCurves:
     """Return the film at the limit of whirl: at any higher eccentricity every rotor is stable.
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         The bearing.
 
     Returns
@@ -218,12 +218,12 @@ def film_limit(bearing: JournalBearing) -> FilmCurves:
 
 
 @functools.lru_cache(maxsize=64)
-def lowest_threshold(bearing: JournalBearing) -> float:
+def lowest_threshold(bearing: Bearing) -> float:
     """Return the eccentricity ratio at which a rigid rotor's dimensionless threshold is lowest.
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         The bearing.
 
     Returns

@@ -16,6 +16,7 @@ from rotorcalc import heat
 from rotorcalc.analysis import Sweep
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
+from rotorcalc.coefficient_table import CoefficientTable
 from rotorcalc.coefficients import operating_points
 from rotorcalc.display import Result, in_brief
 from rotorcalc.films import film_of
@@ -93,10 +94,12 @@ def validity(sweep: Sweep) -> tuple[Check, ...]:
         the film against that by which its viscosity halves (`HEAT`); on recesses the lowest
         pressure of the film against the atmospheric one; of a gas how far it is compressed, and
         the mean free path of its molecules against the smallest film. Numbers and verdicts have
-        the shape (...).
+        the shape (...). None for a table of coefficients, whose film is not known.
     """
     machine = sweep.machine
     bearing = machine.bearing
+    if isinstance(bearing, CoefficientTable):
+        return ()
     R, C = bearing.radius, bearing.radial_clearance
     film = sweep.minimum_film_thickness
     reynolds = _density(sweep) * sweep.speed * R * C / sweep.viscosity

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Any, cast
 
 from rotorcalc.arguments import checked
+from rotorcalc.coefficient_table import CoefficientTable
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.machine import Machine
 from rotorcalc.records import R, number_paths
@@ -100,6 +101,8 @@ def address(machine: Machine, field: str) -> tuple[str, ...]:
         Where there is no such input, or more than one of that name.
     """
     known = list(number_paths(machine))
+    if isinstance(machine.bearing, CoefficientTable):
+        known = [path for path in known if path[0] == "rotor"]
     if machine.supply is not None:
         if field == "temperature":
             raise ValueError(
@@ -116,6 +119,11 @@ def address(machine: Machine, field: str) -> tuple[str, ...]:
     if found:
         raise ValueError(f"{field!r}: may be {' or '.join(map('.'.join, found))}")
     names = ", ".join(sorted(map(".".join, known)))
+    if isinstance(machine.bearing, CoefficientTable):
+        raise ValueError(
+            f"{field[:80]!r}: a table of coefficients does not depend on it, but holds for one "
+            f"bearing, oil and load; of such a machine the rotor can be varied: {names}"
+        )
     raise ValueError(f"{field[:80]!r}: no input of a machine; known are {names}")
 
 
@@ -142,9 +150,11 @@ def damping_reference(machine: Machine) -> float:
     -------
     float
         Critical damping of the disk on its shaft, 2√(K_rot m_d); for a rigid shaft the centred
-        film's direct damping, to which the damper's is then added.
+        film's direct damping, to which the damper's is then added, or that of a table's first row.
     """
     rotor = machine.rotor
+    if rotor.is_rigid and isinstance(machine.bearing, CoefficientTable):
+        return float(equilibrium(machine, machine.bearing.first).damping[0, 0])
     if rotor.is_rigid:
         # The centred film's damping does not depend on speed: any speed will do.
         centred = replace(machine, load=0.0)

@@ -18,6 +18,7 @@ from scipy.optimize import brentq
 
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, checked_speed
+from rotorcalc.coefficient_table import CoefficientTable
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.films import FilmUnits, OperatingPoints, film_of
 from rotorcalc.films.short import modified_sommerfeld
@@ -65,7 +66,8 @@ def load_for(
     Raises
     ------
     ValueError
-        Where not exactly one is given, it is not positive, or no load or more than one gives it.
+        Where not exactly one is given, it is not positive, no load or more than one gives it, or
+        the bearing is known by its coefficients alone.
 
     Examples
     --------
@@ -76,6 +78,11 @@ def load_for(
     0.5
     """
     checked_speed(speed)
+    if isinstance(machine.bearing, CoefficientTable):
+        raise ValueError(
+            f"bearing = {machine.bearing.geometry.kind}: a table of coefficients knows neither the "
+            "journal's place nor a Sommerfeld number, whatever the load"
+        )
     given = {
         "eccentricity_ratio": eccentricity_ratio,
         "sommerfeld": sommerfeld,

@@ -74,7 +74,7 @@ GOOD: dict[str, Any] = {
     "cross_coupling": 1e6, "power": 1e6, "diameter": 0.4, "width": 0.02,
     "amplification_factor": 5.0, "above": True, "whirl_ratio": 0.5,
     "spreads": {"load": ("uniform", 1e3, 2e3)}, "natural_frequency": 100.0,
-    "load": 100.0,
+    "load": 100.0, "viscosity": 0.01,
     "text": "speed [rpm]\n6000", "cases": [CASE], "results": [], "columns": {"line": [2]},
 }  # fmt: skip
 # Where a name means something else.

@@ -197,7 +197,8 @@ def test_any_real_number_is_kept_as_a_float(value):
 @pytest.mark.parametrize("name", ["oil", "bearing", "rotor"])
 @pytest.mark.parametrize("value", [None, {}, "oil", 1.0, Unprintable()])
 def test_a_component_of_the_wrong_type_is_refused(name, value):
-    kind = "Gas or Oil" if name == "oil" else type(GOOD[Machine][name]).__name__
+    kinds = {"oil": "Gas or Oil", "bearing": "CoefficientTable or JournalBearing"}
+    kind = kinds.get(name, "Rotor")
     message = error(Machine, **{name: value})
     assert message.startswith(f"{name} = ")
     assert message.endswith(f"must be {kind}")

@@ -9,8 +9,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass
 
-from rotorcalc import JournalBearing
 from rotorcalc.geometry import Geometry
+from rotorcalc.machine import Bearing
 from rotorcalc.records import Bound, Choice, Rule, rules
 from rotorcalc.units import SI, Unit, Units
 from ui.bores import BORES, FILM, FILMS, KIND, Value, Values
@@ -127,7 +127,7 @@ def film_name(values: Mapping[str, Value]) -> str:
     return FILMS.get(model, model)
 
 
-def bearing_values(bearing: JournalBearing) -> Values:
+def bearing_values(bearing: Bearing) -> Values:
     """Return kind, film model and fields of a bearing as they are kept."""
     geometry = bearing.geometry
     fields = fields_of(geometry.kind)

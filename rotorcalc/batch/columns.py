@@ -13,7 +13,7 @@ from scipy import constants
 from scipy.constants import bar, inch, lb, lbf, liter, mil, minute, psi, zero_Celsius
 
 from rotorcalc.machine import Machine
-from rotorcalc.records import Bound, Kind, Record, rules
+from rotorcalc.records import Bound, Grid, Kind, Record, rules
 from rotorcalc.units import Unit, rpm
 
 _REYN = lbf / inch**2
@@ -172,6 +172,6 @@ def _fields(record: type[Record], path: tuple[str, ...]) -> list[tuple[tuple[str
             below = (*path, name)
             if isinstance(rule.check, type):
                 found |= dict(_fields(rule.check, below))
-            else:
+            elif not isinstance(rule.check, Grid):  # a table fits in no cell
                 found.setdefault(below, rule.check)
     return list(found.items())

@@ -28,6 +28,7 @@ from rotorcalc import heat
 from rotorcalc.analysis import analyse
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, checked_speed, real_array
+from rotorcalc.coefficient_table import CoefficientTable
 from rotorcalc.coefficients import rising_speed, stiffness_and_damping
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine
@@ -101,7 +102,8 @@ def amplification(
         The machine. Its imbalance scales the amplitude alone, and may be zero.
     speeds : array_like, (n,), or None
         Rising speeds between which critical speeds are sought, Ω [rad/s]; None for a range that
-        follows from shaft and load, beyond the maximum speed.
+        follows from shaft and load, beyond the maximum speed, or for that of a table of
+        coefficients.
     minimum_speed, maximum_speed : float or None
         Lowest and highest speed of continuous operation [rad/s]; one alone is both.
     at : str
@@ -187,6 +189,8 @@ def _operating_speeds(minimum: float | None, maximum: float | None) -> tuple[flo
 
 def _own_speeds(machine: Machine, operating: tuple[float, float] | None) -> Array:
     """Return speeds over which a machine's resonances may be expected."""
+    if isinstance(machine.bearing, CoefficientTable):
+        return np.geomspace(machine.bearing.first, machine.bearing.last, _SPEEDS)
     rotor, C = machine.rotor, machine.bearing.radial_clearance
     # K_eq of a film is of the size of F_o/C, and a shaft in rigid bearings has √(K_rot/M).
     of_film = max(machine.static_load / rotor.half_mass, g) / C

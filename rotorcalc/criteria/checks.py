@@ -227,13 +227,14 @@ def _response(machine: Machine, low: float, top: float) -> list[Criterion]:
     """Return the vibration at the probes and the clearance check."""
     limit, clearance = float(vibration_limit(top)), 2.0 * machine.bearing.assembled_clearance
     unjudged = _no_response(machine, top)
+    unknown = "" if clearance > 0.0 else "Of own coefficients the clearance is not known."
     vibration = share = math.nan
     remark = ""
     if not unjudged:
         vibration = 2.0 * _largest(machine, low, top)
         scale = min(max(limit / vibration, _LEAST_SCALE), _LARGEST_SCALE)
         share = scale * 2.0 * _largest(machine, 0.0, top) / clearance
-        remark = f"The response is scaled by {scale:.3g}."
+        remark = "" if unknown else f"The response is scaled by {scale:.3g}."
     return [
         Criterion(
             name="Vibration at the bearings, peak to peak", value=vibration, limit=limit,
@@ -242,7 +243,7 @@ def _response(machine: Machine, low: float, top: float) -> list[Criterion]:
         Criterion(
             name="Scaled response over the diametral clearance", value=share,
             limit=CLEARANCE_SHARE, at_most=True, kind="percent", source=_CLEARANCE,
-            unjudged=unjudged, remark=remark,
+            unjudged=unjudged or unknown, remark=remark,
         ),
     ]  # fmt: skip
 

@@ -12,7 +12,7 @@ from rotorcalc.figures import style
 from rotorcalc.films.pads import Pad, pads_of
 from rotorcalc.films.tilting.pivots import pivots_of
 from rotorcalc.geometry import FloatingRing, Foil, Geometry, Hydrostatic, TiltingPads
-from rotorcalc.machine import JournalBearing
+from rotorcalc.machine import Bearing
 
 # Clearance over the bore's radius in a small picture, and the deepest pocket drawn there, in C.
 _SHOWN, _DEEPEST = 0.3, 1.0
@@ -116,12 +116,12 @@ def _arc(centre: Array, radius: float, start: float, end: float) -> Array:
 
 
 @functools.lru_cache(maxsize=256)
-def picture(bearing: JournalBearing) -> str:
+def picture(bearing: Bearing) -> str:
     """Return a small picture of a bearing's bore, the journal in its middle, as SVG.
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         The bearing.
 
     Returns
@@ -144,7 +144,7 @@ def picture(bearing: JournalBearing) -> str:
 
 
 @functools.singledispatch
-def _strokes(_geometry: Geometry, bearing: JournalBearing) -> list[str]:
+def _strokes(_geometry: Geometry, bearing: Bearing) -> list[str]:
     """Return the lines of a bore of fixed pads, as SVG."""
     lines = pad_lines(pads_of(bearing), journal=1.0 - _SHOWN, gap=_SHOWN, deepest=_DEEPEST)
     strokes = [_path(one.surface, style.GREY, 0.07) for one in lines]
@@ -152,7 +152,7 @@ def _strokes(_geometry: Geometry, bearing: JournalBearing) -> list[str]:
 
 
 @_strokes.register
-def _tilting(_geometry: TiltingPads, bearing: JournalBearing) -> list[str]:
+def _tilting(_geometry: TiltingPads, bearing: Bearing) -> list[str]:
     pivots = pivots_of(bearing)
     journal = 1.0 - _SHOWN
     lines = pad_lines(pivots.tilted(np.zeros(pivots.number)), journal=journal, gap=_SHOWN)
@@ -168,13 +168,13 @@ def _tilting(_geometry: TiltingPads, bearing: JournalBearing) -> list[str]:
 
 
 @_strokes.register
-def _ringed(_geometry: FloatingRing, _bearing: JournalBearing) -> list[str]:
+def _ringed(_geometry: FloatingRing, _bearing: Bearing) -> list[str]:
     circles = ((0.84, 0.05), (0.96, 0.05), (1.12, 0.07))
     return [_path(_arc(_MIDDLE, radius, 0.0, _TURN), style.GREY, wide) for radius, wide in circles]
 
 
 @_strokes.register
-def _sprung(geometry: Foil, _bearing: JournalBearing) -> list[str]:
+def _sprung(geometry: Foil, _bearing: Bearing) -> list[str]:
     half = math.radians(6.0)
     foil = _arc(_MIDDLE, 1.0, geometry.slit + half, geometry.slit + _TURN - half)
     angle = np.linspace(0.0, _TURN, 361)
@@ -188,7 +188,7 @@ def _sprung(geometry: Foil, _bearing: JournalBearing) -> list[str]:
 
 
 @_strokes.register
-def _recessed(geometry: Hydrostatic, _bearing: JournalBearing) -> list[str]:
+def _recessed(geometry: Hydrostatic, _bearing: Bearing) -> list[str]:
     circle = _path(_arc(_MIDDLE, 1.0, 0.0, _TURN), style.GREY, 0.05)
     recesses = [_arc(_MIDDLE, 1.12, *ends) for ends in recess_ends(geometry).tolist()]
     return [circle, *(_path(one, style.UNSTABLE, 0.09) for one in recesses)]

@@ -20,7 +20,7 @@ from rotorcalc.figures.style import Chart, Trace
 from rotorcalc.films import film_of
 from rotorcalc.films.pads import Pad, pads_of
 from rotorcalc.geometry import FloatingRing, PartialArc
-from rotorcalc.machine import JournalBearing
+from rotorcalc.machine import Bearing
 from rotorcalc.modes import ModeShapes, leading_place
 from rotorcalc.unbalance_response import orbit_ellipse
 from rotorcalc.units import Unit, Units
@@ -142,12 +142,12 @@ def cross_section(  # noqa: PLR0913 - the drawing has what each of these shows
     return cursor.over_speed(chart, point.speed, units, drawing=drawing)
 
 
-def remarks(bearing: JournalBearing, *, to_scale: bool) -> str:
+def remarks(bearing: Bearing, *, to_scale: bool) -> str:
     """Return what the marks of a bearing's cross-section mean, and what is not as it is drawn.
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         The bearing.
     to_scale : bool
         Whether its film is drawn to scale.
@@ -166,7 +166,7 @@ def remarks(bearing: JournalBearing, *, to_scale: bool) -> str:
     return " ".join(words)
 
 
-def _pads_of(bearing: JournalBearing) -> tuple[Pad, ...]:
+def _pads_of(bearing: Bearing) -> tuple[Pad, ...]:
     """Return a bearing's fixed pads, if it has such."""
     try:
         return pads_of(bearing)
@@ -222,7 +222,7 @@ class _Bore:
         return moving(parts, at, journal=self.journal, gap=self.gap, ring=self.ring)
 
 
-def _ring_thickness(bearing: JournalBearing, parts: Parts | None) -> float:
+def _ring_thickness(bearing: Bearing, parts: Parts | None) -> float:
     """Return the thickness of a floating ring [m], 0 where there is none."""
     if parts is None or parts.ring is None or not isinstance(bearing.geometry, FloatingRing):
         return 0.0
@@ -230,7 +230,7 @@ def _ring_thickness(bearing: JournalBearing, parts: Parts | None) -> float:
 
 
 def _pads(
-    bearing: JournalBearing, journal: float, gap: float, deepest: float
+    bearing: Bearing, journal: float, gap: float, deepest: float
 ) -> tuple[tuple[PadLines, ...], bool]:
     """Return the pads of a bore that has grooves, and whether one pad is all there is of it."""
     pads = _pads_of(bearing)

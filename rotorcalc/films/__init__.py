@@ -9,10 +9,12 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from rotorcalc.arguments import checked
-from rotorcalc.arrays import Array
+from rotorcalc.arrays import Array, BoolArray, real_array
+from rotorcalc.coefficient_table import CoefficientTable
 from rotorcalc.films import short
 from rotorcalc.films.dynamics import FilmDynamics, reduced
 from rotorcalc.films.finite import CoarseFilm, FiniteFilm
@@ -21,6 +23,7 @@ from rotorcalc.films.foil import CoarseFoilFilm, FoilFilm
 from rotorcalc.films.hydrostatic import CoarseHydrostaticFilm, HydrostaticFilm
 from rotorcalc.films.lobes import LobesFilm
 from rotorcalc.films.model import BoundedFilm, Film, FilmMotion, InnerMotion
+from rotorcalc.films.own import OwnFilm
 from rotorcalc.films.pads import pads_of
 from rotorcalc.films.ring import RingFilm
 from rotorcalc.films.short import ShortFilm
@@ -28,7 +31,7 @@ from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
 from rotorcalc.films.tilting import CoarseTiltingFilm, TiltingFilm
 from rotorcalc.films.units import FilmUnits
 from rotorcalc.geometry import FloatingRing, Foil, Hydrostatic, TiltingPads
-from rotorcalc.machine import JournalBearing
+from rotorcalc.machine import Bearing, JournalBearing
 
 __all__ = [
     "MODELS",
@@ -44,6 +47,7 @@ __all__ = [
     "film_coefficients",
     "film_of",
     "film_state",
+    "has_answer",
     "journal_motion",
     "reduced",
     "short",
@@ -81,36 +85,40 @@ MODELS["tilting-pads", "coarse"] = CoarseTiltingFilm
 @checked
 # Bounded: every step of a dragged clearance is another bearing.
 @functools.lru_cache(maxsize=1024)
-def film_of(bearing: JournalBearing) -> Film:
+def film_of(bearing: Bearing) -> Film:
     """Return the film of a bearing, made once.
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         The bearing.
 
     Returns
     -------
     Film
-        Of the model that the bearing names.
+        Of the model that the bearing names; what a table of coefficients gives in place of one.
     """
+    if isinstance(bearing, CoefficientTable):
+        return OwnFilm(bearing)
     return MODELS[bearing.geometry.kind, bearing.model](bearing)
 
 
 @checked
-def draft(bearing: JournalBearing) -> JournalBearing:
+def draft(bearing: Bearing) -> Bearing:
     """Return a bearing on a coarse mesh where its own takes long; else as it is.
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         The bearing.
 
     Returns
     -------
-    JournalBearing
+    JournalBearing or CoefficientTable
         The same bore, to draw while it changes.
     """
+    if isinstance(bearing, CoefficientTable):
+        return bearing
     if bearing.model != "finite" or not _takes_long(bearing):
         return bearing
     return replace(bearing, film="coarse")
@@ -126,12 +134,12 @@ def _takes_long(bearing: JournalBearing) -> bool:
 
 
 @checked
-def journal_motion(bearing: JournalBearing) -> FilmMotion:
+def journal_motion(bearing: Bearing) -> FilmMotion:
     """Return the force of a bearing's film on a moving journal, for films without inner states.
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         The bearing.
 
     Returns
@@ -154,12 +162,12 @@ def journal_motion(bearing: JournalBearing) -> FilmMotion:
 
 
 @checked
-def turning_bounds(bearing: JournalBearing, load: float) -> tuple[float, float]:
+def turning_bounds(bearing: Bearing, load: float) -> tuple[float, float]:
     """Return the least and the largest μΩ at which a bearing's film carries a load and has answers.
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         The bearing.
     load : float
         Static load, F_o [N].
@@ -183,8 +191,41 @@ def turning_bounds(bearing: JournalBearing, load: float) -> tuple[float, float]:
 
 
 @checked
+def has_answer(bearing: Bearing, speed: ArrayLike, *, viscosity: float, load: float) -> BoolArray:
+    """Return at which speeds a bearing's film carries a load and has answers.
+
+    Parameters
+    ----------
+    bearing : JournalBearing or CoefficientTable
+        The bearing.
+    speed : array_like, (...)
+        Running speed, Ω [rad/s].
+    viscosity : float
+        μ [Pa·s].
+    load : float
+        Static load, F_o [N].
+
+    Returns
+    -------
+    boolean array, (...)
+        Of a table of coefficients, from its first speed to its last.
+
+    Raises
+    ------
+    ValueError
+        Where the film carries the load at no speed.
+    """
+    speeds = real_array("speed", speed)
+    if isinstance(bearing, CoefficientTable):
+        return np.asarray((speeds >= bearing.first) & (speeds <= bearing.last))
+    least, largest = turning_bounds(bearing, load)
+    turning = viscosity * speeds
+    return np.asarray((turning >= least) & (turning <= largest))
+
+
+@checked
 def film_state(
-    bearing: JournalBearing,
+    bearing: Bearing,
     sommerfeld: ArrayLike,
     *,
     viscosity: ArrayLike = 1.0,
@@ -194,7 +235,7 @@ def film_state(
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         The bearing.
     sommerfeld : array_like, (...)
         Modified Sommerfeld number, σ [-], positive; infinite without load.
@@ -216,12 +257,12 @@ def film_state(
 
 
 @checked
-def film_coefficients(bearing: JournalBearing, sommerfeld: ArrayLike) -> tuple[Array, Array]:
+def film_coefficients(bearing: Bearing, sommerfeld: ArrayLike) -> tuple[Array, Array]:
     """Return the film's synchronous stiffness and damping over the modified Sommerfeld number.
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         The bearing.
     sommerfeld : array_like, (...)
         Modified Sommerfeld number, σ [-], positive; infinite without load.

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from rotorcalc.arrays import Array
 from rotorcalc.films.dynamics import FilmDynamics
 from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
-from rotorcalc.machine import JournalBearing
+from rotorcalc.machine import Bearing
 
 
 class Velocity(Protocol):
@@ -186,7 +186,7 @@ class Film(Protocol):
 
     Attributes
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         The bearing.
     inner : int
         Number of inner coordinates, n.
@@ -214,7 +214,7 @@ class Film(Protocol):
     """
 
     @property
-    def bearing(self) -> JournalBearing: ...  # noqa: D102
+    def bearing(self) -> Bearing: ...  # noqa: D102
     @property
     def inner(self) -> int: ...  # noqa: D102
     @property

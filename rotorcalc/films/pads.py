@@ -24,7 +24,7 @@ from rotorcalc.geometry import (
     Plain,
     PressureDam,
 )
-from rotorcalc.machine import JournalBearing
+from rotorcalc.machine import Bearing
 
 _TURN = 2.0 * math.pi
 # Where a full circle is cut open: in the broken film at any load, behind the thinnest film (0 to
@@ -77,12 +77,12 @@ class Pad:
         return math.isclose(self.arc, _TURN)
 
 
-def pads_of(bearing: JournalBearing) -> tuple[Pad, ...]:
+def pads_of(bearing: Bearing) -> tuple[Pad, ...]:
     """Return the pads of a bearing of any fixed kind.
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         The bearing.
 
     Returns
@@ -193,7 +193,7 @@ def _pocket(pad: Pad, arc: float, depth: float, axial_ratio: float) -> Pad:
     return replace(pad, step=pad.start + arc, depth=depth, axial_ratio=axial_ratio)
 
 
-def walls_of(bearing: JournalBearing) -> tuple[Pad, ...]:
+def walls_of(bearing: Bearing) -> tuple[Pad, ...]:
     """Return what the journal can touch: the pads, and of a partial arc the whole circle."""
     pads = pads_of(bearing)
     return (Pad(0.0, _TURN),) if isinstance(bearing.geometry, PartialArc) else pads

@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotorcalc.arrays import Array, BoolArray, real_array
+from rotorcalc.coefficient_table import CoefficientTable
 from rotorcalc.display import Result
 from rotorcalc.films.units import FilmUnits
 from rotorcalc.frames import vector
-from rotorcalc.machine import JournalBearing
+from rotorcalc.machine import Bearing
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,7 +40,7 @@ class OperatingPoints:
 
     @classmethod
     def of(
-        cls, bearing: JournalBearing, *, viscosity: ArrayLike, speed: ArrayLike, load: ArrayLike
+        cls, bearing: Bearing, *, viscosity: ArrayLike, speed: ArrayLike, load: ArrayLike
     ) -> "OperatingPoints":
         """Return the points of a bearing at speeds and loads."""
         mu, omega, F = (np.asarray(one, dtype=float) for one in (viscosity, speed, load))
@@ -50,7 +51,7 @@ class OperatingPoints:
     @classmethod
     def at_sommerfeld(
         cls,
-        bearing: JournalBearing,
+        bearing: Bearing,
         sommerfeld: ArrayLike,
         *,
         viscosity: ArrayLike = 1.0,
@@ -61,8 +62,13 @@ class OperatingPoints:
         Raises
         ------
         ValueError
-            Where one of them is not positive.
+            Where one of them is not positive, or the bearing is a table over speed alone.
         """
+        if isinstance(bearing, CoefficientTable):
+            raise ValueError(
+                f"bearing = {bearing.geometry.kind}: is a table over speed, which knows neither a "
+                "Sommerfeld number nor the journal's place"
+            )
         sigma = _positive("sommerfeld", sommerfeld)
         mu, omega = _positive("viscosity", viscosity), _positive("speed", speed)
         unit = FilmUnits(bearing, mu, omega).force

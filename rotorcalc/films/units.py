@@ -1,14 +1,16 @@
 """The film's units: the scales between dimensionless results and a bearing at a speed.
 
 Position and thickness in C, force in μΩRL³/C², stiffness in μΩRL³/C³, damping in μRL³/C³, pressure
-in μΩ(L/C)², flow in ΩRLC, torque in μΩR³L/C, added mass in ρRL³/(12C). σ = μΩRL³/C²/(4F_o) is a
+in μΩ(L/C)², flow in ΩRLC, torque in μΩR³L/C, added mass in ρRL³/(12C). A table of coefficients has
+its own in N/m and N·s/m, and no other unit. σ = μΩRL³/C²/(4F_o) is a
 quarter of the unit of force over the load (Eq. 5.8).
 """
 
 from dataclasses import dataclass
 
 from rotorcalc.arrays import Array
-from rotorcalc.machine import JournalBearing
+from rotorcalc.coefficient_table import CoefficientTable
+from rotorcalc.machine import Bearing
 
 
 @dataclass(frozen=True, eq=False)
@@ -17,7 +19,7 @@ class FilmUnits:
 
     Attributes
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         The bearing.
     viscosity : array or float, (...)
         Viscosity of the oil in the film, μ [Pa·s].
@@ -25,19 +27,23 @@ class FilmUnits:
         Running speed, Ω [rad/s].
     """
 
-    bearing: JournalBearing
+    bearing: Bearing
     viscosity: Array | float
     speed: Array | float
 
     @property
     def damping(self) -> Array | float:
         """μRL³/C³ [N·s/m]."""
+        if isinstance(self.bearing, CoefficientTable):
+            return 1.0
         one = self.bearing
         return self.viscosity * one.radius * one.length**3 / one.radial_clearance**3
 
     @property
     def stiffness(self) -> Array | float:
         """μΩRL³/C³ [N/m]."""
+        if isinstance(self.bearing, CoefficientTable):
+            return 1.0
         return self.damping * self.speed
 
     @property

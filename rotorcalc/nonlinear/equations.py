@@ -26,7 +26,7 @@ from rotorcalc.arrays import Array, real_array, shown
 from rotorcalc.coefficients import operating_points
 from rotorcalc.display import Result
 from rotorcalc.films import FilmUnits, InnerMotion, film_of
-from rotorcalc.machine import JournalBearing, Machine
+from rotorcalc.machine import Bearing, Machine
 from rotorcalc.numerics.roots import clenshaw
 
 # The derivatives of a state at an angle of rotation.
@@ -389,12 +389,12 @@ def inner_rest(machine: Machine, speed: float, journal: Array) -> Array:
     return motion.beside(points, journal / machine.bearing.radial_clearance)
 
 
-def film_gap(bearing: JournalBearing, journal: Array, inner: Array | None) -> Array:
+def film_gap(bearing: Bearing, journal: Array, inner: Array | None) -> Array:
     """Return the thinnest film around a journal and the film's own parts, in C.
 
     Parameters
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         The bearing.
     journal : array, (..., 2)
         The journal's places, in C.
@@ -412,7 +412,7 @@ def film_gap(bearing: JournalBearing, journal: Array, inner: Array | None) -> Ar
     return motion.gap(journal, inner)
 
 
-def film_share(bearing: JournalBearing, journal: Array, inner: Array | None) -> Array:
+def film_share(bearing: Bearing, journal: Array, inner: Array | None) -> Array:
     """Return the same over the clearance of the film that is thinnest in its own, (...)."""
     motion = _inner_motion(bearing) if inner is not None else None
     if inner is None or motion is None or motion.share is None:
@@ -420,7 +420,7 @@ def film_share(bearing: JournalBearing, journal: Array, inner: Array | None) -> 
     return motion.share(journal, inner)
 
 
-def _inner_motion(bearing: JournalBearing) -> InnerMotion | None:
+def _inner_motion(bearing: Bearing) -> InnerMotion | None:
     motion = film_of(bearing).motion()
     return motion if isinstance(motion, InnerMotion) else None
 

@@ -15,7 +15,7 @@ from rotorcalc.arrays import Array
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.display import Result
 from rotorcalc.films import film_of
-from rotorcalc.machine import JournalBearing, Machine
+from rotorcalc.machine import Bearing, Machine
 from rotorcalc.nonlinear.equations import film_gap, resting
 from rotorcalc.nonlinear.linear_motion import linear_theory, motion_of
 from rotorcalc.nonlinear.signals import Spectrum, poincare_points, spectrum
@@ -206,7 +206,7 @@ def affordable_revolutions(point: Sweep) -> int:
     return max(FEWEST_REVOLUTIONS, round(_MOST_SWINGS / max(swings, 1.0)))
 
 
-def _drawn(linear: Array, rest: Array, bearing: JournalBearing) -> Array:
+def _drawn(linear: Array, rest: Array, bearing: Bearing) -> Array:
     """Return a linear motion up to where it first lies far outside the clearance."""
     C = bearing.radial_clearance
     far = ~(film_of(bearing).gap((linear + rest) / C) > -_FAR)

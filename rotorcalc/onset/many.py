@@ -17,7 +17,7 @@ from rotorcalc import modes
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, IntArray
 from rotorcalc.films import FilmUnits, film_coefficients, film_of
-from rotorcalc.machine import JournalBearing, Machine
+from rotorcalc.machine import Bearing, Machine
 from rotorcalc.numerics import routh
 from rotorcalc.onset import onset_speed
 from rotorcalc.onset.closed_form import closed_onsets, covers
@@ -110,7 +110,7 @@ class _Fleet:
 
     Attributes
     ----------
-    bearing : JournalBearing
+    bearing : JournalBearing or CoefficientTable
         Any of the bearings.
     sommerfeld, damping : array, (m,)
         σ/Ω [s], and the unit of the film's damping, μRL³/C³ [N·s/m].
@@ -118,7 +118,7 @@ class _Fleet:
         As `modes.rotor_terms` gives them.
     """
 
-    bearing: JournalBearing
+    bearing: Bearing
     sommerfeld: Array
     damping: Array
     rotor_terms: Array

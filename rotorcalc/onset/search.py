@@ -16,14 +16,15 @@ from scipy.optimize import brentq, minimize_scalar
 
 from rotorcalc import heat, modes
 from rotorcalc.arrays import Array
+from rotorcalc.coefficient_table import CoefficientTable
 from rotorcalc.coefficients import equilibrium, modified_sommerfeld, stiffness_and_damping
 from rotorcalc.films import film_coefficients, film_of, film_state, turning_bounds
 from rotorcalc.films.model import BoundedFilm
-from rotorcalc.machine import HOTTEST, JournalBearing, Machine
+from rotorcalc.machine import HOTTEST, Bearing, Machine
 from rotorcalc.numerics import routh
 from rotorcalc.numerics.roots import narrow_root
 from rotorcalc.onset.characteristic import ExactPolynomial, polynomial
-from rotorcalc.onset.growth import growth, growth_crossing
+from rotorcalc.onset.growth import fastest, growth, growth_crossing
 from rotorcalc.onset.whirl import Method, Onset, whirl_onset
 
 # Speeds per decade of the scan before the search refines, and σ of the scan for the film's whirl.
@@ -70,11 +71,21 @@ def searched_onset(machine: Machine, flexible: bool = True) -> Onset:
         found = replace(found, searched_to=float(speeds[-1]))
     else:
         found = _onset_by_polynomial(machine, flexible, speeds)
+    if isinstance(machine.bearing, CoefficientTable):
+        return _within_table(found, machine, machine.bearing, flexible)
     if machine.supply is not None and math.isinf(found.speed):
         # Beyond this speed the oil would be hotter than any law of its viscosity holds.
         limit = heat.hottest_speed(machine)
         found = replace(found, searched_to=min(found.searched_to, limit))
     return found
+
+
+def _within_table(found: Onset, machine: Machine, table: CoefficientTable, flexible: bool) -> Onset:
+    """Return an onset with the ends of the table between which it was sought."""
+    if found.speed == 0.0:  # unstable at the first speed already, and nothing is known below it
+        grows = fastest(machine, table.first, flexible)
+        found = replace(found, speed=table.first, whirl_frequency=float(abs(grows.imag)))
+    return replace(found, searched_from=table.first, searched_to=table.last)
 
 
 def where_film(machine: Machine, values: Callable[[Array], Array]) -> Callable[[Array], Array]:
@@ -159,7 +170,9 @@ def _onset_at(
     machine: Machine, speed: float, whirl_frequency: float, *, method: Method, flexible: bool
 ) -> Onset:
     # At speed 0, where it is without load, the journal sits in the centre.
-    if speed > 0.0:
+    if isinstance(machine.bearing, CoefficientTable):
+        eps = math.nan
+    elif speed > 0.0:
         eps = equilibrium(machine, speed).film.eccentricity_ratio
     else:
         eps = film_state(machine.bearing, math.inf).eccentricity_ratio
@@ -199,7 +212,8 @@ def _in_floats(
     root = narrow_root(lambda speed: routh.determinant(polynomials(speed)), low, high, noise=_NOISE)
     aside = math.copysign(_SURE, unstable - stable)
     # The root counts only where the polynomial is provably stable before it and unstable after it.
-    before, there, after = polynomials(root * np.array([1.0 - aside, 1.0, 1.0 + aside]))
+    around = np.clip(root * np.array([1.0 - aside, 1.0, 1.0 + aside]), low, high)
+    before, there, after = polynomials(around)
     if routh.margin_bounds(before)[1] > 0.0 or not routh.surely_crossed(after):
         return None
     frequency = _axis_frequency(there)
@@ -275,8 +289,11 @@ def humps(
 
 
 def search_speeds(machine: Machine, flexible: bool = True) -> Array:
-    """Return the speeds of `search_range` [rad/s]."""
-    return np.geomspace(*search_range(machine, flexible))
+    """Return the speeds of `search_range` [rad/s], and those of a table's rows."""
+    speeds = np.geomspace(*search_range(machine, flexible))
+    if isinstance(machine.bearing, CoefficientTable):
+        return np.union1d(speeds, machine.bearing.speed)
+    return speeds
 
 
 def search_range(machine: Machine, flexible: bool = True) -> tuple[float, float, int]:
@@ -288,8 +305,8 @@ def search_range(machine: Machine, flexible: bool = True) -> tuple[float, float,
 
     For a film with inner coordinates the upper end is not proved: it is ten times twice the bound
     on the rotor's own modes on the synchronous film (`_highest_onset`). An onset above the last of
-    these speeds is not found. Of a film that has its own bounds, as one of gas, all speeds between
-    them are searched.
+    these speeds is not found. Of a film that has its own bounds, as one of gas, and of a table of
+    coefficients all speeds between these are searched.
 
     With a supply the film's viscosity lies between those of the coldest oil and the hottest, and an
     onset is one of the machine with that viscosity at every speed: both ranges together hold it.
@@ -300,6 +317,8 @@ def search_range(machine: Machine, flexible: bool = True) -> tuple[float, float,
             for T in (machine.supply.temperature, HOTTEST)
         )
         return _range(min(cold[0], hot[0]), max(cold[1], hot[1]))
+    if isinstance(machine.bearing, CoefficientTable):
+        return _range(machine.bearing.first, machine.bearing.last)
     if isinstance(film_of(machine.bearing), BoundedFilm):
         return _answered_range(machine, flexible)
     unit = float(modified_sommerfeld(machine, 1.0))
@@ -327,7 +346,7 @@ def _range(lowest: float, highest: float) -> tuple[float, float, int]:
     return lowest, highest, 1 + math.ceil(_POINTS_PER_DECADE * math.log10(highest / lowest))
 
 
-def _whirl_range(bearing: JournalBearing) -> tuple[float, float]:
+def _whirl_range(bearing: Bearing) -> tuple[float, float]:
     """Return σ below which no rotor whirls, and σ above which the film no longer changes."""
     film = film_of(bearing)
     heavy, centred = film.sommerfeld_range
@@ -341,7 +360,7 @@ class _Curve:
     """A film's k and c over σ; equal for all bearings with the same."""
 
     name: Hashable
-    bearing: JournalBearing = field(compare=False)
+    bearing: Bearing = field(compare=False)
 
 
 @functools.lru_cache(maxsize=256)
@@ -370,7 +389,7 @@ def _beyond_all_onsets(machine: Machine, centred: float, flexible: bool) -> floa
 
 
 @functools.lru_cache(maxsize=256)
-def _stiffens(bearing: JournalBearing) -> bool:
+def _stiffens(bearing: Bearing) -> bool:
     """Return whether a film's stiffness goes on rising with speed where the journal is centred.
 
     That of a circular bore does not: unloaded, it has cross stiffness only (Eq. 5.37).

@@ -66,7 +66,11 @@ class Onset:
         it cannot whirl.
     searched_to : float
         An onset above this speed would not have been found [rad/s]; infinite where the method
-        proves that there is none. The "eigenvalues" do not.
+        proves that there is none. The "eigenvalues" do not, and a table of coefficients ends.
+    searched_from : float
+        An onset below this speed would not have been found [rad/s]: the first of a table of
+        coefficients, else 0. An onset at this speed is one at or below it: the machine is unstable
+        from there on.
     """
 
     speed: float
@@ -74,6 +78,7 @@ class Onset:
     eccentricity_ratio: float
     method: Method
     searched_to: float = math.inf
+    searched_from: float = 0.0
 
 
 def whirl_onset(k: ArrayLike, c: ArrayLike) -> WhirlOnset:

@@ -8,8 +8,8 @@ from itertools import groupby
 import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
 
-from rotorcalc import JournalBearing
 from rotorcalc.figures.bore import picture
+from rotorcalc.machine import Bearing
 from rotorcalc.units import SI
 from ui.bearing import film_model, kinds, shape_of
 from ui.bores import FILMS, KIND, NAMES, Pick, Value, Values, bore_inputs, name_of
@@ -64,7 +64,7 @@ def drawing(values: Values) -> Text:
     return Text(_NO_PICTURE, "html")
 
 
-def picture_tag(bearing: JournalBearing, size: int) -> str:
+def picture_tag(bearing: Bearing, size: int) -> str:
     """Return the small picture of a bore as HTML, so many pixels wide, beside its name."""
     address = picture_address(bearing)
     if not address:
@@ -72,7 +72,7 @@ def picture_tag(bearing: JournalBearing, size: int) -> str:
     return f'<img src="{address}" alt="" width="{size}" height="{size}">'
 
 
-def picture_address(bearing: JournalBearing) -> str:
+def picture_address(bearing: Bearing) -> str:
     """Return the small picture of a bore as an address that holds it, empty where there is none."""
     try:
         svg = picture(bearing)

@@ -12,7 +12,6 @@ import streamlit as st
 from rotorcalc import (
     Bifurcation,
     BifurcationError,
-    JournalBearing,
     Machine,
     Onsets,
     TransientError,
@@ -21,6 +20,7 @@ from rotorcalc import (
 from rotorcalc.arrays import Array
 from rotorcalc.figures import Units
 from rotorcalc.films import FilmMotion, InnerMotion, film_of
+from rotorcalc.machine import Bearing
 from rotorcalc.nonlinear.limit_cycles import sweep
 from rotorcalc.nonlinear.measured_onset import GrowthCurve
 from ui.computed import Computed
@@ -245,7 +245,7 @@ def slow_film(computed: Computed) -> FilmMotion | InnerMotion | None:
     return motion if motion.revolution > 0.0 else None
 
 
-def has_motion(bearing: JournalBearing) -> bool:
+def has_motion(bearing: Bearing) -> bool:
     """Return whether a film gives a force in any motion; show why not where it gives none."""
     return attempt(lambda: film_of(bearing).motion()) is not None
 

@@ -7,12 +7,13 @@ from functools import lru_cache
 import numpy as np
 import streamlit as st
 
-from rotorcalc import JournalBearing, thresholds, whirl_energy
+from rotorcalc import thresholds, whirl_energy
 from rotorcalc.analysis import FilmCurves
 from rotorcalc.arrays import Array
 from rotorcalc.figures import Chart
 from rotorcalc.figures.stability import Crossing, Energies, FilmFigure
 from rotorcalc.films import film_of
+from rotorcalc.machine import Bearing
 from rotorcalc.units import Units
 from ui.choices import choose
 from ui.computed import Computed
@@ -203,7 +204,7 @@ def balance(computed: Computed, units: Units) -> str:
     )
 
 
-def _film_limit(curves: FilmCurves, bearing: JournalBearing) -> FilmCurves | None:
+def _film_limit(curves: FilmCurves, bearing: Bearing) -> FilmCurves | None:
     """Return the film at which whirl ends, None where heavy loads whirl too, or none does."""
     film = film_of(bearing)
     if film.frequency_dependent or film.curve is None:
@@ -214,7 +215,7 @@ def _film_limit(curves: FilmCurves, bearing: JournalBearing) -> FilmCurves | Non
 
 
 @lru_cache(maxsize=16)
-def _end_of_whirl(bearing: JournalBearing) -> FilmCurves:
+def _end_of_whirl(bearing: Bearing) -> FilmCurves:
     return thresholds.film_limit(bearing)
 
 
