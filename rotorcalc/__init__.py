@@ -42,6 +42,12 @@ from rotorcalc.geometry import (
 )
 from rotorcalc.heat import HeatBalance, heat_balance
 from rotorcalc.machine import JournalBearing, Machine, Oil, Rotor, Supply
+from rotorcalc.measured import (
+    MeasuredOrbit,
+    MeasuredResponse,
+    read_orbit,
+    read_vibration_over_speed,
+)
 from rotorcalc.nonlinear import signals
 from rotorcalc.nonlinear.continuation import BifurcationError
 from rotorcalc.nonlinear.energy import EnergyBalance, energy_balance
@@ -97,6 +103,8 @@ __all__ = [
     "LevelOne",
     "Lobes",
     "Machine",
+    "MeasuredOrbit",
+    "MeasuredResponse",
     "ModeOnset",
     "MultiDam",
     "OffsetHalves",
@@ -152,6 +160,8 @@ __all__ = [
     "pad_tilts",
     "read_coefficients",
     "read_machines",
+    "read_orbit",
+    "read_vibration_over_speed",
     "recess_equilibrium",
     "recess_pressure",
     "response_peaks",

@@ -114,7 +114,7 @@ def units_of(si: str) -> dict[str, Unit]:
     """Return the units in which a quantity may be given, by their spelling without accents."""
     divided = {name: Unit(name, factor) for name, factor in _DECIMAL.get(si, {}).items()}
     others = _TEMPERATURES if si == "°C" else _of(_OTHERS.get(si, {}))
-    return {_plain(name): unit for name, unit in ({si: Unit(si)} | divided | others).items()}
+    return {plain(name): unit for name, unit in ({si: Unit(si)} | divided | others).items()}
 
 
 def _unit(name: str, si: str | None, given: str | None) -> Unit | None:
@@ -128,7 +128,7 @@ def _unit(name: str, si: str | None, given: str | None) -> Unit | None:
             f"{name}: has no unit; write it in brackets, '{name} [{si}]', one of "
             f"{', '.join(unit.name for unit in known.values())}"
         )
-    unit = known.get(_plain(given or "-"))
+    unit = known.get(plain(given or "-"))
     if unit is None:
         raise ValueError(
             f"{name} [{(given or '')[:40]}]: no unit of this; known are "
@@ -137,7 +137,7 @@ def _unit(name: str, si: str | None, given: str | None) -> Unit | None:
     return unit
 
 
-def _plain(unit: str) -> str:
+def plain(unit: str) -> str:
     """Return a unit's spelling without what keyboards lack: "Pa*s", "um", "kg/m3", "degF"."""
     text = re.sub(r"[\s·⋅*.^]", "", unit).replace("μ", "µ").replace("deg", "°")
     text = re.sub(r"\bu(?=m|reyn)", "µ", text)

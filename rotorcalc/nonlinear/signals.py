@@ -1,5 +1,6 @@
-"""Measurements on a motion: spectrum, whirl ratio, growth rate, Poincaré points.
+"""Measurements on a motion: spectrum, whirl ratio, growth, synchronous vector, Poincaré points.
 
+A motion is an integration's (`Transient`) or was recorded on a machine (`MeasuredOrbit`).
 Signals are taken from X + jY, so that a positive order turns with the shaft and a negative one
 against it. An order is a frequency over that of the running speed.
 
@@ -9,6 +10,7 @@ exponentially damped/undamped sinusoids in noise, IEEE Trans. ASSP 38 (1990).
 
 import math
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,15 +18,22 @@ from numpy.typing import ArrayLike
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, ComplexArray, real_array
 from rotorcalc.display import Result
+from rotorcalc.nonlinear.sampled import MeasuredOrbit
 from rotorcalc.nonlinear.transient import Transient
 
-# Ranges of the synchronous line and of whirl [orders]: whirl lies near ½, and well below 1.
-_SYNCHRONOUS, _WHIRL = (0.97, 1.03), (0.2, 0.85)
-# A line below this share of the largest is taken for leakage of the window.
-_LEAST_LINE = 1e-3
+Motion: TypeAlias = Transient | MeasuredOrbit
+
+# Ranges of the synchronous line, of whirl, and of a free motion's modes [orders]. Whirl lies near
+# ½, and well below 1; modes beyond a free motion's are drift of a fit, or the shaft's own.
+_SYNCHRONOUS, _WHIRL, _FREE = (0.97, 1.03), (0.2, 0.85), (0.02, 3.0)
+# A line below this share of the largest is taken for leakage of the window; one below this multiple
+# of the median for noise, whose lines rise above it once in a hundred thousand.
+_LEAST_LINE, _OVER_NOISE = 1e-3, 4.0
 # Samples of a pencil at most, and the singular values, over the largest, taken for rounding.
 _MOST_ROWS, _NOISE = 400, 1e-9
 _MOST_MODES = 12
+# Of a recorded motion, singular values below this multiple of their median are noise's.
+_OVER_MEDIAN = 4.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,16 +81,16 @@ class Waterfall(Result):
 
 
 @checked
-def spectrum(motion: Transient, *, of: str = "journal", last: int | None = None) -> Spectrum:
+def spectrum(motion: Motion, *, of: str = "journal", last: int | None = None) -> Spectrum:
     """Return the spectrum of a motion, windowed by Hann, over orders of running speed.
 
     Parameters
     ----------
-    motion : Transient
-        The motion. Its samples are even in the angle of rotation, so orders stay sharp while the
-        speed changes.
+    motion : Transient or MeasuredOrbit
+        The motion. Its samples are even in the angle of rotation, or made so, and orders stay
+        sharp while the speed changes.
     of : str
-        "journal" or "disk".
+        "journal" or "disk"; a recorded motion is the journal's.
     last : int or None
         Number of final revolutions to take, where the motion has settled; None for all.
 
@@ -96,13 +105,14 @@ def spectrum(motion: Transient, *, of: str = "journal", last: int | None = None)
     ValueError
         Where there are fewer than four revolutions.
     """
-    signal, revolutions = _signal(motion, of, last)
+    signal, _, revolutions = _signal(motion, of, last)
     order, circles = _circles(signal, revolutions)
     size = np.abs(circles)
     at_1x, radius_1x = _line(order, size, _SYNCHRONOUS)
     # Whirl and imbalance are read in separate ranges: a large 1× line would hide a small whirl.
     ratio, radius = _line(order, size, _WHIRL)
-    exists = radius > _LEAST_LINE * size.max() and not math.isnan(ratio)
+    least = max(_LEAST_LINE * size.max(), _OVER_NOISE * float(np.median(size)))
+    exists = radius > least and not math.isnan(ratio)
     return Spectrum(
         order=order,
         amplitude=size,
@@ -113,12 +123,12 @@ def spectrum(motion: Transient, *, of: str = "journal", last: int | None = None)
 
 
 @checked
-def waterfall(motion: Transient, *, spectra: int = 200, width: int = 32) -> Waterfall:
+def waterfall(motion: Motion, *, spectra: int = 200, width: int = 32) -> Waterfall:
     """Return spectra of the journal's motion along a run-up.
 
     Parameters
     ----------
-    motion : Transient
+    motion : Transient or MeasuredOrbit
         The motion, its speed rising or falling.
     spectra : int
         Number of spectra, evenly spaced over the revolutions.
@@ -135,7 +145,8 @@ def waterfall(motion: Transient, *, spectra: int = 200, width: int = 32) -> Wate
     ValueError
         Where the motion is shorter than one window.
     """
-    whole, revolutions = _signal(motion, "journal", None)
+    motion = _over_angle(motion)
+    whole, _, revolutions = _signal(motion, "journal", None)
     if not 4 <= width <= revolutions:
         raise ValueError(f"width = {width}: must be 4 to {revolutions} revolutions")
     samples = round(len(whole) / revolutions)
@@ -152,15 +163,51 @@ def waterfall(motion: Transient, *, spectra: int = 200, width: int = 32) -> Wate
 
 
 @checked
-def poincare_points(motion: Transient, *, of: str = "journal") -> Array:
+def synchronous_vector(
+    motion: Motion, *, of: str = "journal", last: int | None = None
+) -> ComplexArray:
+    """Return the part of a motion that turns with the shaft, as phasors of X and Y.
+
+    Parameters
+    ----------
+    motion : Transient or MeasuredOrbit
+        The motion.
+    of : str
+        "journal" or "disk"; a recorded motion is the journal's.
+    last : int or None
+        Number of final revolutions to take, where the motion has settled; None for all.
+
+    Returns
+    -------
+    complex array, (2,)
+        P of Re{P e^{jθ}} [m], θ the angle through which the imbalance has turned from X: as the
+        response to imbalance of the linear theory.
+
+    Raises
+    ------
+    ValueError
+        Where there are fewer than four revolutions.
+    """
+    signal, angle, _ = _signal(motion, of, last)
+    window = _hann(len(signal))
+    # Hann's window has no side lobes at whole orders, and small ones at a whirl's.
+    turning = 2.0 * window * np.exp(-1j * angle) / np.sum(window)
+    centred = signal - np.sum(window * signal) / np.sum(window)
+    both = np.stack([centred.real, centred.imag], axis=-1)
+    vector: ComplexArray = np.asarray(turning @ both, dtype=complex)
+    return vector
+
+
+@checked
+def poincare_points(motion: Motion, *, of: str = "journal") -> Array:
     """Return the position once per revolution, when the imbalance points along X.
 
     Parameters
     ----------
-    motion : Transient
+    motion : Transient or MeasuredOrbit
         The motion.
     of : str
-        "journal" or "disk".
+        "journal" or "disk"; a recorded motion is the journal's.
 
     Returns
     -------
@@ -168,12 +215,13 @@ def poincare_points(motion: Transient, *, of: str = "journal") -> Array:
         Positions in X, Y [m]: a single point for a synchronous orbit, a closed curve for whirl at
         an irrational order.
     """
+    motion = _over_angle(motion)
     return _path(motion, of)[:: _samples(motion)]
 
 
 @checked
 def free_modes(
-    motion: Transient, *, rest: ArrayLike | None = None, revolutions: int | None = None
+    motion: Motion, *, rest: ArrayLike | None = None, revolutions: int | None = None
 ) -> ComplexArray:
     """Return eigenvalues measured on a small free motion: growth rates and frequencies.
 
@@ -182,7 +230,7 @@ def free_modes(
 
     Parameters
     ----------
-    motion : Transient
+    motion : Transient or MeasuredOrbit
         The motion, at constant speed, without imbalance.
     rest : array_like, (2,) or None
         Where the journal would rest [m]; None fits it with the modes.
@@ -199,16 +247,20 @@ def free_modes(
     ValueError
         Where the motion is at rest, or has less than two revolutions.
     """
-    path = motion.journal - (np.zeros(2) if rest is None else real_array("rest", rest, ends=(2,)))
+    recorded = isinstance(motion, MeasuredOrbit)
+    motion = motion.over_time if recorded else motion
+    path = _path(motion, "journal")
+    path = path - (np.zeros(2) if rest is None else real_array("rest", rest, ends=(2,)))
     samples = _samples(motion)
     count = len(path) if revolutions is None else min(revolutions * samples + 1, len(path))
     if count < 2 * samples:
         raise ValueError("motion: must have two revolutions or more")
-    return fitted_modes(path[:count], float(motion.time[1] - motion.time[0]))
+    step = float(motion.time[1] - motion.time[0])
+    return fitted_modes(path[:count], step, noise=None if recorded else _NOISE)
 
 
 @checked
-def fitted_modes(path: Array, step: float, *, noise: float = _NOISE) -> ComplexArray:
+def fitted_modes(path: Array, step: float, *, noise: float | None = _NOISE) -> ComplexArray:
     """Return the exponents of the exponentials that add up to a path, as `free_modes` does.
 
     Parameters
@@ -217,8 +269,9 @@ def fitted_modes(path: Array, step: float, *, noise: float = _NOISE) -> ComplexA
         X and Y at even steps of time.
     step : float
         Time from one to the next [s].
-    noise : float
-        Singular values below this share of the largest are taken for noise.
+    noise : float or None
+        Singular values below this share of the largest are taken for noise; None estimates it from
+        their median, as most of them are noise's where a path was recorded.
 
     Returns
     -------
@@ -231,7 +284,8 @@ def fitted_modes(path: Array, step: float, *, noise: float = _NOISE) -> ComplexA
         Where the path is at rest.
     """
     stride = max(1, len(path) // _MOST_ROWS)
-    path = path[::stride]
+    # Means of neighbours keep the exponents, and less of the noise.
+    path = path[: len(path) // stride * stride].reshape(-1, stride, 2).mean(axis=1)
     factors = _pencil(path, noise)
     values: ComplexArray = np.asarray(np.log(factors) / (stride * step), dtype=complex)
     shares = _shares(factors, path)
@@ -242,14 +296,15 @@ def fitted_modes(path: Array, step: float, *, noise: float = _NOISE) -> ComplexA
 
 @checked
 def growth(
-    motion: Transient, *, rest: ArrayLike | None = None, revolutions: int | None = None
+    motion: Motion, *, rest: ArrayLike | None = None, revolutions: int | None = None
 ) -> complex:
     """Return growth rate and frequency of the whirl in a small free motion, as one eigenvalue.
 
     Parameters
     ----------
-    motion : Transient
-        The motion, at constant speed, without imbalance.
+    motion : Transient or MeasuredOrbit
+        The motion, at constant speed; an integrated one without imbalance. In a recorded one only
+        whirl is looked for, orders 0.2 to 0.85, as the imbalance is in it too.
     rest : array_like, (2,) or None
         Where the journal would rest [m]; None fits it with the modes.
     revolutions : int or None
@@ -267,25 +322,35 @@ def growth(
         As `free_modes`.
     """
     values = free_modes(motion, rest=rest, revolutions=revolutions)
-    speed = float(motion.speed[0])
-    # Slower or faster modes are not whirl: drift of the fit, or the shaft's own.
-    waves = values[(values.imag > 0.02 * speed) & (values.imag < 3.0 * speed)]
+    low, high = _WHIRL if isinstance(motion, MeasuredOrbit) else _FREE
+    order = values.imag / float(np.median(motion.speed))
+    waves = values[(order > low) & (order < high)]
     return complex(waves[0]) if len(waves) else complex(math.nan, math.nan)
 
 
-def _path(motion: Transient, of: str) -> Array:
+def _over_angle(motion: Motion) -> Motion:
+    """Return a motion whose samples are even in the angle of rotation."""
+    return motion.over_angle if isinstance(motion, MeasuredOrbit) else motion
+
+
+def _path(motion: Motion, of: str) -> Array:
     if of not in ("journal", "disk"):
         raise ValueError(f"of = {of!r}: must be 'journal' or 'disk'")
-    return motion.journal if of == "journal" else motion.disk
+    if isinstance(motion, Transient):
+        return motion.journal if of == "journal" else motion.disk
+    if of == "disk":
+        raise ValueError("of = 'disk': of a recorded motion only the journal's is known")
+    return motion.position
 
 
-def _samples(motion: Transient) -> int:
+def _samples(motion: Motion) -> int:
     """Return the samples in a revolution."""
-    return round(2.0 * math.pi / float(motion.angle[1] - motion.angle[0]))
+    return round(2.0 * math.pi * (len(motion.angle) - 1) / float(np.ptp(motion.angle)))
 
 
-def _signal(motion: Transient, of: str, last: int | None) -> tuple[ComplexArray, int]:
-    """Return X + jY over whole revolutions, and how many they are."""
+def _signal(motion: Motion, of: str, last: int | None) -> tuple[ComplexArray, Array, int]:
+    """Return X + jY and the angle over whole revolutions, and how many they are."""
+    motion = _over_angle(motion)
     path, samples = _path(motion, of), _samples(motion)
     revolutions = (len(path) - 1) // samples
     if last is not None:
@@ -294,20 +359,26 @@ def _signal(motion: Transient, of: str, last: int | None) -> tuple[ComplexArray,
     # at one half from the synchronous line.
     if revolutions < 4:
         raise ValueError(f"motion: {revolutions} revolutions, must be 4 or more")
-    path = path[-revolutions * samples - 1 : -1]
-    return path[:, 0] + 1j * path[:, 1], revolutions
+    taken = slice(-revolutions * samples - 1, -1)
+    path = path[taken]
+    return path[:, 0] + 1j * path[:, 1], motion.angle[taken], revolutions
 
 
 def _circles(signal: ComplexArray, revolutions: int) -> tuple[Array, ComplexArray]:
     """Return orders and the phasors of the circles at them, without the mean."""
     n = len(signal)
-    # Hann's window in its periodic form. The mean goes first, or its side lobes hide slow whirl;
-    # over the sum of the window the height of a line is the radius of its circle.
-    window = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(n) / n)
+    # The mean goes first, or its side lobes hide slow whirl; over the sum of the window the height
+    # of a line is the radius of its circle.
+    window = _hann(n)
     mean = np.sum(window * signal) / np.sum(window)
     circles = np.fft.fft(window * (signal - mean)) / np.sum(window)
     order = np.fft.fftfreq(n, revolutions / n).astype(float)
     return np.fft.fftshift(order), np.fft.fftshift(circles)
+
+
+def _hann(n: int) -> Array:
+    """Return Hann's window in its periodic form, (n,)."""
+    return 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(n) / n)
 
 
 def _line(order: Array, size: Array, within: tuple[float, float]) -> tuple[float, float]:
@@ -332,7 +403,7 @@ def _line(order: Array, size: Array, within: tuple[float, float]) -> tuple[float
     return float(order[top] + side * d * spacing), peak * (height if d < 1.0 else 2.0)
 
 
-def _pencil(path: Array, noise: float) -> ComplexArray:
+def _pencil(path: Array, noise: float | None) -> ComplexArray:
     """Return the factors e^{λΔt} of the exponentials that add up to a path, (n, 2)."""
     n = len(path)
     # Pencil parameter n/3 to n/2: the least sensitive to noise (Hua and Sarkar).
@@ -342,7 +413,9 @@ def _pencil(path: Array, noise: float) -> ComplexArray:
     if not np.abs(table).max() > 0.0:
         raise ValueError("motion: is at rest, and no mode can be measured")
     _, sizes, across = np.linalg.svd(table, full_matrices=False)
-    modes = int(np.sum(sizes > noise * sizes[0]))
+    if noise is None:
+        noise = max(_NOISE, _OVER_MEDIAN * float(np.median(sizes) / sizes[0]))
+    modes = max(int(np.sum(sizes > noise * sizes[0])), 1)
     space = across[: min(modes, _MOST_MODES)].T
     return np.linalg.eigvals(np.linalg.pinv(space[:-1]) @ space[1:]).astype(complex)
 
