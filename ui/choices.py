@@ -19,7 +19,7 @@ T = TypeVar("T", str, float, int, bool)
 NAMES = frozenset((
     "tab", "scale", "over", "axes", "shaft", "spiral", "shown", "varied", "x", "y", "vary",
     "wanted", "margin", "target", "kick", "revolutions",
-    "speeds", "balance", "pace", "picture",
+    "speeds", "balance", "pace", "picture", "step",
     "spreads", "samples", "seed",
 ))  # fmt: skip
 _KEY = "rotorcalc_choices"

@@ -94,6 +94,8 @@ class Session:
     # Whether its state is that of a session before it, which the browser kept.
     recalled: bool = False
     history: History[Work] = field(init=False)
+    # The visitor's own work and its history, while a lecture's machine is shown.
+    borrowed: "tuple[Work, History[Work]] | None" = None
 
     def __post_init__(self) -> None:
         """Begin the history with the machine of the link."""
@@ -155,6 +157,31 @@ class Session:
         """Take over a preset's machine and speeds."""
         self.preset, self.values = preset, dict(PRESET_VALUES[preset])
         self.take()
+
+    def lend(self, values: Values, preset: str) -> None:
+        """Show another machine for a while; the visitor's own, and its history, are kept."""
+        first = self.borrowed is None
+        if first:
+            self.record()
+            self.borrowed, self.cases = (self._work(), self.history), ()
+        self.preset, self.values = preset, values
+        self.take()
+        if first:
+            self.history = History(self._work())
+
+    def give_back(self) -> None:
+        """Show the visitor's own machine again, with its history."""
+        if self.borrowed:
+            work, self.history = self.borrowed
+            self.borrowed = None
+            self._restore(work)
+
+    def adopt(self) -> None:
+        """Make the machine that is shown the visitor's own, as a change that can be undone."""
+        if self.borrowed:
+            work, self.history = self.borrowed
+            self.borrowed, self.cases = None, work.cases
+            self.record()
 
     def take(self) -> None:
         """Drop what was refused of a link or a file, and the messages about it."""
@@ -262,7 +289,7 @@ class Session:
             "typed": self.typed, "image_format": self.image_format,
             "asked": self.asked, "chosen": choices().kept(), "labels": labels.kept(),
             "states": [state.link for state in states], "place": place,
-            "recalled": self.recalled,
+            "recalled": self.recalled, "own": self.borrowed[0].link if self.borrowed else "",
         }  # fmt: skip
 
     def recall(self, kept: object) -> None:
@@ -278,6 +305,9 @@ class Session:
         choices().recall(given.get("chosen"))
         labels.recall(_words(given.get("labels"), str))
         self._recall_history(given.get("states"), given.get("place"))
+        if isinstance(own := given.get("own"), str) and own:
+            work = Work.of(own)
+            self.borrowed = (work, History(work))
 
     def _recall_history(self, links: object, place: object) -> None:
         """Take over the states that a browser kept, and go on from them."""

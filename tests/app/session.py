@@ -8,14 +8,18 @@ from typing import Any
 
 from streamlit.testing.v1 import AppTest
 
-from ui.frame.page import PAGES
+from ui.frame import page as frame
 from ui.inputs import input_named
 from ui.session import Session
 
 ROOT = Path(__file__).resolve().parents[2]
 TIMEOUT = 60  # seconds; a run takes 0.05, but the machine may be busy
+LECTURE = next(path for path, name in frame.PAGES.items() if name == "Lecture")
+# The pages of the visitor's own machine; a lecture has machines of its own.
+PAGES = {path: name for path, name in frame.PAGES.items() if path != LECTURE}
 HOME, *OTHERS = PAGES
-*_, ORBITS, BEARINGS_PAGE, NOTES = OTHERS
+_BY_NAME = {name: path for path, name in PAGES.items()}
+ORBITS, BEARINGS_PAGE, NOTES = (_BY_NAME[name] for name in ("Orbits", "Bearings", "Notes"))
 
 # A number that is none, as Python writes it, where a reader should find a word.
 _NO_NUMBER = re.compile(r"(?<![\w\\])(nan|NaN|None|-?inf|Infinity)(?![\w:])")

@@ -12,6 +12,8 @@ from tests.app.session import NOTES, PAGES
 from tests.words import STATES, once, toured
 from ui.cases import computed
 from ui.computed import computed_from
+from ui.lecture.steps import Step, own_steps
+from ui.lecture.views import VIEWS
 from ui.sharing import address
 
 # Mathematics, code, hover texts' fields and addresses are no words.
@@ -69,6 +71,12 @@ def test_what_a_visitor_reads_keeps_to_the_rules(page: str, state: str) -> None:
     found = once(toured(page, STATES[state])).values()
     assert len(found) > 30
     assert [fault for where, text in found for fault in _faults(where, text)] == []
+
+
+@pytest.mark.parametrize("step", own_steps(frozenset(VIEWS)), ids=lambda step: step.title)
+def test_what_a_step_of_the_lecture_says_keeps_to_the_rules(step: Step) -> None:
+    said = (step.title, step.say, step.question, step.answer, step.derivation)
+    assert [fault for text in said for fault in _faults(step.title, text)] == []
 
 
 def test_the_list_has_the_cases_of_its_link() -> None:

@@ -71,6 +71,7 @@ PAGES = {
     "pages/11_Tolerances.py": "Tolerances",
     "pages/6_Orbits.py": "Orbits",
     "pages/7_Bearings.py": "Bearings",
+    "pages/12_Lecture.py": "Lecture",
     "pages/8_Notes.py": "Notes",
 }
 
@@ -174,6 +175,14 @@ class Page:
         self.preview.say(key, words, while_dragging=while_dragging)
 
 
+class Stage(NamedTuple):
+    """What a page has in place of title and sidebar, whose machine is not the visitor's own."""
+
+    arrive: Callable[[], object]
+    heading: Callable[[], object]
+    sliders: Callable[[], object]
+
+
 class Places(NamedTuple):
     """Places in the frame whose content changes while sliders move."""
 
@@ -181,6 +190,8 @@ class Places(NamedTuple):
     navigation: DeltaGenerator
     foot: DeltaGenerator
     bore: DeltaGenerator | None
+    # Whether the page itself says what its machine does.
+    is_stage: bool
 
 
 def show(
@@ -189,6 +200,7 @@ def show(
     content: Callable[[Page], None],
     *,
     unanswered: Callable[[str], object] | None = None,
+    stage: Stage | None = None,
 ) -> None:
     """Draw a page: its frame, then its content, which alone is redrawn when a slider moves.
 
@@ -197,7 +209,7 @@ def show(
     `unanswered` shows the reason.
     """
     with one_at_a_time.PAGES.through():
-        places = _frame(title, sentence)
+        places = _frame(title, sentence, stage)
         visitor = session()
         whole, visitor.whole = visitor.whole, False
         if whole:
@@ -209,7 +221,7 @@ def show(
             st.fragment(_content)(content, places, unanswered, whole=False)
 
 
-def _frame(title: str, sentence: str) -> Places:
+def _frame(title: str, sentence: str, stage: Stage | None) -> Places:
     """Draw what stays while sliders move; return the places for what changes."""
     st.set_page_config(
         page_title=f"{title} · rotorcalc",
@@ -226,21 +238,28 @@ def _frame(title: str, sentence: str) -> Places:
     visitor.arriving = visitor.page != title
     if visitor.arriving and visitor.page:
         choices.choices().arrive()
+    if stage:
+        stage.arrive()
+    else:
+        visitor.give_back()
     visitor.drawn = visitor.framed()
     with st.sidebar:
-        past, foot, picture = _sidebar(visitor)
+        past, foot, picture = _sidebar(visitor, stage)
     visitor.page = title
     with st.container(key="frame_top"):
         navigation = st.container()
         presentation.draw_switch(visitor)
     with st.container(key="page_title"):
-        st.header(title, anchor=False)
-        st.markdown(sentence)
-    return Places(past, navigation, foot, picture)
+        if stage:
+            stage.heading()
+        else:
+            st.header(title, anchor=False)
+            st.markdown(sentence)
+    return Places(past, navigation, foot, picture, stage is not None)
 
 
 def _sidebar(
-    visitor: Session,
+    visitor: Session, stage: Stage | None
 ) -> tuple[DeltaGenerator, DeltaGenerator, DeltaGenerator | None]:
     """Draw the inputs, in a presentation those in use.
 
@@ -248,8 +267,12 @@ def _sidebar(
     """
     if visitor.present:
         st.html(presentation.STYLE)
+    if stage or visitor.present:
         past = st.container(key="past")
-        presentation.draw_sliders(visitor)
+        if stage:
+            stage.sliders()
+        else:
+            presentation.draw_sliders(visitor)
         return past, st.container(), None
     sidebar.draw_presets()
     past = st.container(key="past")
@@ -348,7 +371,8 @@ def _answered(
         unanswered(as_shown(f"{error}", visitor.values, page.units))
         return page.alone()
     visitor.preview = page.preview
-    page.say("verdict", lambda c: verdict.text(c, page.units))
+    if not places.is_stage:
+        page.say("verdict", lambda c: verdict.text(c, page.units))
     with places.foot:
         validity.draw(page.preview, visitor.set_film)
         show_preview(page.preview)

@@ -1,0 +1,193 @@
+"""The lecture's stage: which step is shown, what it asks, and the way back to one's own machine."""
+
+import io
+from dataclasses import dataclass
+
+import segno
+import streamlit as st
+
+from ui.choices import choice
+from ui.frame.page import HOME, Page
+from ui.inputs import inputs_of
+from ui.lecture.steps import MOST_BYTES, OWN, Step, own_steps, read
+from ui.lecture.views import VIEWS
+from ui.session import session
+from ui.widgets import show_inputs
+
+_STEP, _KEY = "lecture_step", "rotorcalc_lecture"
+_NAMES = frozenset(VIEWS)
+
+
+@dataclass
+class Lecture:
+    """A visitor's lecture: its steps, whether its answer is shown, and of which step that is."""
+
+    steps: tuple[Step, ...]
+    is_own: bool = True
+    # The step whose machine was taken over, and whether its answer is shown; 0 for none.
+    taken: int = 0
+    answered: bool = False
+    refused: str = ""
+
+
+def lecture() -> Lecture:
+    """Return the visitor's lecture."""
+    return st.session_state.setdefault(_KEY, Lecture(own_steps(_NAMES)))
+
+
+def arrive() -> None:
+    """Take over the step's machine where it is not there yet; the visitor's own is kept.
+
+    A link of a step may have moved the machine: then it is shown as the link has it.
+    """
+    visitor, mine = session(), lecture()
+    first = choice(_STEP, 1, lambda at: 1 <= at <= len(mine.steps))
+    if first is not None:
+        st.session_state[_STEP] = first
+    moved = visitor.frame == 1 and "step" in st.query_params and bool(visitor.changed())
+    if moved or (visitor.borrowed and not mine.taken):  # by its link, or by a server before
+        visitor.lend(dict(visitor.values), visitor.preset)
+        mine.taken = _at()
+    elif not visitor.borrowed or mine.taken != _at():
+        _take()
+
+
+def sliders() -> None:
+    """Draw the sidebar: the steps, what this one moves, and the way back."""
+    mine = lecture()
+    st.selectbox(
+        "Step", range(1, len(mine.steps) + 1), key=_STEP, on_change=_take,
+        format_func=lambda at: f"{at} · {mine.steps[at - 1].title}",
+    )  # fmt: skip
+    items = inputs_of(session().values)
+    show_inputs(f"lecture {_at()}", [items[key] for key in _step().move if key in items])
+    st.button(
+        "Reset this step", on_click=_take, width="stretch",
+        help="Its machine as it was at first, and the answer hidden.",
+    )  # fmt: skip
+    with st.popover("Link for students", width="stretch"):
+        _show_link()
+    with st.popover("Steps from a file", width="stretch"):
+        _show_file()
+    if st.button("Use this machine", width="stretch", help="It replaces your own; undo works."):
+        session().adopt()
+        st.switch_page(HOME)
+    if st.button("Back to your machine", width="stretch", type="primary"):
+        st.switch_page(HOME)
+
+
+def heading() -> None:
+    """Draw the step's number, title and sentence, and the buttons to the next."""
+    mine, step = lecture(), _step()
+    with st.container(key="lecture_heading", horizontal=True, vertical_alignment="center"):
+        st.button(
+            "Back", key="lecture_back", shortcut="PageUp", on_click=_go, args=(-1,),
+            disabled=_at() == 1,
+        )  # fmt: skip
+        st.button(
+            "Next", key="lecture_next", shortcut="PageDown", on_click=_go, args=(1,),
+            disabled=_at() == len(mine.steps),
+        )  # fmt: skip
+        st.header(f"{_at()} · {step.title}", anchor=False)
+    with st.container(key="lecture_say"):  # a presentation leaves out a page's sentence
+        st.markdown(step.say)
+
+
+def content(page: Page) -> None:
+    """Draw the step: its numbers, its view, its question and the answer."""
+    step, mine = _step(), lecture()
+    with st.container(key="lecture_question", horizontal=True, vertical_alignment="center"):
+        st.markdown(f"**{step.question}**", width="stretch")
+        if not mine.answered:
+            st.button("Show", key="lecture_show", type="primary", shortcut="s", on_click=_show)
+    if mine.answered:
+        st.success(step.answer)
+    if mine.answered or not step.hide:
+        if step.results:
+            page.results(*step.results)
+        VIEWS[step.view](page)
+    if mine.answered and step.equation:
+        st.latex(step.equation)
+        st.caption(f"{step.source[:1].upper()}{step.source[1:]}.")
+        if step.derivation:
+            with st.expander("Derivation"):
+                st.markdown(step.derivation)
+
+
+def _at() -> int:
+    return min(int(st.session_state.get(_STEP, 1)), len(lecture().steps))
+
+
+def _step() -> Step:
+    return lecture().steps[_at() - 1]
+
+
+def _go(by: int) -> None:
+    st.session_state[_STEP] = min(max(_at() + by, 1), len(lecture().steps))
+    _take()
+
+
+def _take() -> None:
+    """Take over the machine of the step."""
+    mine, step = lecture(), _step()
+    mine.taken, mine.answered = _at(), False
+    session().lend(step.values, step.preset)
+
+
+def _show() -> None:
+    """Show the answer, and move what it moves."""
+    lecture().answered = True
+    for key, value in _step().changed.items():
+        session().set_value(key, value)
+
+
+def _show_link() -> None:
+    if not lecture().is_own:
+        st.markdown("A link cannot hold steps from a file: give your students the file.")
+        return
+    address = f"{(st.context.url or '').partition('?')[0]}?step={_at()}"
+    drawn = io.BytesIO()
+    segno.make(address, error="m").save(
+        drawn, kind="svg", scale=8, border=4, dark="#000000", light="#FFFFFF"
+    )
+    st.image(drawn.getvalue().decode(), caption=address, width="stretch")
+
+
+def _show_file() -> None:
+    mine = lecture()
+    st.markdown(
+        "Write your own steps in a file of the same form, and load it here. It stays in this "
+        "session."
+    )
+    st.download_button(
+        "These steps", OWN.read_bytes(), "steps.toml", "text/plain", on_click="ignore",
+        width="stretch",
+    )  # fmt: skip
+    st.file_uploader("Your steps", type="toml", key="lecture_file", on_change=_load)
+    if mine.refused:
+        st.error(mine.refused, title="The steps stay as they were")
+    if not mine.is_own:
+        st.button("Back to the notes' steps", on_click=_reset, width="stretch")
+
+
+def _load() -> None:
+    given, mine = st.session_state.get("lecture_file"), lecture()
+    if given is None:
+        return
+    try:
+        if given.size > MOST_BYTES:
+            raise ValueError(f"the file has {given.size} bytes: at most {MOST_BYTES} are read")
+        steps = read(given.getvalue(), _NAMES)
+    except ValueError as error:
+        mine.refused = f"{given.name}: {error}."
+        return
+    _begin(Lecture(steps, is_own=False))
+
+
+def _reset() -> None:
+    _begin(Lecture(own_steps(_NAMES)))
+
+
+def _begin(new: Lecture) -> None:
+    st.session_state[_KEY], st.session_state[_STEP] = new, 1
+    _take()
