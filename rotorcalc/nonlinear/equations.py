@@ -143,7 +143,7 @@ class Equations:
             parts.append(start.journal / C)
         if self.flexible and not self.massless:
             parts.append(start.journal_velocity / unit)
-        if self.inner is not None:
+        if self.inner is not None and self.inner.film.states > 0:
             parts.append(self._inner_start(self.inner, start))
         return np.concatenate(parts, axis=-1)
 
@@ -203,7 +203,7 @@ class Equations:
 
     def inner_states(self, states: Array) -> Array | None:
         """Return the film's inner states [m], [m/s] of states, or None where it has none."""
-        if self.inner is None:
+        if self.inner is None or self.inner.film.states == 0:
             return None
         return states[..., self.own_states :] * self._inner_units(self.inner)
 

@@ -19,6 +19,7 @@ from rotorcalc.machine import Bearing, Machine
 from rotorcalc.nonlinear.equations import film_gap, resting
 from rotorcalc.nonlinear.linear_motion import linear_theory, motion_of
 from rotorcalc.nonlinear.signals import Spectrum, poincare_points, spectrum
+from rotorcalc.nonlinear.suction import lowest_pressure
 from rotorcalc.nonlinear.transient import TOLERANCE, Transient, TransientError, simulate
 from rotorcalc.unbalance_response import orbit_points
 
@@ -61,6 +62,8 @@ class Release(Result):
         The journal's positions once per revolution [m].
     stopped : str
         Why the motion ended early; empty where it did not.
+    lowest_pressure : float
+        Of a film that the model keeps full whatever its pressure, above ambient [Pa]; else NaN.
     """
 
     motion: Transient
@@ -74,6 +77,7 @@ class Release(Result):
     spectrum: Spectrum
     points: Array
     stopped: str
+    lowest_pressure: float = math.nan
 
     @property
     def size(self) -> Array:
@@ -185,6 +189,7 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
         spectrum=spectrum(motion, last=max(int(_SETTLED * revolutions), 4)),
         points=poincare_points(motion),
         stopped=stopped,
+        lowest_pressure=lowest_pressure(machine, motion),
     )
 
 

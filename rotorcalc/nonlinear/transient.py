@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike
 
 from rotorcalc import modes
 from rotorcalc.arguments import checked
-from rotorcalc.arrays import Array, real_array, shown
+from rotorcalc.arrays import Array, IntArray, real_array, shown
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.display import Result
 from rotorcalc.films import film_of
@@ -87,7 +87,7 @@ class Transient(Result):
     speed: Array
     angle: Array
     # A function, as the velocity of a massless journal is costly and seldom needed.
-    _journal_velocity: Callable[[slice], Array]
+    _journal_velocity: Callable[[slice | IntArray], Array]
     inner: Array | None = None
 
     @cached_property
@@ -97,6 +97,10 @@ class Transient(Result):
         Without journal mass it is solved from the film's force, sample by sample.
         """
         return self._journal_velocity(slice(None))
+
+    def journal_velocity_at(self, samples: IntArray) -> Array:
+        """Return the journal's velocity at some samples in X, Y [m/s], (..., 2)."""
+        return self._journal_velocity(samples)
 
     @property
     def last_journal_velocity(self) -> Array:
@@ -294,7 +298,7 @@ def _transient(model: Equations, angles: Array, states: Array) -> Transient:
     )
 
 
-def _velocities(model: Equations, angles: Array, states: Array, rows: slice) -> Array:
+def _velocities(model: Equations, angles: Array, states: Array, rows: slice | IntArray) -> Array:
     return model.journal_velocity(angles[rows], states[rows])
 
 
@@ -330,13 +334,12 @@ def _stretch(
 def _too_close(model: Equations) -> str:
     if model.thinnest == 0.0:
         return "the journal came too close to the wall"
-    place = "the journal came closer to the wall than" if model.inner is None else (
-        "a film became thinner than"
-    )  # fmt: skip
-    return (
-        f"{place} {model.thinnest:.2g} of {'the' if model.inner is None else 'its'} clearance, "
-        "beyond which its force is not computed"
-    )
+    limit = f"than {model.thinnest:.2g} of"
+    if model.inner is not None and model.inner.film.states > 0:
+        place = f"a film became thinner {limit} its clearance"
+    else:
+        place = f"the journal came closer to the wall {limit} the clearance"
+    return f"{place}, beyond which this film's force is not computed"
 
 
 def _attempt(motion: Motion, state: Array, angles: Array, tolerance: float) -> tuple[Array, str]:

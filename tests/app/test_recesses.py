@@ -9,7 +9,17 @@ import pytest
 
 from rotorcalc import PRESETS
 from rotorcalc.units import SI, US
-from tests.app.session import HOME, faults, open_part, session_of, tabs, texts, visit
+from tests.app.session import (
+    HOME,
+    ORBITS,
+    charts,
+    faults,
+    open_part,
+    session_of,
+    tabs,
+    texts,
+    visit,
+)
 from ui.computed import computed_from
 from ui.format import amount, digits
 from ui.inputs import values_of
@@ -135,3 +145,15 @@ def test_too_heavy_a_load_says_which_supply_would_carry_it(units):
     assert not at.error
     assert math.isfinite(session_of(at).preview.computed.point.eccentricity_ratio)
     assert values_of(session_of(at).preview.computed.machine, 1.0, 1.0)["load"] == 20000.0
+
+
+def test_a_journal_on_recesses_is_released_at_once_and_suction_in_its_motion_is_said():
+    at = visit(ORBITS, bearing="hydrostatic", rpm="300")
+    assert not faults(at)
+    assert set(charts(at)) == {"chart_orbits_path", "chart_orbits_time"}
+    assert "keeps the film full" not in " ".join(texts(at))
+    for tab in ("Spectrum", "Onset three ways"):
+        open_part(at, "orbits_tab", tab)
+        assert not faults(at)
+    at = visit(ORBITS, bearing="hydrostatic")
+    assert re.search("pressure falls to −.* suction, .* keeps the film full", " ".join(texts(at)))

@@ -469,11 +469,11 @@ PADS = {
 }
 # Those above run on oil, as the machines of the tests do; these on gas.
 GAS = {"foil": replace(_PLAIN, length=0.150, geometry=Foil.usual(60e-6))}
-# Those whose film has a force on a journal in any motion.
-MOVING = [name for name in BEARINGS | SHORT_PADS | SHORT_RINGS if name != "lossy"]
-BEARINGS |= FINITE | SHORT_PADS | RINGS | PADS
-# A supply that carries every load of the tests; linear motions only.
-BEARINGS["hydrostatic"] = replace(_PLAIN, geometry=Hydrostatic(supply_pressure=15e6))
+# A supply that carries every load of the tests.
+RECESSED = {"hydrostatic": replace(_PLAIN, geometry=Hydrostatic(supply_pressure=15e6))}
+# Those whose film has the same force in any motion as at rest, to rounding.
+MOVING = [name for name in BEARINGS | SHORT_PADS | SHORT_RINGS | RECESSED if name != "lossy"]
+BEARINGS |= FINITE | SHORT_PADS | RINGS | PADS | RECESSED
 
 
 def points(bearing, sigma, *, viscosity=None, speed=600.0):

@@ -1,6 +1,7 @@
 """The hydrostatic film: identities and limits, a second program, another mesh."""
 
 import math
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -20,7 +21,7 @@ from rotorcalc.films.hydrostatic.table import extrapolated, table
 from rotorcalc.machine import JournalBearing
 from tests.films.models import points
 from tests.films.plain_recesses import Recessed, results
-from tests.machines import ROTORS, SHEET
+from tests.machines import ROTORS, SHEET, log_uniform
 
 FOUR = Lands(recesses=4, land_ratio=0.25, land_angle=30 * degree, slenderness=1.0)
 SIX = Lands(recesses=6, land_ratio=0.125, land_angle=15 * degree, slenderness=4.0)
@@ -164,6 +165,105 @@ def test_another_mesh_agrees(sigma, film):
     assert found.damping < (0.004 if film == "finite" else 0.02)
 
 
+@pytest.mark.parametrize("kind", ["capillary", "orifice"])
+def test_a_second_program_finds_the_force_on_a_moving_journal(kind):
+    place, velocity, speed = (0.2, 0.3), (0.3, -0.2), 600.0
+    motion, S = moving(kind), 0.01 * speed * 1e6 / 2e6
+    rough, fine = (
+        Recessed(4, 0.25, 30 * degree, 1.0, 0.5, kind == "orifice", n * 48, n * 16).solved(
+            place, velocity, S
+        )
+        for n in (1, 2)
+    )
+    force, P = (b + (b - a) / 3.0 for a, b in zip(rough[:2], fine[:2], strict=True))
+    *found, _ = motion.force((*place, *velocity), [], 0.01, speed)
+    # From p_s R L to μΩRL³/C².
+    assert found == pytest.approx(0.25 * force / S, abs=3e-3 * 0.25 * np.abs(force).max() / S)
+    pressure = motion.force.__self__.recess_pressure((*place, *velocity), 0.01, speed)
+    assert pressure == pytest.approx(P, abs=4e-3 * np.abs(P).max())
+
+
+def moving(kind="capillary"):
+    bearing = replace(BEARING, geometry=Hydrostatic(restrictor=kind))
+    return film_of(bearing).motion()
+
+
+MOVES = st.tuples(
+    st.floats(0.0, 0.97), st.floats(-math.pi, math.pi), *[st.floats(-3.0, 3.0)] * 2
+).map(lambda m: (m[0] * math.cos(m[1]), m[0] * math.sin(m[1]), *m[2:]))
+
+
+@pytest.mark.parametrize("kind", ["capillary", "orifice"])
+@settings(max_examples=40)
+@given(MOVES, log_uniform(1.0, 1e4))
+def test_the_velocity_of_a_moving_journal_is_that_of_the_force(kind, moves, speed):
+    motion = moving(kind)
+    f_x, f_y, rates = motion.force(moves, [], 0.01, speed)
+    dx, dy, same = motion.velocity((*moves[:2], f_x, f_y), [], 0.01, speed)
+    assert rates == same == []
+    assert (dx, dy) == pytest.approx(moves[2:], abs=1e-8)
+
+
+@pytest.mark.parametrize("kind", ["capillary", "orifice"])
+def test_the_recesses_never_drive_the_motion_that_they_resist(kind):
+    random, motion = np.random.default_rng(3), moving(kind)
+    for place in random.uniform(-0.6, 0.6, (20, 2)):
+        one, other = random.normal(0.0, 1.0, (2, 2))
+        forces = [motion.force((*place, *v), [], 0.01, 500.0)[:2] for v in (one, other)]
+        assert np.subtract(*forces) @ (one - other) < 0.0
+
+
+def test_behind_capillaries_the_force_is_linear_in_the_velocity():
+    motion, place, S = moving(), (0.4, -0.3), 0.01 * 300.0 * 1e6 / 2e6
+    force, there = held(CAPILLARY, at(S), at(place))
+    for velocity in ((0.2, 0.1), (-3.0, 5.0)):
+        *found, _ = motion.force((*place, *velocity), [], 0.01, 300.0)
+        expected = force[0] / S - there.damping[0] @ velocity
+        assert found == pytest.approx(0.25 * expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("kind", ["capillary", "orifice"])
+def test_rotation_acts_on_the_pressure_as_a_velocity_does(kind):
+    film = film_of(replace(BEARING, geometry=Hydrostatic(restrictor=kind)))
+    place = at((0.5, 0.4), (0.5, 0.4), (0.5, 0.4))
+    turning = 0.5 * np.array([0.4, -0.5])
+    velocity = at((0.0, 0.0), turning, -turning)
+    lowest = film.lowest_pressure(
+        place=place, velocity=velocity, viscosity=at(0.01, 0.01, 0.01), speed=at(4e3, 2e3, 2e3)
+    )
+    fast, moving_too, at_half_speed = lowest
+    assert moving_too == pytest.approx(fast, rel=1e-9)
+    assert fast < -1e6
+    assert at_half_speed == 0.0  # in half-speed whirl there is neither wedge nor squeeze
+
+
+def test_one_place_of_the_table_is_that_of_many():
+    made, random = table(SIX), np.random.default_rng(2)
+    angle, eps = random.uniform(-4.0, 4.0, 30), np.linspace(0.0, 0.98, 30)
+    place = eps[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    many, *_ = made.at(place)
+    for i, (x, y) in enumerate(place.tolist()):
+        one = made.point(x, y)
+        for name in ("conductance", "pumping", "squeeze"):
+            expected = getattr(many, name)[i]
+            size = np.abs(expected).max()
+            assert getattr(one, name) == pytest.approx(expected, abs=1e-12 * size)
+    # An integrator's trial step out of the bore finds the outermost place, and none without number.
+    assert made.point(1.5, 0.0).squeeze == pytest.approx(made.point(0.98, 0.0).squeeze)
+    with pytest.raises(ArithmeticError, match="no film"):
+        made.point(math.nan, 0.0)
+    with pytest.raises(ArithmeticError, match="flows"):
+        moving().force((0.1, 0.1, math.nan, 0.0), [], 0.01, 500.0)
+
+
+def test_the_motion_on_recesses_goes_to_another_process():
+    motion = moving("orifice")
+    state = (0.2, 0.1, 0.0, 0.1), [], 0.01, 500.0
+    sent = pickle.dumps(motion.force)
+    assert len(sent) < 2000
+    assert pickle.loads(sent)(*state) == motion.force(*state)  # noqa: S301 - our own
+
+
 @BOTH
 def test_behind_the_thinnest_film_of_a_fast_journal_the_pressure_is_negative(bearing):
     S = np.array([1e-3, 5.0])
@@ -260,8 +360,6 @@ def test_it_refuses_what_it_does_not_compute():
     film = film_of(BEARING)
     with pytest.raises(ValueError, match="added mass"):
         film.added_mass(points(BEARING, 1.0))
-    with pytest.raises(ValueError, match="orbits"):
-        film.motion()
     with pytest.raises(ValueError, match="land_angle"):
         Hydrostatic(recesses=6, land_angle=60 * degree)
     with pytest.raises(ValueError, match="restrictor"):

@@ -261,6 +261,11 @@ def say_outcome(preview: Preview, asked: Ask) -> None:
         while_dragging=lambda c: _stopped(coarse(c, asked)),
     )
     preview.say(
+        "suction",
+        lambda c: _suction(let_go(c, asked), units),
+        while_dragging=lambda c: _suction(coarse(c, asked), units),
+    )
+    preview.say(
         "outcome",
         lambda c: _judged(c, let_go(c, asked), units),
         while_dragging=lambda c: _judged(c, coarse(c, asked), units, _COARSELY),
@@ -285,6 +290,17 @@ def _followed(asked: Ask, found: Release) -> Text | None:
 def _stopped(found: Release) -> Text | None:
     words = f"The integration ended early: {found.stopped}."
     return Text(words, "warning") if found.stopped else None
+
+
+def _suction(found: Release, units: Units) -> Text | None:
+    if not found.lowest_pressure < 0.0:
+        return None
+    lowest = amount(units.pressure, found.lowest_pressure)
+    return Text(
+        f"In this motion the film's pressure falls to {lowest}: suction, at which oil cavitates "
+        "sooner or later. This model keeps the film full, in motion as at rest.",
+        "info",
+    )
 
 
 def _judged(computed: Computed, found: Release, units: Units, before: str = "") -> Text:

@@ -12,13 +12,17 @@ solved by Newton's method for all operating points at once.
 import functools
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import cast
 
 import numpy as np
 
 from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.films.hydrostatic.influence import Influence
+from rotorcalc.films.hydrostatic.mesh import lands_of
 from rotorcalc.films.hydrostatic.restrictors import Restrictors
-from rotorcalc.films.hydrostatic.table import THINNEST, Table
+from rotorcalc.films.hydrostatic.table import THINNEST, Table, table
+from rotorcalc.geometry import Hydrostatic
+from rotorcalc.machine import JournalBearing
 
 # Newton's steps; the size of the last, in C; the longest over the smallest film.
 _MOST_STEPS, _SETTLED, _LONGEST = 60, 1e-8, 0.7
@@ -100,6 +104,13 @@ def bearing_of(table: Table, restrictors: Restrictors) -> Bearing:
     # Beyond its highest load a journal at rest falls onto the land.
     last = int(np.argmax(load)) + 1
     return replace(bearing, eccentricity=eps[:last], load=np.maximum.accumulate(load[:last]))
+
+
+def bearing_with(bearing: JournalBearing, *, coarse: bool = False) -> Bearing:
+    """Return the lands and restrictors of a bearing of a `Hydrostatic` geometry."""
+    shape = cast("Hydrostatic", bearing.geometry)
+    made = table(lands_of(bearing), coarse=coarse)
+    return bearing_of(made, Restrictors(shape.restrictor, shape.pressure_ratio))
 
 
 def _carried_in_rotation(bearing: Bearing) -> float:

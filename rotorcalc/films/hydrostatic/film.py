@@ -21,15 +21,16 @@ from rotorcalc.films.hydrostatic.balance import (
     Bearing,
     balanced,
     bearing_of,
+    bearing_with,
 )
 from rotorcalc.films.hydrostatic.drag import shear
-from rotorcalc.films.hydrostatic.mesh import Lands, mesh
-from rotorcalc.films.hydrostatic.pressure import SHOWN, Extremes, extremes, nodal
+from rotorcalc.films.hydrostatic.mesh import Lands, lands_of, mesh
+from rotorcalc.films.hydrostatic.motion import RecessesInMotion
+from rotorcalc.films.hydrostatic.pressure import SHOWN, At, Extremes, extremes, nodal
 from rotorcalc.films.hydrostatic.pressure import field as pressure_at
-from rotorcalc.films.hydrostatic.restrictors import Restrictors
 from rotorcalc.films.hydrostatic.sources import SOURCES
-from rotorcalc.films.hydrostatic.table import THINNEST, Table, finer, table
-from rotorcalc.films.model import Accuracy, FilmMotion, Limit, Source
+from rotorcalc.films.hydrostatic.table import THINNEST, finer
+from rotorcalc.films.model import Accuracy, InnerMotion, Limit, Source
 from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
 from rotorcalc.frames import vector
 from rotorcalc.geometry import Hydrostatic
@@ -74,16 +75,11 @@ class HydrostaticFilm:
     @cached_property
     def lands(self) -> Lands:
         """The lands."""
-        shape = self.shape
-        ratio = self.bearing.diameter / self.bearing.length
-        return Lands(int(shape.recesses), shape.land_ratio, shape.land_angle, ratio**2)
+        return lands_of(self.bearing)
 
     @cached_property
     def _bearing(self) -> Bearing:
-        return self._on(table(self.lands, coarse=self._coarse))
-
-    def _on(self, made: Table) -> Bearing:
-        return bearing_of(made, Restrictors(self.shape.restrictor, self.shape.pressure_ratio))
+        return bearing_with(self.bearing, coarse=self._coarse)
 
     def balance(self, points: OperatingPoints) -> tuple[Balance, Array]:
         """Return the equilibria at operating points, flattened to (n,), and μΩ(R/C)²/p_s.
@@ -220,12 +216,53 @@ class HydrostaticFilm:
             "bearing = hydrostatic: its added mass is not computed; that of the short bearing is"
         )
 
-    def motion(self) -> FilmMotion:
-        """Refuse: only small motions about the equilibrium are computed."""
-        raise ValueError(
-            "bearing = hydrostatic: nonlinear orbits are not computed on it, only small motions "
-            "about the equilibrium"
+    def lowest_pressure(
+        self, *, place: Array, velocity: Array, viscosity: Array, speed: Array
+    ) -> Array:
+        """Return the lowest pressure of the film around moving journals, (n,).
+
+        Parameters
+        ----------
+        place, velocity : array, (n, 2)
+            Of the journals, in C and CΩ.
+        viscosity, speed : array, (n,)
+            μ [Pa·s] and Ω [rad/s].
+
+        Returns
+        -------
+        array, (n,)
+            Above ambient [Pa], at most 0.
+        """
+        moving = self._moving
+        S = np.array([moving.number(*one) for one in zip(viscosity, speed, strict=True)])
+        rows = zip(
+            np.concatenate([place, velocity], axis=1).tolist(), viscosity, speed, strict=True
         )
+        P = np.array([moving.recess_pressure(tuple(at), mu, omega) for at, mu, omega in rows])
+        lowest = extremes(self.lands, At(place, P), S, velocity).lowest
+        return self.shape.supply_pressure * lowest
+
+    @cached_property
+    def _moving(self) -> RecessesInMotion:
+        return RecessesInMotion(self.bearing, coarse=self._coarse)
+
+    def motion(self) -> InnerMotion:
+        """Return the force on a moving journal; at each instant the recesses' flows balance.
+
+        It has no inner states, but depends on viscosity and speed over the supply pressure.
+        """
+        moving = RecessesInMotion(self.bearing, coarse=self._coarse)
+        return InnerMotion(
+            states=0,
+            rest=moving.rest,
+            force=moving.force,
+            velocity=moving.velocity,
+            thinnest=THINNEST,
+        )
+
+    @property
+    def _finer(self) -> Bearing:
+        return bearing_of(finer(self.lands), self._bearing.restrictors)
 
     def accuracy(self, sommerfeld: float) -> Accuracy:
         """Return the table's mesh, and its distance from one with half as large cells.
@@ -235,7 +272,7 @@ class HydrostaticFilm:
         made = self._bearing.table
         W = np.array([_A_THIRD * self._bearing.heaviest])
         S = 4.0 * W * min(sommerfeld, 1e9) * self._slender
-        one, other = balanced(self._bearing, S, W), balanced(self._on(finer(self.lands)), S, W)
+        one, other = balanced(self._bearing, S, W), balanced(self._finer, S, W)
         cells = made.cells
         return Accuracy(
             f"{cells.recess} and {2 * cells.recess} cells over each recess, {cells.land} and "

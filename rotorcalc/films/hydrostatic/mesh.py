@@ -8,10 +8,13 @@ bound in the recesses' corners. Recess k has its middle at the angle 2πk/N from
 import functools
 import math
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 
 from rotorcalc.arrays import Array, BoolArray, IntArray
+from rotorcalc.geometry import Hydrostatic
+from rotorcalc.machine import JournalBearing
 
 _TURN = 2.0 * math.pi
 # The share of cosine spacing, which is dense at the edges, in the spacing of the nodes.
@@ -48,6 +51,12 @@ class Lands:
     def edge(self) -> float:
         """ζ of the recesses' edge."""
         return 1.0 - 2.0 * self.land_ratio
+
+
+def lands_of(bearing: JournalBearing) -> Lands:
+    """Return the lands of a bearing of a `Hydrostatic` geometry."""
+    shape, ratio = cast("Hydrostatic", bearing.geometry), bearing.diameter / bearing.length
+    return Lands(int(shape.recesses), shape.land_ratio, shape.land_angle, ratio**2)
 
 
 @dataclass(frozen=True)

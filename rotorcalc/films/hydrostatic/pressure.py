@@ -1,12 +1,12 @@
 """The pressure over lands and recesses of journals in equilibrium."""
 
 from dataclasses import dataclass
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from scipy.interpolate import RegularGridInterpolator
 
 from rotorcalc.arrays import Array
-from rotorcalc.films.hydrostatic.balance import Balance
 from rotorcalc.films.hydrostatic.influence import solutions
 from rotorcalc.films.hydrostatic.mesh import Cells, Lands, Mesh, mesh
 
@@ -29,12 +29,31 @@ class Extremes:
     lowest: Array
 
 
-def nodal(grid: Mesh, found: Balance, S: Array) -> Array:
-    """Return the pressure at the nodes of a mesh, (n, angles, places), in p_s."""
+class Around(Protocol):
+    """Journals at positions (n, 2), in C, and the recess pressures around them (n, N), in p_s."""
+
+    @property
+    def position(self) -> Array: ...  # noqa: D102
+    @property
+    def pressure(self) -> Array: ...  # noqa: D102
+
+
+class At(NamedTuple):
+    """The same of journals that need not be in equilibrium."""
+
+    position: Array
+    pressure: Array
+
+
+def nodal(grid: Mesh, found: Around, S: Array, velocity: Array | float = 0.0) -> Array:
+    """Return the pressure at the nodes of a mesh, (n, angles, places), in p_s.
+
+    Of journals at rest, or at velocities (n, 2), in CΩ.
+    """
     solved = solutions(grid, found.position).pressure
     x, y = found.position[:, 0], found.position[:, 1]
     # Rotation acts as the velocity (y, −x)/2.
-    motion = 6.0 * S[:, None] * np.stack([y, -x], axis=-1)
+    motion = 12.0 * S[:, None] * (velocity + 0.5 * np.stack([y, -x], axis=-1))
     by = np.concatenate([motion, found.pressure], axis=1)
     lands = (solved @ by[..., None])[..., 0]
     # In recess k, −1 on the lands, and numbered past the unknowns in a recess.
@@ -42,17 +61,19 @@ def nodal(grid: Mesh, found: Balance, S: Array) -> Array:
     return np.where(grid.is_land, padded[:, grid.unknown], found.pressure[:, grid.recess])
 
 
-def extremes(lands: Lands, found: Balance, S: Array) -> Extremes:
-    """Return the highest and the lowest pressure of journals in equilibrium.
+def extremes(lands: Lands, found: Around, S: Array, velocity: Array | float = 0.0) -> Extremes:
+    """Return the highest and the lowest pressure of journals in equilibrium, or in motion.
 
     Parameters
     ----------
     lands : Lands
         The lands.
-    found : Balance
-        The equilibria.
+    found : Balance or At
+        The journals.
     S : array, (n,)
         μΩ(R/C)²/p_s [-].
+    velocity : array, (n, 2)
+        Of the journals, in CΩ; zero at rest.
 
     Returns
     -------
@@ -60,12 +81,12 @@ def extremes(lands: Lands, found: Balance, S: Array) -> Extremes:
         Of the pressures at the nodes of a mesh, to about 1 %.
     """
     grid = mesh(lands, _SEARCHED)
-    count = len(S)
+    count, moving = len(S), np.broadcast_to(velocity, (len(S), 2))
     highest, angle, lowest = np.empty(count), np.empty(count), np.empty(count)
     for i in range(0, count, _AT_ONCE):
         some = slice(i, i + _AT_ONCE)
-        one = Balance(*(each[some] for each in vars(found).values()))
-        p = nodal(grid, one, S[some]).reshape(len(one.position), -1)
+        one = At(found.position[some], found.pressure[some])
+        p = nodal(grid, one, S[some], moving[some]).reshape(len(one.position), -1)
         at = p.argmax(axis=1)
         highest[some] = p[np.arange(len(p)), at]
         angle[some] = _angle(grid, at)

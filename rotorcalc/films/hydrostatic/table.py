@@ -30,6 +30,7 @@ FINE, COARSE, _FINER = Cells(8, 6, 4, 4), Cells(4, 3, 2, 2), Cells(16, 12, 8, 8)
 _RINGS, _COARSE_RINGS, _LEFT_OUT = 13, 8, 1e-6
 # The grid: steps in u, and directions.
 _STEPS, _DIRECTIONS = 32, 128
+_TURN = 2.0 * math.pi
 
 
 def inside(eccentricity: Array | float) -> Array | float:
@@ -87,6 +88,34 @@ class Table:
             ] ** 3
         f[:, -3:] /= s[:, None] ** 3
         return self._matrices(f), self._matrices(f_x), self._matrices(f_y)
+
+    @functools.cached_property
+    def _around(self) -> Array:
+        """The grid with its first direction again behind the last."""
+        return np.concatenate([self._grid, self._grid[:, :1]], axis=1)
+
+    def point(self, x: float, y: float) -> Influence:
+        """Return the matrices at one position, without a leading axis, ten times as fast as `at`.
+
+        Beyond the outermost ring, where only an integrator's trial steps come, those on it.
+        """
+        eps = math.hypot(x, y)
+        if not math.isfinite(eps):
+            raise ArithmeticError(f"no film around a journal at ({x}, {y})")
+        s = math.sqrt(1.0 - min(eps, 1.0 - _OUTERMOST) ** 2)
+        u, gamma = math.sqrt((1.0 - s) / (1.0 + s)), math.atan2(y, x) if eps > 1e-12 else 0.0
+        a, b = u * _STEPS / _TOP, gamma % _TURN / _TURN * _DIRECTIONS
+        i, j = min(int(a), _STEPS - 1), min(int(b), _DIRECTIONS - 1)
+        by_u, by_g = _ends(a - i, _TOP / _STEPS), _ends(b - j, _TURN / _DIRECTIONS)
+        # By ends in u and γ, then by derivatives in γ and u, as `_product`.
+        weights = np.array([p * q for p_ in (by_u[:2], by_u[2:]) for q_ in (by_g[:2], by_g[2:])
+                            for q in q_ for p in p_])  # fmt: skip
+        corners = self._around[i : i + 2, j : j + 2].reshape(16, -1)
+        f = self._centre + u * (weights @ corners)
+        f[-3:] /= s**3
+        pairs, place = _places(self.lands.recesses)
+        xx, xy, yy = f[-3:].tolist()
+        return Influence(f[place], f[pairs:-3].reshape(-1, 2), np.array([[xx, xy], [xy, yy]]))
 
     def _matrices(self, values: Array) -> Influence:
         pairs, place = _places(self.lands.recesses)
@@ -259,6 +288,12 @@ def _hermite(t: Array, step: float) -> tuple[Array, Array]:
     slope = np.stack([-6.0 * t * s / step, s * (1.0 - 3.0 * t),
                       6.0 * t * s / step, t * (1.0 - 3.0 * s)], axis=-1)  # fmt: skip
     return value.reshape(-1, 2, 2), slope.reshape(-1, 2, 2)
+
+
+def _ends(t: float, step: float) -> tuple[float, float, float, float]:
+    """Return the weights of value and slope at one end, then at the other, of one place."""
+    s = 1.0 - t
+    return s * s * (1.0 + 2.0 * t), step * t * s * s, t * t * (1.0 + 2.0 * s), -step * s * t * t
 
 
 def _product(by_u: Array, by_g: Array) -> Array:
