@@ -23,9 +23,19 @@ def refined(rotor: Rotor, film: FilmDynamics, flexible: bool) -> ComplexArray:
     """Return all λ of a rotor on a film [1/s], (..., n), refined where that finds the same one."""
     if film.at is not None:
         return impedance_eigenvalues(rotor, film, flexible=flexible)
-    matrices = (rotor, film.stiffness, film.damping)
-    known = modes.eigenvalues(*matrices, inertia=film.inertia, flexible=flexible)
-    found = modes.refined_eigenvalues(*matrices, inertia=film.inertia, flexible=flexible)
+    known = modes.eigenvalues(
+        rotor, film.stiffness, film.damping, inertia=film.inertia, flexible=flexible
+    )
+    return _refined_from(known, rotor, film, flexible)
+
+
+def _refined_from(
+    known: ComplexArray, rotor: Rotor, film: FilmDynamics, flexible: bool
+) -> ComplexArray:
+    """Return matrix eigenvalues refined, where that finds the same one."""
+    found = modes.refined_eigenvalues(
+        rotor, film.stiffness, film.damping, inertia=film.inertia, flexible=flexible
+    )
     found = found[..., : known.shape[-1]]  # the first guesses begin with the matrix eigenvalues
     is_same = np.abs(found - known) <= _SAME * np.abs(known)
     # Newton's method may run to another eigenvalue; the matrix's own then stands.
@@ -46,8 +56,21 @@ def fastest(machine: Machine, speed: ArrayLike, flexible: bool) -> ComplexArray:
 
 
 def growth(machine: Machine, speed: ArrayLike, flexible: bool) -> Array:
-    """Return the largest Re λ/Ω of any mode at speeds (...) [-]."""
-    return fastest(machine, speed, flexible).real / np.asarray(speed)
+    """Return the largest Re λ/Ω of any mode at speeds (n,) [-], refined where that can matter.
+
+    A matrix eigenvalue that is further from the axis than refining may move it has the same sign.
+    """
+    rotor, film, Omega = machine.rotor, dynamics(machine, speed), np.asarray(speed)
+    if film.at is not None:
+        return fastest(machine, speed, flexible).real / Omega
+    values = modes.eigenvalues(
+        rotor, film.stiffness, film.damping, inertia=film.inertia, flexible=flexible
+    )
+    near = np.any(np.abs(values.real) <= 2.0 * _SAME * np.abs(values), axis=-1)
+    if near.any():
+        beside = FilmDynamics(film.stiffness[near], film.damping[near], film.inertia)
+        values[near] = _refined_from(values[near], rotor, beside, flexible)
+    return values.real.max(axis=-1) / Omega
 
 
 def growth_crossing(

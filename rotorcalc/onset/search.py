@@ -12,10 +12,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.polynomial.polynomial import polyval
-from scipy.optimize import brentq, minimize_scalar
+from scipy.optimize import brentq
 
 from rotorcalc import heat, modes
-from rotorcalc.arrays import Array
+from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.coefficient_table import CoefficientTable
 from rotorcalc.coefficients import equilibrium, modified_sommerfeld, stiffness_and_damping
 from rotorcalc.films import film_coefficients, film_of, film_state, turning_bounds
@@ -39,6 +39,9 @@ _INNER, _RISES = 10.0, 60
 # Relative distance from an onset at which floats must prove stability below and instability above
 # it; otherwise the onset is computed in sixty digits.
 _SURE = 1e-9
+# Parts into which the spacings on both sides of a hump are divided, again and again, and their
+# share of the speed at which that ends.
+_ON_A_HUMP, _ONE_SPEED = 8, 1e-7
 # Rounding of Hurwitz's determinant, over its largest value between two speeds of the search.
 _NOISE = 1e-11
 # What counts as stable: a machine is not run where its film has no answer.
@@ -278,14 +281,39 @@ def humps(
     the hump and that of its top.
     """
     before, here, after = found[:-2], found[1:-1], found[2:]
-    for i in np.flatnonzero((before < here) & (here >= after) & (here <= 0.0)):
-        top = minimize_scalar(
-            lambda speed: -float(values(np.array([speed]))[0]),
-            bounds=(speeds[i], speeds[i + 2]),
-            method="bounded",
-        )
-        if top.fun < 0.0:
-            yield float(speeds[i]), float(top.x)
+    places = np.flatnonzero((before < here) & (here >= after) & (here <= 0.0))
+    below, top = speeds[places], np.full(len(places), np.nan)
+    between, left = np.stack([speeds[places + j] for j in range(3)], axis=-1), np.arange(len(top))
+    while left.size:
+        between, highest, is_certain = _nearer_the_top(values, between)
+        above = highest > 0.0
+        top[left[above]] = between[above, 1]
+        in_doubt = ~above & ~is_certain
+        left, between = left[in_doubt], between[in_doubt]
+    for low, high in zip(below.tolist(), top.tolist(), strict=True):
+        if not math.isnan(high):
+            yield low, high
+
+
+def _nearer_the_top(
+    values: Callable[[Array], Array], between: Array
+) -> tuple[Array, Array, BoolArray]:
+    """Return closer places below, near and above the tops of humps, from such places (n, 3).
+
+    And the highest values (n,), and whether no higher ones can be above zero: a hump bends down, so
+    its top is no further above the highest of equally distant places than a neighbour is below. At
+    a jump that does not tell, and the places come closer until they are one.
+    """
+    below, above = (
+        np.linspace(between[:, j], between[:, j + 1], _ON_A_HUMP + 1, axis=-1) for j in (0, 1)
+    )
+    on = np.concatenate([below, above[:, 1:]], axis=-1)
+    found = values(on.ravel()).reshape(on.shape)
+    best = np.clip(found.argmax(axis=-1), 1, on.shape[-1] - 2)[:, None] + np.arange(-1, 2)
+    near, at = (np.take_along_axis(one, best, axis=-1) for one in (on, found))
+    highest = at.max(axis=-1)
+    is_one = near[:, 2] - near[:, 0] <= _ONE_SPEED * near[:, 2]
+    return near, highest, is_one | (2.0 * highest <= at.min(axis=-1))
 
 
 def search_speeds(machine: Machine, flexible: bool = True) -> Array:

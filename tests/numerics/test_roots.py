@@ -43,5 +43,17 @@ def test_the_root_of_a_function_with_a_kink_is_found_too(function, root) -> None
     assert narrow_root(function, 0.985, 1.05) == pytest.approx(root, rel=2e-14)
 
 
+def test_between_two_kinks_the_root_is_found_in_a_few_calls() -> None:
+    looks: list[int] = []
+
+    def values(x):
+        looks.append(len(x))
+        return np.interp(x, [0.9, 1.0, 1.1], [-1.0, -0.2, 9.0]) + 0.1 * x**3
+
+    root = narrow_root(values, 0.95, 1.05)
+    assert abs(values(np.array([root]))[0]) < 1e-14
+    assert len(looks) <= 4
+
+
 def test_a_root_at_an_end_is_found() -> None:
     assert narrow_root(lambda x: x - 1.0, 1.0, 1.1) == pytest.approx(1.0, rel=1e-14)

@@ -10,6 +10,7 @@ import scipy.linalg
 from rotorcalc import analyse, modes, onset_speed, whirl_onset
 from rotorcalc.coefficients import dynamics, modified_sommerfeld
 from rotorcalc.films import film_coefficients
+from rotorcalc.onset.growth import fastest, growth
 from rotorcalc.onset.judge import is_unstable, unstable_ranges
 from rotorcalc.onset.many import onset_speeds
 from rotorcalc.onset.search import search_range
@@ -89,6 +90,21 @@ def test_the_onset_separates_decay_from_growth(bearing, rotor):
         assert is_unstable(machine, speeds)[:3].tolist() == [False, False, True]
         assert unstable_ranges(machine, speeds)[0, 0] == pytest.approx(onset.speed, rel=1e-9)
     assert onset_speeds([machine])[0] == pytest.approx(onset.speed, rel=1e-9)
+
+
+@pytest.mark.parametrize("rotor", ["rigid", "damped", "journal mass"])
+@pytest.mark.parametrize("bearing", WHIRLING)
+def test_growth_has_the_sign_of_the_refined_modes(bearing, rotor):
+    """Beside the onset it is refined too; elsewhere the matrix's eigenvalues tell it."""
+    machine = machine_of(bearing, rotor)
+    onset = min(onset_speed(machine).speed, 3e4)
+    apart = np.array([1e-9, 1e-7, 1e-5, 1e-3, 0.1, 0.5])
+    speeds = onset * np.concatenate([1.0 - apart, 1.0 + apart])
+    found, most = growth(machine, speeds, True), fastest(machine, speeds, True)
+    assert np.sign(found).tolist() == np.sign(most.real).tolist()
+    assert found == pytest.approx(most.real / speeds, abs=2e-6)
+    beside = np.abs(most.real) < 1e-6 * np.abs(most)
+    assert found[beside] == pytest.approx((most.real / speeds)[beside], abs=1e-15)
 
 
 @pytest.mark.parametrize("rotor", ROTORS)

@@ -496,6 +496,32 @@ def test_a_hump_between_two_speeds_is_found(place):
     assert search.first_crossing(lambda s: values(s) - 9.0, speeds) is None
 
 
+@given(st.floats(0.02, 0.98))
+def test_a_hump_whose_top_is_a_jump_is_found(place):
+    """As where a pad gives up its film; a thousandth below zero it is not one."""
+    speeds = np.arange(1.0, 11.0)
+    jump = 4.0 + place
+
+    def values(speed):
+        return np.where(speed < jump, -2.0 - 0.01 * speed, jump - speed) + 1e-3
+
+    ((low, top),) = search.humps(values, speeds, values(speeds))
+    assert values(np.array(low)) < 0.0 < values(np.array(top))
+    assert not list(search.humps(lambda s: values(s) - 2e-3, speeds, values(speeds) - 2e-3))
+
+
+def test_a_hump_far_below_zero_is_looked_at_once():
+    speeds = np.linspace(1.0, 50.0, 400)
+    looks = []
+
+    def values(speed):
+        looks.append(len(speed))
+        return np.sin(speed) - 1.01
+
+    assert not list(search.humps(values, speeds, values(speeds)))
+    assert len(looks) == 2
+
+
 # Without load
 
 
