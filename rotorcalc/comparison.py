@@ -11,7 +11,7 @@ from rotorcalc import heat, modes
 from rotorcalc.analysis import Sweep, analyse
 from rotorcalc.arguments import checked
 from rotorcalc.coefficient_table import CoefficientTable
-from rotorcalc.coefficients import checked_speed, equilibrium
+from rotorcalc.coefficients import checked_speed
 from rotorcalc.display import Result
 from rotorcalc.gas import Gas
 from rotorcalc.geometry import (
@@ -281,8 +281,7 @@ def _largest_peak(machine: Machine, speed: float) -> tuple[float, float]:
     top = _TOP * speed
     speeds = np.linspace(top / _SPEEDS, top, _SPEEDS)
     speeds = speeds[heat.has_film(machine, speeds)]
-    carried = from_first_answer(lambda some: equilibrium(machine, some).speed, speeds)
-    found = response_peaks(machine, carried)
+    found = from_first_answer(lambda some: response_peaks(machine, some), speeds)
     if not found.amplitude.size:
         return math.nan, math.nan
     largest = int(np.argmax(found.amplitude))

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotorcalc import modes
-from rotorcalc.analysis import Sweep, analyse
+from rotorcalc.analysis import Sweep
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, ComplexArray, IntArray
 from rotorcalc.coefficients import rising_speed, stiffness_and_damping
@@ -86,7 +86,10 @@ def response_peaks(machine: Machine, speed: ArrayLike, *, at: str = "disk") -> R
     """
     if at not in ("disk", "journal"):
         raise ValueError(f"at = {at!r}: must be 'disk' or 'journal'")
-    disk, journal = both_peaks(analyse(machine, rising_speed(speed)))
+    speeds = rising_speed(speed)
+    film = stiffness_and_damping(machine, speeds)
+    size = orbit_sizes(*synchronous_response(machine.rotor, *film, speeds))
+    disk, journal = _peaks(machine, speeds, film, size)
     return disk if at == "disk" else journal
 
 
@@ -109,11 +112,18 @@ def both_peaks(sweep: Sweep) -> tuple[ResponsePeaks, ResponsePeaks]:
     ValueError
         Where the speeds do not rise.
     """
-    machine, rotor, speed = sweep.machine, sweep.machine.rotor, sweep.speed
-    rising_speed(speed, name="sweep.speed")
-    near = _near_resonances(machine, rotor, speed, (sweep.stiffness, sweep.damping))
-    # The sweep's own sizes are reused; only speeds near resonances are added.
+    rising_speed(sweep.speed, name="sweep.speed")
     known = orbit_sizes(sweep.disk_response, sweep.journal_response)
+    return _peaks(sweep.machine, sweep.speed, (sweep.stiffness, sweep.damping), known)
+
+
+def _peaks(
+    machine: Machine, speed: Array, film: _Film, known: Array
+) -> tuple[ResponsePeaks, ResponsePeaks]:
+    """Return the peaks of disk and journals, from the film and their sizes (2, n) at speeds."""
+    rotor = machine.rotor
+    near = _near_resonances(machine, rotor, speed, film)
+    # The sizes that are known are used again; only speeds near resonances are added.
     dense, size = _denser(speed, known, near, lambda more: _orbit_sizes(machine, rotor, more))
     body, place = np.nonzero(_is_peak(size))
     if not len(body):

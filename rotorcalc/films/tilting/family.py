@@ -20,7 +20,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicSpline, PPoly
 
 from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.films.finite.fronts import coefficients
@@ -126,22 +126,28 @@ class PadFamily:
         values = self._spline(self._u(inside)) * (1.0 - inside)[..., None] ** _POWERS
         values *= loaded[..., None]
         eta = np.where(loaded, values[..., 0], self._dropped(xi))
-        free_drag, free_gap = self._without_film(xi, eta)
         values[..., 0] = eta
-        values[..., 9] = np.where(loaded, values[..., 9], free_drag)
-        values[..., 13] = np.where(loaded, values[..., 13], free_gap)
+        free = ~loaded
+        values[free, 9], values[free, 13] = self._without_film(xi[free], eta[free])
         return states(xi, values, loaded)
 
     def force(self, xi: Array) -> tuple[Array, Array]:
         """Return the force towards the pivot at ξ (...), and its derivative by ξ."""
         inside = np.clip(xi, self.first, self.last)
         u, room = self._u(inside), 1.0 - inside
-        value, slope = self._spline(u)[..., 1], self._spline(u, 1)[..., 1]
+        of_force, its_slope = self._force
+        value, slope = of_force(u), its_slope(u)
         power = room ** _POWERS[1]
         # dξ = 2u (1 − ξ) du
         rate = power / room * (slope / np.maximum(2.0 * u, 1e-9) - _POWERS[1] * value)
         loaded = xi > self.first
         return power * value * loaded, rate * loaded
+
+    @functools.cached_property
+    def _force(self) -> tuple[PPoly, PPoly]:
+        """The force's column alone over u, and its derivative."""
+        alone = PPoly.construct_fast(np.ascontiguousarray(self._spline.c[..., 1]), self._spline.x)
+        return alone, alone.derivative()
 
     def _u(self, xi: Array) -> Array:
         return np.sqrt(np.log1p((xi - self.first) / (1.0 - xi)))

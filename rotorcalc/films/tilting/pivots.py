@@ -47,7 +47,7 @@ class Pivots:
     offset: float
     preload: float
 
-    @property
+    @functools.cached_property
     def angle(self) -> Array:
         """Angles of the pivots from X [rad], (N,), those above the load line as exact mirrors."""
         pitch = 2.0 * np.pi / self.number

@@ -21,10 +21,12 @@ from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.films.tilting.family import PadFamily, PadStates, family
 from rotorcalc.films.tilting.pivots import Pivots
 
-# Positions of the first table; Newton's steps, safe between two positions; where they end.
-_PLACES, _MOST_STEPS, _STEP = 240, 80, 1e-14
-# Force beside the load, relative, at which a pad has given up its film there.
-_ASTRAY, _AT_ITS_END = 1e-9, 1e-9
+# Positions of the first table; Newton's steps, safe between two positions; where they end: at a
+# step whose square is below rounding, or, where a force jumps, between two positions so close.
+_PLACES, _MOST_STEPS, _CLOSE, _ROUNDING, _STEP = 240, 80, 1e-8, 1e-16, 1e-14
+# Force beside the load, relative, at which a pad has given up its film there; a load that counts
+# as light.
+_ASTRAY, _AT_ITS_END, _LIGHT = 1e-9, 1e-9, 1e-3
 # Without load pads are as at this position: without preload their films begin there.
 _CENTRE = 1e-12
 # Share of the way to where the last pad beside the load line gives up its film.
@@ -168,15 +170,19 @@ class FreePads:
             over = found > load
             low, high = np.where(over, low, x), np.where(over, x, high)
             with np.errstate(divide="ignore", invalid="ignore"):
-                step = x - (found - load) / slope
-            inside = (step > low) & (step < high)
-            after = np.where(inside, step, 0.5 * (low + high))
-            after = np.where(found == load, x, after)
-            if np.all(np.abs(after - x) <= _STEP * np.abs(x)):
+                step = -(found - load) / slope
+            # Where a pad's film begins its force rises so steeply that any step is small.
+            near = np.abs(found - load) <= _CLOSE * (load + _LIGHT)
+            arrived = near & (np.abs(step) <= _CLOSE * np.abs(x) + _ROUNDING)
+            inside = (x + step > low) & (x + step < high)
+            # A step from so close leaves its square; where rounding turns it back, x stands.
+            after = np.where(inside, x + step, np.where(arrived, x, 0.5 * (low + high)))
+            arrived |= (found == load) | (np.abs(after - x) <= _STEP * np.abs(x))
+            x = np.where(found == load, x, after)
+            if arrived.all():
                 break
-            x = after
         found, _ = self._carried(x, carries)
-        return x, np.abs(found - load) > _ASTRAY * (load + 1e-3)
+        return x, np.abs(found - load) > _ASTRAY * (load + _LIGHT)
 
     def _at_its_end(self, x: Array) -> BoolArray:
         return np.abs(self._xi(x) - self.family.first) < _AT_ITS_END
