@@ -32,6 +32,7 @@ from rotorcalc.coefficient_table import CoefficientTable
 from rotorcalc.coefficients import rising_speed, stiffness_and_damping
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine
+from rotorcalc.numerics.first_answer import from_first_answer
 from rotorcalc.onset import judge
 from rotorcalc.unbalance_peaks import both_peaks
 from rotorcalc.unbalance_response import orbit_sizes, synchronous_response
@@ -101,9 +102,9 @@ def amplification(
     machine : Machine
         The machine. Its imbalance scales the amplitude alone, and may be zero.
     speeds : array_like, (n,), or None
-        Rising speeds between which critical speeds are sought, Ω [rad/s]; None for a range that
-        follows from shaft and load, beyond the maximum speed, or for that of a table of
-        coefficients.
+        Rising speeds between which critical speeds are sought, Ω [rad/s], from the first on at
+        which the film has an answer; None for a range that follows from shaft and load, beyond the
+        maximum speed, or for that of a table of coefficients.
     minimum_speed, maximum_speed : float or None
         Lowest and highest speed of continuous operation [rad/s]; one alone is both.
     at : str
@@ -126,9 +127,13 @@ def amplification(
     grid = _own_speeds(machine, operating) if speeds is None else real_array("speeds", speeds)
     unit = replace(machine, rotor=replace(machine.rotor, imbalance=1.0))
     body = ("disk", "journal").index(at)
-    peaks = both_peaks(analyse(unit, rising_speed(grid, name="speeds")))[body]
+    rising = rising_speed(grid, name="speeds")
+    sweep = from_first_answer(lambda speed: analyse(unit, speed), rising)
+    peaks = both_peaks(sweep)[body]
+    # Below the first answer the film has none either.
+    lowest = float(sweep.speed[0]) if len(sweep.speed) < len(rising) else 0.0
     half_power = np.array([
-        _half_power_speeds(unit, body, speed, size)
+        _half_power_speeds(unit, body, (speed, size), lowest=lowest)
         for speed, size in zip(peaks.speed, peaks.amplitude, strict=True)
     ]).reshape(-1, 2)  # fmt: skip
     factor = peaks.speed / (half_power[:, 1] - half_power[:, 0])
@@ -203,9 +208,13 @@ def _own_speeds(machine: Machine, operating: tuple[float, float] | None) -> Arra
 
 
 def _half_power_speeds(
-    machine: Machine, body: int, peak: float, size: float
+    machine: Machine, body: int, at: tuple[float, float], *, lowest: float
 ) -> tuple[float, float]:
-    """Return the speeds below and above a peak at which the response is 1/√2 of it."""
+    """Return the speeds below and above a peak at which the response is 1/√2 of it.
+
+    `at` is the peak's speed and size; speeds below the lowest are not asked for.
+    """
+    peak, size = at
 
     def over(speed: Array) -> Array:
         K, C = stiffness_and_damping(machine, speed)
@@ -214,7 +223,8 @@ def _half_power_speeds(
 
     def crossing(speeds: Array) -> float | None:
         """Return the first speed of a row, away from the peak, with half the power."""
-        row = np.concatenate([[peak], speeds[heat.has_film(machine, speeds)]])
+        asked = speeds[(speeds >= lowest) & heat.has_film(machine, speeds)]
+        row = np.concatenate([[peak], asked])
         lower = np.flatnonzero(over(row) <= 0.0)
         if not lower.size:
             return None

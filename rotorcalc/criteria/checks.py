@@ -34,6 +34,7 @@ from rotorcalc.criteria.amplification import DAMPED, Amplification, amplificatio
 from rotorcalc.criteria.level_one import LEAST_DECREMENT, LEAST_RATIO, LevelOne, level_one
 from rotorcalc.criteria.unbalance import API_RESIDUAL, GRADES, permissible_eccentricity
 from rotorcalc.machine import Machine
+from rotorcalc.numerics.first_answer import from_first_answer
 from rotorcalc.onset import judge
 from rotorcalc.records import Choice
 from rotorcalc.unbalance_peaks import both_peaks
@@ -201,7 +202,10 @@ def _stability(machine: Machine, speed: float, anticipated: float | None) -> lis
     """Return the log decrement at Q_A, or at zero, and Q_0/Q_A."""
     found = level_one(machine, speed, anticipated or 0.0)
     decrement, Q_0 = float(found.log_decrement), found.zero_decrement
-    unknown = "" if anticipated else "No anticipated cross-coupling was given."
+    unknown = {
+        None: "No anticipated cross-coupling was given.",
+        0.0: "The anticipated cross-coupling is zero.",
+    }.get(anticipated, "")
     never = "No Q makes the machine unstable." if math.isinf(Q_0) else ""
     return [
         Criterion(
@@ -263,7 +267,8 @@ def _largest(machine: Machine, low: float, top: float) -> float:
         at = analyse(machine, top)
         return float(orbit_sizes(at.disk_response, at.journal_response)[1])
     speeds = np.linspace(max(low, _SLOWEST * top), top, _SPEEDS)
-    sweep = analyse(machine, speeds[heat.has_film(machine, speeds)])
+    carried = speeds[heat.has_film(machine, speeds)]
+    sweep = from_first_answer(lambda speed: analyse(machine, speed), carried)
     size = orbit_sizes(sweep.disk_response, sweep.journal_response)[1]
     _, peaks = both_peaks(sweep)
     return float(max([*size, *peaks.amplitude]))

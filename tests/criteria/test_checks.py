@@ -9,6 +9,7 @@ from scipy.constants import mil
 from rotorcalc import PRESETS, amplification, analyse, criteria, level_one, onset_speed, rpm
 from rotorcalc.units import Units
 from tests.criteria.bores import GEOMETRIES, on
+from tests.films.models import Sprung
 from tests.machines import SHEET, with_rotor
 
 TOP = 6000 * rpm
@@ -132,6 +133,23 @@ def test_other_bores_are_judged_too(geometry):
     rows = criteria.checks(on(geometry, SOFT.rotor), 2000 * rpm, cross_coupling=1e5)
     assert {row.passed for row in rows} <= {True, False}
     assert len(rows) >= 6
+
+
+def test_speeds_at_which_the_film_has_no_answer_are_left_out():
+    # At so low a speed this film's journal touches the wall.
+    machine = on(Sprung(), SOFT.rotor)
+    with pytest.raises(ValueError, match="touches"):
+        analyse(machine, 1.0)
+    found = amplification(machine, maximum_speed=TOP)
+    assert found.critical_speed.size
+    assert np.all(np.isfinite(found.half_power_speed))
+    assert len(criteria.checks(machine, TOP)) >= 6
+
+
+def test_a_cross_coupling_of_zero_is_no_missing_one():
+    rows = criteria.checks(SHEET, TOP, cross_coupling=0.0)
+    assert named(rows, "Q_0").unjudged == "The anticipated cross-coupling is zero."
+    assert named(criteria.checks(SHEET, TOP), "Q_0").unjudged.startswith("No anticipated")
 
 
 def test_arguments_are_refused_in_words():
