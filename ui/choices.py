@@ -21,6 +21,7 @@ NAMES = frozenset((
     "wanted", "margin", "target", "kick", "revolutions",
     "speeds", "balance", "pace", "picture", "step",
     "spreads", "samples", "seed",
+    "slowest", "fastest", "coupling", "qa", "stages", "grade",
 ))  # fmt: skip
 _KEY = "rotorcalc_choices"
 # The choices of a release, which undo brings back: least and largest value of each.

@@ -35,13 +35,14 @@ def diagram(found: Campbell, units: Units, *, running_speed: float) -> Chart:
         With the lines ω = Ω and ω = Ω/2, and diamonds where a mode meets the first.
     """
     speed = units.speed.of(found.speed)
-    x = cursor.speed_axis(found.speed, units)
+    x, now = cursor.speed_axis(found.speed, units), float(units.speed.of(running_speed))
     y = style.axis(titled("Mode frequency", "ω", units.speed.name), 0.0, _top(found, units))
     traces = [
         _order(speed, 1.0, style.symbols("ω = Ω"), "dot"),
         _order(speed, 0.5, style.symbols("ω = Ω/2") + ", whirl line", "dash"),
         *(trace for i in range(found.frequency.shape[1]) for trace in _mode(found, i, units)),
         *_crossings(found, units, y["range"][1]),
+        style.mark(now, now, "running speed"),
     ]
     chart = style.chart(
         _named_once(traces, "unstable"), x, y,

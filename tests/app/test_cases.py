@@ -31,7 +31,7 @@ from ui.results.table import RESULTS
 from ui.sharing import address
 
 # The drawing of the axes shows no machine; these results are computed once a visitor asks.
-ALONE = {"conventions", "orbits_hysteresis", "orbits_waterfall", "orbits_cycles"} | {
+ALONE = {"campbell", "conventions", "orbits_hysteresis", "orbits_waterfall", "orbits_cycles"} | {
     f"tolerances_{name}" for name in ("onset", "margin", "ranking", "cloud")
 }
 DEFAULT = PRESET_VALUES[DEFAULT_PRESET]

@@ -30,7 +30,7 @@ def test_shared_link_gives_the_same_numbers_cold_and_on_the_pages_visited_after(
     expect(app.page.get_by_test_id("stException")).to_have_count(0)
     if name not in ("Bearings", "Notes"):
         assert app.metrics()
-        assert app.drawn()
+        assert app.drawn() or name == "Criteria"
     assert cold.setdefault(name, _shown(app)) == _shown(app)
     app.go(after)
     assert app.query() == LINK

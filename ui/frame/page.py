@@ -68,6 +68,7 @@ PAGES = {
     "pages/3_Stability.py": "Stability",
     "pages/4_Root_locus.py": "Root locus",
     "pages/5_Response.py": "Response",
+    "pages/10_Criteria.py": "Criteria",
     "pages/11_Tolerances.py": "Tolerances",
     "pages/6_Orbits.py": "Orbits",
     "pages/7_Bearings.py": "Bearings",
