@@ -102,7 +102,7 @@ def _recesses(geometry: Hydrostatic, machine: Machine, speed: Array) -> Parts:
 def recess_ends(geometry: Hydrostatic) -> Array:
     """Return the angles from X at which each recess begins and ends [rad], (N, 2)."""
     pitch = 2.0 * np.pi / geometry.recesses
-    half = 0.5 * (pitch - geometry.land_angle)
+    half = 0.5 * geometry.recess_angle
     middle = pitch * np.arange(round(geometry.recesses), dtype=np.float64)
     return np.stack((middle - half, middle + half), axis=-1)
 

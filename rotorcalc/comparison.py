@@ -13,6 +13,7 @@ from rotorcalc.arguments import checked
 from rotorcalc.coefficient_table import CoefficientTable
 from rotorcalc.coefficients import checked_speed
 from rotorcalc.display import Result
+from rotorcalc.films.foil import CHECKED
 from rotorcalc.gas import Gas
 from rotorcalc.geometry import (
     AxialGrooves,
@@ -49,8 +50,6 @@ KINDS: tuple[type[Geometry], ...] = (
     Hydrostatic,
     Foil,
 )
-# Load of a foil over p_a D L up to which its model was checked.
-_CHECKED = 1.5
 _TOUCHES = (
     "the journal touches the foil at the bearing's ends, where no pressure presses it back; the "
     "load is too heavy for it"
@@ -255,12 +254,12 @@ def _too_heavy_for_gas(machine: Machine) -> str:
     bearing = machine.bearing
     if not isinstance(bearing.geometry, Foil):
         return ""
-    most = _CHECKED * bearing.geometry.ambient_pressure * bearing.diameter * bearing.length
+    most = CHECKED * bearing.geometry.ambient_pressure * bearing.diameter * bearing.length
     if machine.static_load <= most:
         return ""
     return (
         f"static load = {machine.static_load:.6g} N: must be at most {most:.4g} N, "
-        f"F/(pₐ D L) = {_CHECKED:g}, up to which this foil was checked"
+        f"F/(pₐ D L) = {CHECKED:g}, up to which this foil was checked"
     )
 
 

@@ -382,6 +382,16 @@ class Hydrostatic(Geometry):
         # Lands that meet would leave no recess, as grooves that meet leave no pad.
         _fits(self.recesses, "recesses", "land_angle", self.land_angle)
 
+    @property
+    def recess_angle(self) -> float:
+        """Angle of a recess [rad]."""
+        return recess_angle(self.recesses, self.land_angle)
+
+
+def recess_angle(recesses: float, land_angle: float) -> float:
+    """Return the angle of each of N recesses from that of the land between two of them [rad]."""
+    return _TURN / recesses - land_angle
+
 
 @dataclass(frozen=True, kw_only=True)
 class Foil(Geometry):

@@ -20,49 +20,12 @@ from rotorcalc.films.finite.circle import (
 from rotorcalc.films.finite.direct_motion import SOLVED_REVOLUTION, SolvedPadsInMotion
 from rotorcalc.films.finite.motion import APART, REVOLUTION, SECONDS, THINNEST, FinitePadsInMotion
 from rotorcalc.films.finite.pressure import Pressures
+from rotorcalc.films.finite.sources import SOURCES
 from rotorcalc.films.finite.table import FilmTable, table
 from rotorcalc.films.model import Accuracy, FilmMotion, Limit, Source
 from rotorcalc.films.pads import gap, have_pockets, outline, pads_of, walls_of
 from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
 from rotorcalc.machine import JournalBearing
-
-# As short as a number of an equation: they label the buttons that explain a result.
-_SOLVED = "Reynolds' equation"
-_NEWTON = "force balance"
-_LINEAR = "linearised Reynolds' equation"
-_SOURCES: dict[str, Source] = {
-    "film": Source(
-        f"{_SOLVED} with Swift and Stieber's p = ∂p/∂n = 0 where the film breaks and forms",
-        r"\frac{\partial}{\partial\beta}\left(h^3\frac{\partial p}{\partial\beta}\right)"
-        r"+\left(\frac DL\right)^2\frac{\partial}{\partial\zeta}"
-        r"\left(h^3\frac{\partial p}{\partial\zeta}\right)"
-        r"=6\frac{\partial h}{\partial\beta},\quad p\ge0",
-    ),
-    "eccentricity": Source(_NEWTON, r"F_X(x,y)=-F_o,\quad F_Y(x,y)=0"),
-    "attitude": Source(_NEWTON, r"\tan\varphi=\frac yx"),
-    "thickness": Source(
-        "arcs of the pads",
-        r"\frac hC=1+a_x\cos\beta+a_y\sin\beta-x\cos\beta-y\sin\beta",
-    ),
-    "pressure": Source(_SOLVED, remark="ambient at the pads' edges and both ends"),
-    "force": Source(_SOLVED),
-    "drag": Source(
-        "shear of the pads",
-        r"T=\frac{\mu\Omega R^3L}{C}\sum\int\left(\frac1h+\frac h2\,"
-        r"\frac{\partial\bar p}{\partial\beta}\right)d\beta",
-    ),
-    "flow": Source(
-        "axial flow",
-        r"Q=\frac{\Omega RLC}{12}\left(\frac DL\right)^2\sum\int"
-        r"-h^3\left.\frac{\partial p}{\partial\zeta}\right|_{\zeta=1}d\beta",
-    ),
-    "stiffness": Source(_LINEAR),
-    "damping": Source(_LINEAR),
-    "k": Source(_LINEAR),
-    "c": Source(_LINEAR),
-    "XY": Source(_LINEAR),
-    "rt": Source(_LINEAR),
-}
 
 
 @dataclass(frozen=True)
@@ -106,7 +69,7 @@ class FiniteFilm:
     @property
     def sources(self) -> Mapping[str, Source]:
         """What was solved."""
-        return _SOURCES
+        return SOURCES
 
     @property
     def limits(self) -> tuple[Limit, ...]:

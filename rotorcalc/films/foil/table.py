@@ -34,8 +34,9 @@ from rotorcalc.films.foil.whirl import RATIOS, WhirlRows
 THINNEST = 0.05
 # The highest Λ: above it waves of the gas at half speed are too sharp for the mesh.
 HIGHEST_NUMBER = 30.0
-# The heaviest load, F/(p_a D L), and the lightest that is told from none.
-HEAVIEST, LIGHTEST = 2.0, 1e-8
+# The heaviest load, F/(p_a D L), that tables reach, the heaviest at which they were compared with
+# finer ones, and the lightest that is told from none.
+HEAVIEST, CHECKED, LIGHTEST = 2.0, 1.5, 1e-8
 # The load that stands for none, over Λ/(1 + Λ): the place is then 1e-3 C or so from the centre.
 _NEXT_TO_NONE = 1e-3
 # Without load no film is too slow: below this Λ it is incompressible.

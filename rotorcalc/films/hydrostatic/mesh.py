@@ -13,7 +13,7 @@ from typing import cast
 import numpy as np
 
 from rotorcalc.arrays import Array, BoolArray, IntArray
-from rotorcalc.geometry import Hydrostatic
+from rotorcalc.geometry import Hydrostatic, recess_angle
 from rotorcalc.machine import JournalBearing
 
 _TURN = 2.0 * math.pi
@@ -45,7 +45,7 @@ class Lands:
     @property
     def recess_angle(self) -> float:
         """Angle of a recess [rad]."""
-        return _TURN / self.recesses - self.land_angle
+        return recess_angle(self.recesses, self.land_angle)
 
     @property
     def edge(self) -> float:
