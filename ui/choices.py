@@ -22,6 +22,7 @@ NAMES = frozenset((
     "speeds", "balance", "pace", "picture", "step",
     "spreads", "samples", "seed",
     "slowest", "fastest", "coupling", "qa", "stages", "grade",
+    "load_axis", "turns", "which_s", "norm",
 ))  # fmt: skip
 _KEY = "rotorcalc_choices"
 # The choices of a release, which undo brings back: least and largest value of each.

@@ -86,6 +86,19 @@ def literal(message: str, most: int = 400) -> str:
     return f"`{' '.join(shown.split()).replace('`', chr(39))}`"
 
 
+def escaped(text: str) -> str:
+    """Return a text that may hold a visitor's input without markup, coefficients typeset."""
+    parts = _COEFFICIENT.split(" ".join(text.split()))
+    return "".join(
+        f"${part[0]}_{{{part[2:]}}}$" if place % 2 else _MARKUP.sub(r"\\\g<0>", part)
+        for place, part in enumerate(parts)
+    )
+
+
+_COEFFICIENT = re.compile(r"\b([KCM]_[xyXY]{2})\b")
+_MARKUP = re.compile(r"[\\`*_{}\[\]()#+!|<>~$:&-]")
+
+
 def short(value: float) -> str:
     """Return a number to six digits, as a field shows it."""
     mantissa, _, power = f"{value:.6g}".partition("e")

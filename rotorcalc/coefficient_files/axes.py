@@ -1,19 +1,35 @@
 """The user's axes x, y and the program's: X along the static load, Y at +90° as the shaft turns."""
 
-from typing import Literal, TypeAlias
+import re
+from collections.abc import Iterable
 
 import numpy as np
 
 from rotorcalc.arrays import Array
-
-LoadAxis: TypeAlias = Literal["+x", "-x", "+y", "-y"]
-Turns: TypeAlias = Literal["x to y", "y to x"]
 
 LOAD_AXES: dict[str, tuple[float, float]] = {
     "+x": (1.0, 0.0), "-x": (-1.0, 0.0), "+y": (0.0, 1.0), "-y": (0.0, -1.0),
 }  # fmt: skip
 # +1 where the shaft turns by the shorter way from +x to +y.
 TURNS: dict[str, float] = {"x to y": 1.0, "y to x": -1.0}
+# Those of the program, as a user's.
+OWN_AXES = ("+x", "x to y")
+_SAID = re.compile(r"load acts along ([+-][xy]), the shaft turns from (x to y|y to x)")
+
+
+def words_of(load_axis: str, turns: str) -> str:
+    """Return in words where the load acts and how the shaft turns; `said_axes` reads them."""
+    return f"the load acts along {load_axis}, the shaft turns from {turns}"
+
+
+def said_axes(cells: Iterable[str | float]) -> tuple[str, str] | None:
+    """Return load axis and sense of rotation that a file says in the words of `words_of`."""
+    # A comma between cells may have split them.
+    text = re.sub(
+        r"\s+", " ", ",".join(f" {cell.strip()}" for cell in cells if isinstance(cell, str))
+    )
+    found = _SAID.search(text)
+    return None if found is None else (found[1], found[2])
 
 
 class Axes:

@@ -18,7 +18,7 @@ import numpy as np
 from rotorcalc.arrays import Array, IntArray, shown
 from rotorcalc.batch.text import readable
 from rotorcalc.coefficient_files import excel, texts
-from rotorcalc.coefficient_files.axes import Axes
+from rotorcalc.coefficient_files.axes import OWN_AXES, Axes, said_axes
 from rotorcalc.coefficient_files.cells import MOST_BYTES, Sheet
 from rotorcalc.coefficient_files.columns import DAMPING, NUMBERS, STIFFNESS
 from rotorcalc.coefficient_files.doubts import doubts
@@ -50,6 +50,8 @@ class ReadTable:
         What was assumed or left out.
     warnings : tuple of str
         What looks wrong.
+    said_axes : (str, str) or None
+        Load axis and sense of rotation, where the file says them.
     """
 
     speed: Array
@@ -63,13 +65,14 @@ class ReadTable:
     attitude_angle: Array | None
     notes: tuple[str, ...]
     warnings: tuple[str, ...]
+    said_axes: tuple[str, str] | None
 
 
 def read_coefficients(  # noqa: PLR0913 - what a file cannot say of itself
     source: bytes | str | Path,
     *,
-    load_axis: str = "+x",
-    turns: str = "x to y",
+    load_axis: str | None = None,
+    turns: str | None = None,
     units: Mapping[str, str] | None = None,
     scale: Scale | None = None,
     sheet: str = "",
@@ -80,10 +83,11 @@ def read_coefficients(  # noqa: PLR0913 - what a file cannot say of itself
     ----------
     source : bytes, str or Path
         The file, a text of it with its line ends, or its path.
-    load_axis : "+x", "-x", "+y" or "-y"
+    load_axis : "+x", "-x", "+y" or "-y", optional
         The axis of the file along which the static load acts. ROSS's tables usually have "-y".
-    turns : "x to y" or "y to x"
-        The sense in which the shaft turns in the file's axes.
+    turns : "x to y" or "y to x", optional
+        The sense in which the shaft turns in the file's axes. Without these two they are what the
+        file says in the words of `written`, else "+x" and "x to y": the program's own axes.
     units : mapping of str to str, optional
         Units for "speed", "stiffness" and "damping" where the file names none.
     scale : Scale, optional
@@ -110,9 +114,10 @@ def read_coefficients(  # noqa: PLR0913 - what a file cannot say of itself
     array([[ 2.e+08,  5.e+08],
            [-1.e+08,  4.e+08]])
     """
-    axes = Axes(load_axis, turns)
-    read = numbers_of(_sheet(source, sheet), _checked(units))
-    return _table(read, axes, scale)
+    rows = _sheet(source, sheet)
+    said = said_axes(cell for row in rows.rows for cell in row.cells)
+    axes = Axes(load_axis or (said or OWN_AXES)[0], turns or (said or OWN_AXES)[1])
+    return _table(numbers_of(rows, _checked(units)), axes, scale, said)
 
 
 def _checked(units: Mapping[str, str] | None) -> Mapping[str, str]:
@@ -145,7 +150,9 @@ def _loaded(source: object) -> bytes:
         raise ValueError(f"source = {shown(source)}: no file that can be read: {error}") from error
 
 
-def _table(read: Numbers, axes: Axes, scale: Scale | None) -> ReadTable:
+def _table(
+    read: Numbers, axes: Axes, scale: Scale | None, said: tuple[str, str] | None
+) -> ReadTable:
     is_real = "speed" in read.values
     speed, stiffness, damping = _over_speed(read) if is_real else _real(read, scale)
     order = np.argsort(speed, kind="stable")
@@ -163,7 +170,7 @@ def _table(read: Numbers, axes: Axes, scale: Scale | None) -> ReadTable:
         speed=speed, stiffness=K, damping=C, lines=tuple(lines), columns=read.columns,
         kind="over speed" if is_real else "dimensionless", sommerfeld=S,
         eccentricity_ratio=eps, attitude_angle=phi, notes=tuple(read.notes),
-        warnings=(*read.warnings, *doubts(K, C)),
+        warnings=(*read.warnings, *doubts(K, C)), said_axes=said,
     )  # fmt: skip
 
 

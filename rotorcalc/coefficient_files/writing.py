@@ -4,12 +4,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotorcalc.arrays import checked_speed, real_array
+from rotorcalc.coefficient_files.axes import OWN_AXES, words_of
 from rotorcalc.coefficient_files.columns import ELEMENTS
 
 _HEAD = (
     "# Stiffness K and damping C of one bearing over running speed.",
     "# X points along the static load, Y at +90° in the sense of rotation.",
-    "# To read: the load acts along +x, the shaft turns from x to y.",
+    f"# In x, y of a file: {words_of(*OWN_AXES)}.",
 )
 
 

@@ -71,6 +71,31 @@ def damping_against_speed(
     return _dimensional("C", sweep, point, (curve, here), units)
 
 
+def of_table(
+    speed: Array, values: Array, symbol: Literal["K", "C"], now: float, units: Units
+) -> Chart:
+    """Return K or C of a table, shape (n, 2, 2), at its speeds; the running speed is a line."""
+    unit: Unit = units.stiffness if symbol == "K" else units.damping
+    at, shown, here = units.speed.of(speed), unit.of(values), float(units.speed.of(now))
+    x = style.axis(
+        style.titled("Running speed", "Ω", units.speed.name), 0.0, style.ceiling([*at, here])
+    )
+    low, high = _span(shown)
+    words = "Stiffness" if symbol == "K" else "Damping"
+    y = style.axis(style.titled(words, f"{symbol}_ij", unit.name), low, high)
+    traces = [
+        style.line(
+            at, shown[:, *place], _name(symbol, "XY", place), colour,
+            width=_width(symbol, place), mode="lines+markers",
+        )
+        for place, colour in _COLOURS.items()
+    ]  # fmt: skip
+    running = style.line(
+        [here, here], [low, high], "running speed", style.HERE, dash="dash", showlegend=False
+    )
+    return style.chart([*traces, running], x, y, legend=_LEGEND)
+
+
 def over_whirl_ratio(
     curve: OverWhirlRatio, point: Sweep, symbol: Literal["K", "C"], units: Units
 ) -> Chart:

@@ -20,6 +20,7 @@ PAGES = {path: name for path, name in frame.PAGES.items() if path != LECTURE}
 HOME, *OTHERS = PAGES
 _BY_NAME = {name: path for path, name in PAGES.items()}
 ORBITS, BEARINGS_PAGE, NOTES = (_BY_NAME[name] for name in ("Orbits", "Bearings", "Notes"))
+YOUR_DATA = _BY_NAME["Your data"]
 
 # A number that is none, as Python writes it, where a reader should find a word.
 _NO_NUMBER = re.compile(r"(?<![\w\\])(nan|NaN|None|-?inf|Infinity)(?![\w:])")

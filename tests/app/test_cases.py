@@ -30,9 +30,11 @@ from ui.inputs import DEFAULT_PRESET, PRESET_VALUES
 from ui.results.table import RESULTS
 from ui.sharing import address
 
-# The drawing of the axes shows no machine; these results are computed once a visitor asks.
+# The drawing of the axes shows no machine, the sample file one alone; these results are computed
+# once a visitor asks.
 ALONE = {"campbell", "conventions", "orbits_hysteresis", "orbits_waterfall", "orbits_cycles"} | {
-    f"tolerances_{name}" for name in ("onset", "margin", "ranking", "cloud")
+    *("own_sample_K", "own_sample_C"),
+    *(f"tolerances_{name}" for name in ("onset", "margin", "ranking", "cloud")),
 }
 DEFAULT = PRESET_VALUES[DEFAULT_PRESET]
 TWO = "Wide~3~C~95~~Thin oil~1~T~90~mu~9"

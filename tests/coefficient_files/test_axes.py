@@ -76,6 +76,19 @@ def test_the_program_doubts_none_of_its_own_films(preset):
     assert not read_coefficients(written(sweep.speed, sweep.stiffness, sweep.damping)).warnings
 
 
+def test_a_file_can_say_its_axes_and_what_is_given_counts_more():
+    file = written(SPEED, K, C)
+    assert read_coefficients(file).said_axes == ("+x", "x to y")
+    drawn = file.replace("along +x", "along -y").replace("from x to y", "from y to x")
+    given = read_coefficients(file, load_axis="-y", turns="y to x")
+    said = read_coefficients(drawn)
+    assert said.said_axes == ("-y", "y to x")
+    np.testing.assert_array_equal(said.stiffness, given.stiffness)
+    assert np.any(said.stiffness != K)
+    same(read_coefficients(drawn, load_axis="+x", turns="x to y"), rtol=0.0)
+    assert read_coefficients(file[file.index("speed [") :]).said_axes is None
+
+
 def test_unknown_axes_are_refused():
     file = written(SPEED, K, C)
     with pytest.raises(ValueError, match="load_axis = 'down': must be '\\+x' or"):

@@ -72,6 +72,7 @@ PAGES = {
     "pages/11_Tolerances.py": "Tolerances",
     "pages/6_Orbits.py": "Orbits",
     "pages/7_Bearings.py": "Bearings",
+    "pages/13_Your_data.py": "Your data",
     "pages/12_Lecture.py": "Lecture",
     "pages/8_Notes.py": "Notes",
 }
