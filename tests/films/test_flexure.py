@@ -112,6 +112,19 @@ def test_forces_and_moments_balance():
     assert alone.tilt[0] == pytest.approx(rest.tilt[7], abs=1e-8)
 
 
+def test_what_was_asked_before_changes_no_answer():
+    """Rests of one machine begin between those already known: on either side of a snap."""
+    load = np.geomspace(0.1, 3.0, 60)
+    order = np.random.default_rng(5).permutation(60)
+    for ratio in (0.01, 0.1):
+        expected = PADS.at(load, np.append(ratio * load[:-1], 0.0)).tilt  # of no one machine
+        assert np.abs(np.diff(expected, axis=0)).max() > 0.1
+        for some in np.split(order, 20):
+            found = PADS.at(load[some], ratio * load[some]).tilt
+            inside = some < 59
+            assert found[inside] == pytest.approx(expected[some[inside]], abs=1e-6)
+
+
 def test_stiff_flexures_are_fixed_pads_and_soft_ones_tilt():
     sigma = np.array([0.15, 0.5, 5.0])
     fixed = film_state(on(Lobes(number=4, arc=ARC, preload=0.3, load="between pads")), sigma)

@@ -337,7 +337,7 @@ def columns(over: Films, at: Solution) -> Array:
     film = over.mesh.slenderness / 4.0  # from μΩR³L/C² and its like
     K, C = coefficients(over, at)
     highest = peak(over, at.pressure)
-    thinnest = [float(gap(over.mesh.pads, one)) for one in over.relative[:, 0]]
+    thinnest = gap(over.mesh.pads, over.relative[:, 0])
     return np.column_stack([
         over.relative[:, 0, 1], -film * at.force[:, 0], film * K.reshape(-1, 4),
         film * C[:, [0, 0, 1], [0, 1, 1]], drag(over, at.pressure),

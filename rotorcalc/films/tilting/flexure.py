@@ -13,24 +13,37 @@ long as there is one.
 import functools
 import math
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
 from rotorcalc.arrays import Array, BoolArray, IntArray
 from rotorcalc.films.finite.table import THINNEST
 from rotorcalc.films.pads import Pad, outline
-from rotorcalc.films.tilting.family import PadStates, states
+from rotorcalc.films.tilting.family import COLUMNS, PadStates, states
+from rotorcalc.films.tilting.known_rests import KnownRests, lies_between
 from rotorcalc.films.tilting.pivots import Pivots, places
 from rotorcalc.films.tilting.plane import PadPlane, plane
 from rotorcalc.films.tilting.rest import FreePads, Rest
-from rotorcalc.films.tilting.settling import Held, Settled, carefully, settled
+from rotorcalc.films.tilting.settling import (
+    Held,
+    Settled,
+    at_once,
+    carefully,
+    let_go,
+    settled,
+    towards,
+)
 
+T = TypeVar("T")
 # Steps in κ/(1 + κ), and of each on its way.
 _RISES, _STEPS = 5, 3
 # κ, in units of the film at the heaviest load, below which a pad is free at any load.
 _SOFTEST = 1e-4
 # The lightest load over the heaviest.
 _LIGHTEST = 1e-4
+# From so many loads on, one in so many is found first.
+_MANY, _APART = 100, 4
 # A film whose highest pressure is below this is none.
 _NO_PRESSURE = 1e-9
 # Directions in which the heaviest load of fixed pads is sought.
@@ -78,16 +91,23 @@ class FlexurePads:
         return _at(self, w.shape, w.tobytes(), kappa.tobytes())
 
     def solved(self, w: Array, kappa: Array) -> Rest:
-        """Return the same at loads and κ (...), solved anew."""
+        """Return the same at loads and κ (...), not remembered as one question."""
         flat, k = w.reshape(-1), kappa.reshape(-1)
-        free = self._free.at(flat, k)
-        found = _flat(free)
         # Without load κ in units of it has no meaning, and the pads hold the journal together.
         stiff = k > _SOFTEST * np.minimum(1.0, flat / self.heaviest)
-        if stiff.any():
-            rows = np.flatnonzero(stiff)
-            start = Settled(free.position[rows], free.tilt[rows], flat[rows] < 0.0)
-            _put(found, rows, self._on_flexures(Held(flat[rows], k[rows]), start))
+        number = self.pivots.number
+        found = _Columns(
+            np.empty((flat.size, 2)),
+            np.empty((flat.size, number)),
+            np.empty((flat.size, number, COLUMNS)),
+            np.empty((flat.size, number), dtype=bool),
+        )
+        for rows, at in (
+            (np.flatnonzero(~stiff), self._tilting_freely),
+            (np.flatnonzero(stiff), self._on_flexures),
+        ):
+            if rows.size:
+                _put(found, rows, at(Held(flat[rows], k[rows])))
         return _shaped(self.pivots, found, w.shape)
 
     @property
@@ -98,13 +118,16 @@ class FlexurePads:
     def _films(self) -> PadPlane:
         return films_of(self.pivots, self.slenderness, coarse=self.coarse)
 
-    def _on_flexures(self, held: Held, start: Settled) -> "_Columns":
+    def _tilting_freely(self, held: Held) -> "_Columns":
+        return _flat(self._free.at(held.load, held.stiffness))
+
+    def _on_flexures(self, held: Held) -> "_Columns":
         if self.pivots.preload == 0.0 and np.any(held.load == 0.0):
             raise ValueError(
                 "preload = 0: without load pads on flexures have no film; give them a load or a "
                 "preload"
             )
-        pad, found = self._films, raised(self._films, self.pivots, held, start)
+        pad, found = self._films, self._settled(held)
         if not found.good.all():
             lost = held.at(np.flatnonzero(~found.good))
             load = float(lost.load[0])
@@ -118,6 +141,62 @@ class FlexurePads:
         loaded &= values[..., 11] > _NO_PRESSURE
         return _Columns(found.position, found.tilt, values, loaded)
 
+    def _settled(self, held: Held) -> Settled:
+        """Return journal and pads at rest, between known rests where there are any."""
+        # Loads of one machine give one number but for its rounding.
+        with np.errstate(divide="ignore"):
+            first, *others = {f"{one:.9g}" for one in held.stiffness / held.load}
+        if others:
+            return self._from_free(held)
+        known, found = _known(self, first), _nothing(held.load.size, self.pivots.number)
+        for rows in _by_turns(held.load):
+            _put(found, rows, self._beside(known, held.at(rows)))
+        return found
+
+    def _beside(self, known: KnownRests, held: Held) -> Settled:
+        """Return rests between known ones where these stand alike, others anew; all are known."""
+        between = known.between(held.load)
+        found = _nothing(held.load.size, self.pivots.number)
+        near = np.flatnonzero(between.near)
+        if near.size:
+            start = _started(between.start[near])
+            _put(found, near, at_once(self._films, self.pivots, held.at(near), start))
+        anew = np.flatnonzero(~(between.near & lies_between(found, between)))
+        if anew.size:
+            _put(found, anew, self._from_free(held.at(anew)))
+        good = np.flatnonzero(found.good)
+        known.add(held.load[good], found.at(good))
+        return found
+
+    def _from_free(self, held: Held) -> Settled:
+        free = self._free.at(held.load, held.stiffness)
+        start = Settled(free.position, free.tilt, held.load < 0.0)
+        return raised(self._films, self.pivots, held, start)
+
+
+@functools.lru_cache(maxsize=64)
+def _known(pads: FlexurePads, _ratio: str) -> KnownRests:
+    """Return what is known at one κ in units of the load, at first nothing."""
+    return KnownRests(pads.pivots.number)
+
+
+def _by_turns(load: Array) -> tuple[IntArray, ...]:
+    """Return rows of loads (P,): of many some of all sizes first, between which the others lie."""
+    order = np.argsort(load)
+    if len(load) < _MANY:
+        return (order,)
+    first = np.zeros(len(load), dtype=bool)
+    first[::_APART] = first[-1] = True
+    return order[first], order[~first]
+
+
+def _started(at: Array) -> Settled:
+    return Settled(at[:, :2], at[:, 2:], np.zeros(len(at), dtype=bool))
+
+
+def _nothing(count: int, number: int) -> Settled:
+    return _started(np.zeros((count, 2 + number)))
+
 
 @functools.lru_cache(maxsize=64)
 def _at(pads: FlexurePads, shape: tuple[int, ...], load: bytes, stiffness: bytes) -> Rest:
@@ -130,14 +209,13 @@ def raised(pad: PadPlane, pivots: Pivots, held: Held, start: Settled) -> Settled
     found, share = start, held.stiffness / (1.0 + held.stiffness)
     for part in np.linspace(0.0, 1.0, _RISES + 1)[1:-1]:
         softer = part * share / (1.0 - part * share)
-        found = settled(pad, pivots, Held(held.load, softer), found, steps=_STEPS)
+        found = towards(pad, pivots, Held(held.load, softer), found, steps=_STEPS)
     found = settled(pad, pivots, held, found)
-    bad = np.flatnonzero(~found.good)
-    if bad.size:
-        again = Settled(start.position[bad], start.tilt[bad], found.good[bad])
-        slowly = carefully(pad, pivots, held.at(bad), again)
-        found.position[bad], found.tilt[bad] = slowly.position, slowly.tilt
-        found.good[bad] = slowly.good
+    for again in (carefully, let_go):
+        bad = np.flatnonzero(~found.good)
+        if bad.size:
+            begin = (start if again is carefully else found).at(bad)
+            _put(found, bad, again(pad, pivots, held.at(bad), begin))
     return found
 
 
@@ -184,7 +262,8 @@ class _Columns:
     loaded: BoolArray
 
 
-def _put(found: _Columns, rows: IntArray, new: _Columns) -> None:
+def _put(found: T, rows: IntArray, new: T) -> None:
+    """Write rows of a record's arrays."""
     for name, values in vars(new).items():
         getattr(found, name)[rows] = values
 

@@ -22,8 +22,8 @@ import numpy as np
 from scipy.interpolate import NdBSpline, make_interp_spline
 
 from rotorcalc.arrays import Array, BoolArray
-from rotorcalc.films.finite.reynolds import films, mesh
-from rotorcalc.films.finite.table import carried, settled_pressures
+from rotorcalc.films.finite.reynolds import Films, films, mesh, solved
+from rotorcalc.films.finite.table import carried
 from rotorcalc.films.pads import Pad, gap
 from rotorcalc.films.tilting.family import COLUMNS, columns, film_drag
 
@@ -33,6 +33,7 @@ _ROUGH, _FINE, _DRAFT = (24, 2), (80, 3, 26, 60), (48, 2, 18, 40)
 _NEAREST, _FARTHEST = 1e-3, 0.985
 # Where the first active set ends behind the thinnest film, as the sine of the angle from it.
 _BROKEN = -0.2
+_MOST_SWEEPS = 40
 _DEGREE = 3
 # What is tabulated: F_ξ, F_η, K, L, then drag, side flow, highest pressure and its angle.
 _FORCES, _ALL = 9, 13
@@ -204,9 +205,9 @@ def _solved(shape: PadShape, s: Array, gamma: Array, resolution: tuple[int, int]
     rough, fine = (mesh((pad,), shape.slenderness, *n) for n in (_ROUGH, resolution))
     over = films(rough, place)
     ahead = np.sin(gamma[:, None, None, None] - over.beta[:, :, 1:-1, None])
-    wet = settled_pressures(over, np.broadcast_to(ahead > _BROKEN, (len(s), *rough.shape))).wet
+    wet = _full(over, np.broadcast_to(ahead > _BROKEN, (len(s), *rough.shape)))
     over = films(fine, place)
-    at = settled_pressures(over, carried(wet, fine))
+    at = solved(over, _full(over, carried(wet, fine)))
     found = columns(over, at)
     film = shape.slenderness / 4.0
     c_xx, c_xy, c_yy = found[:, 6:9].T
@@ -216,3 +217,16 @@ def _solved(shape: PadShape, s: Array, gamma: Array, resolution: tuple[int, int]
     return np.column_stack([
         film * at.force, found[:, 2:6], first, second, third, found[:, 9:13]
     ])  # fmt: skip
+
+
+def _full(found: Films, guess: BoolArray) -> BoolArray:
+    """Return where films are full, by corrections of those alone that still change."""
+    wet, active = guess.copy(), np.arange(len(guess))
+    for _ in range(_MOST_SWEEPS):
+        after = solved(found.taken(active), wet[active]).next_wet
+        changed = (after != wet[active]).any(axis=(1, 2, 3))
+        wet[active] = after
+        active = active[changed]
+        if not active.size:
+            break
+    return wet

@@ -23,9 +23,9 @@ from rotorcalc.films.tilting.plane import PadPlane
 # A step is at most this share of any pad's film, and about the way to its centre of curvature:
 # there the force has no derivatives.
 _LONGEST, _FROM_CENTRE = 0.5, 1e-6
-# Δt, in 1/Ω: the first one, the factor by which it grows, and the most steps, in haste and with
-# care; the least, and the factor by which it falls where the balance gets worse.
-_HASTE, _CARE = (30.0, 4.0, 120), (0.3, 1.5, 240)
+# Δt, in 1/Ω: the first one, the factor by which it grows, and the most steps, in haste, with care
+# and from nearby; the least, and the factor by which it falls where the balance gets worse.
+_HASTE, _CARE, _NEARBY = (30.0, 4.0, 120), (0.3, 1.5, 240), (1e6, 4.0, 8)
 _LEAST, _FALLS, _EVEN = 0.1, 0.25, 1.5
 # Force and moment left, over load and stiffness: where no step follows, and what is enough after
 # the last.
@@ -34,6 +34,8 @@ _TOLERANCE, _ENOUGH, _BESIDE = 1e-9, 1e-6, 1e-2
 # gives way, K_ηη + κ < 0, goes its way in time, which a longer step would turn back: the share of
 # the time in which its motion grows by a factor e.
 _FRICTION, _SHARE = 0.02, 0.5
+# Share of its tilt to which a pad is let go from a balance that does not hold.
+_LET_GO = 0.5
 
 
 class Held(NamedTuple):
@@ -65,10 +67,12 @@ class Settled:
     tilt: Array
     good: BoolArray
 
+    def at(self, rows: IntArray) -> "Settled":
+        """Return some of them."""
+        return Settled(self.position[rows], self.tilt[rows], self.good[rows])
 
-def settled(
-    pad: PadPlane, pivots: Pivots, held: Held, start: Settled, *, steps: int | None = None
-) -> Settled:
+
+def settled(pad: PadPlane, pivots: Pivots, held: Held, start: Settled) -> Settled:
     """Return where journals and pads come to rest.
 
     Parameters
@@ -81,26 +85,53 @@ def settled(
         Loads and κ.
     start : Settled
         Where to begin.
-    steps : int, optional
-        Steps on the way to another κ, after which nothing needs to be at rest.
 
     Returns
     -------
     Settled
         Not all of it good.
     """
-    first, grows, most = _HASTE
-    return _in_time(pad, pivots, held, start, (first, grows, most if steps is None else steps))
+    return _resting(pad, pivots, held, start, _HASTE)
 
 
 def carefully(pad: PadPlane, pivots: Pivots, held: Held, start: Settled) -> Settled:
     """Return the same by shorter steps."""
-    return _in_time(pad, pivots, held, start, _CARE)
+    return _resting(pad, pivots, held, start, _CARE)
+
+
+def at_once(pad: PadPlane, pivots: Pivots, held: Held, start: Settled) -> Settled:
+    """Return the same from a start nearby."""
+    return _resting(pad, pivots, held, start, _NEARBY)
+
+
+def let_go(pad: PadPlane, pivots: Pivots, held: Held, start: Settled) -> Settled:
+    """Return the same from a balance that does not hold: pads that give way have begun to."""
+    _, K, _ = pad.forces(places(pivots, start.position, start.tilt))
+    gives = K[..., 1, 1] + held.stiffness[:, None] < 0.0
+    begun = np.where(gives, _LET_GO * start.tilt, start.tilt)
+    return settled(pad, pivots, held, Settled(start.position, begun, start.good))
+
+
+def towards(pad: PadPlane, pivots: Pivots, held: Held, start: Settled, *, steps: int) -> Settled:
+    """Return journal and pads after some steps, on the way to other κ."""
+    first, grows, _ = _HASTE
+    found, _ = _in_time(pad, pivots, held, start, (first, grows, steps))
+    return found
+
+
+def _resting(
+    pad: PadPlane, pivots: Pivots, held: Held, start: Settled, pace: tuple[float, float, int]
+) -> Settled:
+    found, error = _in_time(pad, pivots, held, start, pace)
+    good = np.flatnonzero(error <= _ENOUGH)
+    found.good[good] = _stays(pad, pivots, held.stiffness[good], found.at(good))
+    return found
 
 
 def _in_time(
     pad: PadPlane, pivots: Pivots, held: Held, start: Settled, pace: tuple[float, float, int]
-) -> Settled:
+) -> tuple[Settled, Array]:
+    """Return journal and pads after steps in time, none of them good, and their errors (P,)."""
     position, tilt = start.position.copy(), start.tilt.copy()
     first, grows, most = pace
     dt, last = np.full(len(position), first), np.full(len(position), np.inf)
@@ -117,9 +148,7 @@ def _in_time(
         moves = (error > _TOLERANCE) & np.isfinite(step).all(axis=1) & np.isfinite(turn).all(axis=1)
         position[active[moves]] += step[moves]
         tilt[active[moves]] += turn[moves]
-    good = last <= _ENOUGH
-    good[good] = _stays(pad, pivots, held.stiffness[good], (position[good], tilt[good]))
-    return Settled(position, tilt, good)
+    return Settled(position, tilt, np.zeros(len(position), dtype=bool)), last
 
 
 def _step(
@@ -181,9 +210,9 @@ def _solved(K: Array, force: Array) -> Array:
         return np.stack([x, y], axis=-1) / determinant[:, None]
 
 
-def _stays(pad: PadPlane, pivots: Pivots, kappa: Array, at: tuple[Array, Array]) -> BoolArray:
+def _stays(pad: PadPlane, pivots: Pivots, kappa: Array, at: Settled) -> BoolArray:
     """Return where journal and pads stay: no motion leaves without a whirl, as from a saddle."""
-    _, K, C = pad.forces(places(pivots, *at))
+    _, K, C = pad.forces(places(pivots, at.position, at.tilt))
     T, number = pivots.frames, pivots.number
     own = np.broadcast_to(kappa[:, None], (len(kappa), number))
     whole = joined(K, T, own), joined(C, T, np.full_like(own, _FRICTION))
