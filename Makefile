@@ -1,4 +1,4 @@
-# make run | test | lint | bench | lock. The first three need nothing but a Python and make: they fill .venv themselves.
+# make run | test | lint | docs | bench | lock. The first three need nothing but a Python and make: they fill .venv themselves.
 PYTHON ?= python3
 
 VENV := .venv/bin/python
@@ -13,7 +13,7 @@ TOOLS   := .venv/.requirements-dev
 # An upgraded or removed system Python leaves a .venv that finds no packages.
 BROKEN := $(shell test -e $(RUNTIME) && $(VENV) -c 'import pip' 2>/dev/null || echo broken)
 
-.PHONY: run test lint bench lock broken
+.PHONY: run test lint docs bench lock broken
 .DEFAULT_GOAL := run
 
 run: $(RUNTIME)
@@ -51,3 +51,7 @@ $(RUNTIME): requirements.txt $(if $(BROKEN),broken)
 $(TOOLS): requirements-dev.txt $(RUNTIME)
 	$(PIP) -r requirements-dev.txt
 	@touch $@
+
+# Warnings are errors: a link that leads nowhere, a docstring that cannot be read.
+docs: $(TOOLS)
+	$(VENV) -m sphinx -W --keep-going -q docs build/docs
