@@ -89,6 +89,7 @@ def test_the_health_check_computes_a_machine(monkeypatch: pytest.MonkeyPatch) ->
         ("ROTORCALC_MAX_SOCKETS", "-1", settings.limits),
         ("ROTORCALC_REPLICA", "a; Path=/", settings.replica),
         ("ROTORCALC_LOG", "xml", settings.log),
+        ("ROTORCALC_DOCS", "javascript:alert(1)", settings.docs),
     ],
 )
 def test_an_invalid_setting_is_refused_by_name(

@@ -22,7 +22,7 @@ from ui.frame import bore, cases, history, presentation, sidebar
 from ui.inputs import as_shown, in_units
 from ui.preview import Preview, Text, Words
 from ui.results.row import show_results
-from ui.serving import one_at_a_time, version
+from ui.serving import one_at_a_time, settings, version
 from ui.session import Session, session, write_address_bar
 from ui.sharing import popover
 from ui.widgets import chart_key, is_dark, keep, show_chart, show_connection, show_preview
@@ -282,8 +282,14 @@ def _sidebar(
     picture = sidebar.draw_inputs()
     popover.draw()
     foot = st.container()
-    st.caption(version.label())
+    st.caption(_foot())
     return past, foot, picture
+
+
+def _foot() -> str:
+    """Return the version, and the way to the documentation where it is served."""
+    docs = settings.docs()
+    return f"{version.label()} · [documentation]({docs})" if docs else version.label()
 
 
 # The browser's longest timer is 24 days.

@@ -94,7 +94,7 @@ async def life(_: st.App) -> AsyncIterator[None]:
     log.event(
         "start", version=__version__, commit=version.commit(), replica=settings.replica(),
         python=platform.python_version(), streamlit=st.__version__, live=settings.live(),
-        heavy_jobs=settings.heavy_jobs(),
+        heavy_jobs=settings.heavy_jobs(), docs=settings.docs(),
     )  # fmt: skip
     pulse.tell("READY=1")
     looking = asyncio.create_task(PULSE.go_on())

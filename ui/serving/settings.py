@@ -1,8 +1,9 @@
 """The host's settings, from environment variables.
 
 The app's own, each a function below: ROTORCALC_LIVE, ROTORCALC_HEAVY_JOBS, ROTORCALC_REPLICA,
-ROTORCALC_COMMIT, ROTORCALC_LOG, and ROTORCALC_MAX_... for each of the limits. Streamlit's settings
-stand in .streamlit/config.toml; each has a variable too, of which a host needs these:
+ROTORCALC_COMMIT, ROTORCALC_DOCS, ROTORCALC_LOG, and ROTORCALC_MAX_... for each of the limits.
+Streamlit's settings stand in .streamlit/config.toml; each has a variable too, of which a host needs
+these:
 
 STREAMLIT_SERVER_ADDRESS, STREAMLIT_SERVER_PORT
     Where a replica listens; behind a proxy on the same machine, 127.0.0.1 and a port of its own.
@@ -82,6 +83,14 @@ def replica() -> str:
 def commit() -> str:
     """Return the running commit, ROTORCALC_COMMIT, where there is no checkout to read; or ""."""
     return os.environ.get("ROTORCALC_COMMIT", "")
+
+
+def docs() -> str:
+    """Return the address of the documentation, ROTORCALC_DOCS, where it is served; or ""."""
+    address = os.environ.get("ROTORCALC_DOCS", "")
+    if address and not address.startswith(("/", "https://", "http://")):
+        raise ValueError(f"ROTORCALC_DOCS = {address!r}: must begin with /, https:// or http://")
+    return address
 
 
 def log() -> str:
