@@ -9,12 +9,16 @@ from ui.choices import choose
 from ui.frame.page import Page, show
 from ui.ring import has_ring, here, over_speed
 from ui.words import equilibrium as words
+from ui.words import own
 from ui.words import recesses as tell
 from ui.words import ring as on_ring
 from ui.words.citation import cited, remark
 
 
 def content(page: Page) -> None:
+    if own.said(page.computed, own.PLACE):
+        page.results("static_load", "static_sag")
+        return
     page.results(
         "eccentricity_ratio", "attitude_angle", "minimum_film_thickness", "power_loss", "side_flow"
     )

@@ -10,10 +10,23 @@ from rotorcalc.figures.cursor import over_film
 from ui.choices import choose
 from ui.frame.page import Page, show
 from ui.words import coefficients as words
+from ui.words import own
 from ui.words.citation import cited, remark
 
 
 def content(page: Page) -> None:
+    axes = of_own(page) if page.computed.has_own else of_a_film(page)
+    st.subheader("At the running speed", anchor=False)
+    words.show_matrices(page.preview, axes)
+
+
+def of_own(page: Page) -> Axes:
+    page.results("equivalent_stiffness", "whirl_ratio", "rigid_threshold", "critical_mass")
+    against_speed(page, "XY")
+    return "XY"
+
+
+def of_a_film(page: Page) -> Axes:
     page.results("sommerfeld", "eccentricity_ratio", "attitude_angle", "equivalent_stiffness")
     axes = cast("Axes", choose(
         "Frame", list(words.FRAMES), "coefficients_axes", format_func=words.FRAMES.__getitem__
@@ -26,8 +39,7 @@ def content(page: Page) -> None:
         "Added mass": added_mass,
         "Why only cross-coupling": only_cross_coupling,
     })  # fmt: skip
-    st.subheader("At the running speed", anchor=False)
-    words.show_matrices(page.preview, axes)
+    return axes
 
 
 def against_speed(page: Page, axes: Axes) -> None:
@@ -40,7 +52,9 @@ def against_speed(page: Page, axes: Axes) -> None:
             ),
             "stiffness_speed",
             alt="Stiffness coefficients and equivalent stiffness of one bearing against speed.",
-            caption=cited(
+            caption=own.ROWS
+            if page.computed.has_own
+            else cited(
                 "Per bearing, each speed at its own equilibrium.",
                 page.computed,
                 "stiffness",
@@ -54,7 +68,9 @@ def against_speed(page: Page, axes: Axes) -> None:
             ),
             "damping_speed",
             alt="Damping coefficients of one bearing against speed.",
-            caption=cited(
+            caption=own.ROWS
+            if page.computed.has_own
+            else cited(
                 remark(page.computed, "damping", "Per bearing; {}.", "Per bearing."),
                 page.computed,
                 "damping",

@@ -20,7 +20,7 @@ def content(page: Page) -> None:
     page.results("onset_speed", "whirl_frequency", "margin", "critical_mass", "onset_ratio")
     page.tabs("stability_tab", {
         "Threshold": threshold,
-        "Figures of the notes": figures_of_the_notes,
+        **({} if page.computed.has_own else {"Figures of the notes": figures_of_the_notes}),
         "Follower force": follower_force,
         "Map": onset_map,
         "Remedies": remedies,

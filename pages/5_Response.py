@@ -6,6 +6,7 @@ from rotorcalc.figures import response as draw
 from ui.choices import choose
 from ui.frame.page import Page, show
 from ui.preview import Text
+from ui.words import own
 from ui.words import response as words
 
 
@@ -49,6 +50,9 @@ def orbits(page: Page) -> None:
     units = page.units
     left, right = st.columns(2)
     with left:
+        if own.said(page.computed, own.CLEARANCE):
+            scrubbed(page, right)
+            return
         page.chart(
             lambda c: draw.played_in_clearance(
                 c.clearance_orbit, c.sweep.journal_position, c.orbits, c.orbit_steps, units
@@ -58,7 +62,12 @@ def orbits(page: Page) -> None:
             caption="The journal's centre in its clearance, about its equilibrium. X "
             "points down, along the load; the shaft turns counterclockwise.",
         )
-    with right:
+    scrubbed(page, right)
+
+
+def scrubbed(page: Page, place) -> None:
+    units = page.units
+    with place:
         page.chart(
             lambda c: draw.scrubber(c.orbit_steps, c.orbits, units),
             "orbits",

@@ -8,13 +8,17 @@ from rotorcalc.nonlinear.run_up import RunUp
 from ui.choices import choose
 from ui.frame.page import Page, show
 from ui.preview import Draw, not_at_once
-from ui.words import on_demand
+from ui.words import on_demand, own
 from ui.words import orbits as ask
 from ui.words import run_up as run_ups
 from ui.words.citation import cited, remark
 
 
 def content(page: Page) -> None:
+    if own.said(page.computed, own.MOTION):
+        st.page_link("pages/5_Response.py", label="Imbalance response")
+        page.results("onset_speed", "whirl_frequency", "margin", "damping_ratio")
+        return
     page.tabs("orbits_tab", {
         "Orbit": of_a_release(orbit),
         "In time": of_a_release(in_time),

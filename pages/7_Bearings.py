@@ -2,9 +2,12 @@ import streamlit as st
 
 from ui.frame.page import Page, show
 from ui.words import bearings as words
+from ui.words import own
 
 
 def content(page: Page) -> None:
+    if own.said(page.computed, own.SIZE):
+        return
     with page.preview.dimmed("bearings"):
         # The machine's own bearing stands first in the table alone.
         _, *kinds = words.compare(page)

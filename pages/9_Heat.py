@@ -5,10 +5,13 @@ from ui.frame import supply
 from ui.frame.page import Page, show
 from ui.words import equilibrium as film
 from ui.words import heat as words
+from ui.words import own
 from ui.words.citation import cited
 
 
 def content(page: Page) -> None:
+    if own.said(page.computed, own.HEAT):
+        return
     page.results("film_temperature", "outlet_temperature", "power_loss", "oil_rise", "flow_needed")
     if not film.known("Loss, flow and their heat", page.computed.point.power_loss):
         return

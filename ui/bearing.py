@@ -9,11 +9,14 @@ import math
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass
 
+from rotorcalc import CoefficientTable, JournalBearing
+from rotorcalc.coefficient_table import OWN, UnknownBore
 from rotorcalc.geometry import Geometry
 from rotorcalc.machine import Bearing
 from rotorcalc.records import Bound, Choice, Rule, rules
 from rotorcalc.units import SI, Unit, Units
-from ui.bores import BORES, FILM, FILMS, KIND, Value, Values
+from ui.bores import BORES, FILM, FILMS, KIND, OWN_FILM, Value, Values
+from ui.own import TABLE, described, rows_of, table_of, text_of
 
 # Keys of the address bar that mean something else: a bore's field "load" is "bearing_load" there.
 _TAKEN = frozenset((
@@ -93,13 +96,33 @@ class Field:
         return f"{float(self.unit(units).of(self.unit(SI).to_si(value))):.6g}"
 
 
+@dataclass(frozen=True)
+class OwnField(Field):
+    """The field of a bearing's own coefficients: their table, as one text."""
+
+    def taken(self, word: object) -> Value:
+        """Return the text of a link or a file where it is a table, or raise ValueError."""
+        table_of(str(word))
+        return str(word)
+
+    def shown(self, value: Value, units: Units) -> str:
+        """Return how many rows it has, and between which speeds."""
+        return described(rows_of(value), units) if isinstance(value, str) else "–"
+
+
+# None where a link names no table: then there is no machine.
+_OWN = {TABLE: OwnField(TABLE, TABLE, "Coefficients", Rule(Choice(()), True, None))}
+
+
 def kinds() -> dict[str, type[Geometry]]:
     """Return the kinds of bearings by their words."""
-    return Geometry.kinds()
+    return Geometry.kinds() | {OWN: UnknownBore}
 
 
 def fields_of(kind: object) -> dict[str, Field]:
     """Return the fields of a kind of bearing by their keys."""
+    if kind == OWN:
+        return dict(_OWN)
     return _fields(kinds()[str(kind)])
 
 
@@ -124,11 +147,13 @@ def film_model(values: Mapping[str, Value]) -> str:
 def film_name(values: Mapping[str, Value]) -> str:
     """Return the film model of kept values in words."""
     model = film_model(values)
-    return FILMS.get(model, model)
+    return (FILMS | OWN_FILM).get(model, model)
 
 
 def bearing_values(bearing: Bearing) -> Values:
     """Return kind, film model and fields of a bearing as they are kept."""
+    if isinstance(bearing, CoefficientTable):
+        return {KIND: OWN, FILM: None, TABLE: text_of(bearing)}
     geometry = bearing.geometry
     fields = fields_of(geometry.kind)
     return {KIND: geometry.kind, FILM: bearing.film} | {
@@ -161,6 +186,14 @@ def without_shape(values: Mapping[str, Value]) -> Values:
     """Return kept values without the kind, film model and fields of their bearing."""
     shape = {KIND, FILM, *fields_of(values[KIND])}
     return {key: value for key, value in values.items() if key not in shape}
+
+
+def bearing_of(values: Mapping[str, Value], journal: Mapping[str, float]) -> Bearing:
+    """Return the bearing of kept values around a journal of D, L and C, or raise ValueError."""
+    if values[KIND] == OWN:
+        return rows_of(values.get(TABLE))
+    geometry, film = shape_of(values)
+    return JournalBearing(**journal, geometry=geometry, film=film)
 
 
 def shape_of(values: Mapping[str, Value]) -> tuple[Geometry, str | None]:

@@ -32,6 +32,8 @@ NAMES = {
     "hydrostatic": "Hydrostatic",
     "foil": "Foil",
 }
+# The film model of own coefficients in words; a link does not name it.
+OWN_FILM = {"table": "Interpolated over speed"}
 FILMS = {"short": "Short bearing", "finite": "Finite length", "coarse": "Coarse mesh"}
 
 # The narrowest pad, and the least land beside a pocket or between grooves [°].

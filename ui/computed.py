@@ -8,9 +8,9 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from rotorcalc import (
+    CoefficientTable,
     Gas,
     Hydrostatic,
-    JournalBearing,
     Machine,
     Oil,
     Onset,
@@ -45,7 +45,7 @@ from rotorcalc.coefficients import (
 from rotorcalc.figures.equilibrium import Path
 from rotorcalc.figures.machine import OtherSpeeds
 from rotorcalc.films import draft, film_of
-from rotorcalc.machine import oil_of
+from rotorcalc.machine import Bearing, oil_of
 from rotorcalc.numerics.first_answer import from_first_answer
 from rotorcalc.oils import by_other_law
 from rotorcalc.recesses import RecessEquilibrium, recess_equilibrium
@@ -123,13 +123,21 @@ class Computed:
 
     @property
     def onset_is_unknown(self) -> bool:
-        """Whether the oil supplied carries the heat up to a speed only, and no onset lies below."""
+        """Whether an onset was sought up to a speed only, and no onset lies below.
+
+        Where the oil supplied carries the heat no further, or where own coefficients end.
+        """
         return self.ends_unanswered(self.onset)
 
     def ends_unanswered(self, onset: Onset) -> bool:
-        """Return whether an onset was sought up to the speed that the oil supplied allows only."""
-        supplied = self.machine.supply is not None
-        return supplied and math.isinf(onset.speed) and onset.searched_to < math.inf
+        """Return whether an onset was sought up to the speed that oil or table allow only."""
+        ends = self.machine.supply is not None or self.has_own
+        return ends and math.isinf(onset.speed) and onset.searched_to < math.inf
+
+    @property
+    def has_own(self) -> bool:
+        """Whether the bearing is known by its own coefficients alone."""
+        return isinstance(self.machine.bearing, CoefficientTable)
 
     @property
     def sweep(self) -> Sweep:
@@ -278,6 +286,8 @@ class Computed:
     def of_finite_length(self) -> "Computed | None":
         """The same machine on the film of finite length; None where it has it or there is none."""
         bearing = self.machine.bearing
+        if isinstance(bearing, CoefficientTable):
+            return None
         if bearing.model != "short" or "finite" not in bearing.geometry.models:
             return None
         machine = replace(self.machine, bearing=replace(bearing, film="finite"))
@@ -286,6 +296,8 @@ class Computed:
     @property
     def short_plain(self) -> "Computed | None":
         """The same machine on the notes' bearing, short and plain; None where it has it."""
+        if isinstance(self.machine.bearing, CoefficientTable):
+            return None
         bearing = replace(self.machine.bearing, geometry=Plain(), film=None)
         if self.machine.bearing.geometry == Plain() and self.machine.bearing.model == "short":
             return None
@@ -465,7 +477,13 @@ def speeds(top_speed: float) -> Array:
 
 
 def _with_film(machine: Machine, speeds: Array) -> Array:
-    """Return the speeds at which a film has a temperature, where that follows from the supply."""
+    """Return the speeds at which a film has a temperature, where that follows from the supply.
+
+    Of own coefficients as many speeds within their ends.
+    """
+    if isinstance(table := machine.bearing, CoefficientTable):
+        low, high = max(speeds[0], table.first), min(speeds[-1], table.last)
+        return np.linspace(*((low, high) if low < high else (table.first, table.last)), len(speeds))
     if machine.supply is None:
         return speeds
     known = speeds[heat.has_film(machine, speeds)]
@@ -533,7 +551,7 @@ def _family(machine: Machine, top_speed: float, rotors: tuple[Rotor, ...]) -> Re
 
 @lru_cache(maxsize=16)
 def _curves(
-    bearing: JournalBearing,
+    bearing: Bearing,
     lowest: int,
     highest: int,
     viscosity: float = 1.0,

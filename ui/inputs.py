@@ -8,25 +8,28 @@ value becomes a machine, a bore's by `ui.bearing.shape_of`.
 
 import math
 import re
+from dataclasses import replace
 from typing import Any
 
 from scipy.constants import g
 
-from rotorcalc import PRESETS, Gas, JournalBearing, Machine, Oil, Preset, Rotor, Supply
+from rotorcalc import PRESETS, Gas, Machine, Oil, Preset, Rotor, Supply
+from rotorcalc.coefficient_table import OWN
 from rotorcalc.figures import style
 from rotorcalc.units import SI, Units
 from ui.bearing import (
     KIND,
     Values,
+    bearing_of,
     bearing_values,
     defaults_of,
     kinds,
-    shape_of,
     without_shape,
 )
 from ui.bores import Pick, bore_inputs
 from ui.format import amount, quoted
 from ui.input_record import Input, tidy
+from ui.own import TABLE, speeds_within
 
 # What moves an onset of whirl stands together at the top.
 GROUPS = ("Speed and whirl", "Bearing", "Oil", "Rotor")
@@ -174,6 +177,8 @@ GAS: Values = {
 }  # fmt: skip
 # Inputs that may be None: a value that follows from others, or one of what the machine has not.
 OPTIONAL = frozenset(("load", "T", *SUPPLY, *GAS))
+# Inputs that change nothing of own coefficients, which are those of one bearing, oil and load.
+_OF_FILM = frozenset(("T", "D", "L", "C", *SUPPLY, *GAS, *OIL))
 
 # Quantities that messages of the core have in SI, by their units there.
 _KINDS = {
@@ -203,6 +208,8 @@ def values_of(machine: Machine, speed: float, top_speed: float) -> Values:
         if key in (OIL if isinstance(oil, Gas) else GAS):
             continue
         value = speeds[item.field] if item.field in speeds else _at(machine, item.field)
+        if value is not None and math.isnan(value):  # not known of own coefficients
+            value = _at(PRESETS[DEFAULT_PRESET].machine, item.field)
         values[key] = None if value is None else tidy(float(item.unit(SI).of(value)))
     lubricant = {} if isinstance(oil, Gas) else dict.fromkeys(GAS) | {LAW: oil.law}
     return values | lubricant | bearing_values(machine.bearing)
@@ -263,7 +270,17 @@ def law_of(values: Values) -> str:
     return "Sutherland" if has_gas(values) else LAWS[str(values[LAW])]
 
 
+def has_own(values: Values) -> bool:
+    """Return whether the bearing is known by its own coefficients alone."""
+    return values[KIND] == OWN
+
+
 def applies(key: str, values: Values) -> bool:
+    """Return whether an input changes a machine."""
+    return _belongs(key, values) and not (has_own(values) and key in _OF_FILM)
+
+
+def _belongs(key: str, values: Values) -> bool:
     """Return whether a machine has an input: film temperature or supply, those of oil or of gas."""
     if key in OIL or key in GAS:
         return (key in GAS) == has_gas(values)
@@ -314,16 +331,15 @@ def _machine_of(values: Values) -> Machine:
     }
     for key, item in INPUTS.items():
         record, _, name = item.field.rpartition(".")
-        if item.field not in _SPEEDS and (record != "oil" or applies(key, values)):
+        if item.field not in _SPEEDS and (record != "oil" or _belongs(key, values)):
             left_out = key in OPTIONAL and values[key] is None
             records[record][name] = None if left_out else item.unit(SI).to_si(number(values, key))
-    geometry, film = shape_of(values)
     supply = records["supply"]
     return Machine(
         oil=Gas(**records["oil"])
         if has_gas(values)
         else Oil(**records["oil"], law=str(values[LAW])),
-        bearing=JournalBearing(**records["bearing"], geometry=geometry, film=film),
+        bearing=bearing_of(values, records["bearing"]),
         rotor=Rotor(**records["rotor"]),
         supply=None if supply["temperature"] is None else Supply(**supply),
         **records[""],
@@ -332,8 +348,16 @@ def _machine_of(values: Values) -> Machine:
 
 def inputs_of(values: Values) -> dict[str, Input]:
     """Return the inputs of a machine's sliders by their keys, its bore's among them."""
-    own = {key: item for key, item in INPUTS.items() if applies(key, values)}
+    own = {key: fitting(item, values) for key, item in INPUTS.items() if applies(key, values)}
     return own | {item.key: item for item in bore_inputs(values) if not isinstance(item, Pick)}
+
+
+def fitting(item: Input, values: Values) -> Input:
+    """Return an input with the range that a machine leaves it: own coefficients end somewhere."""
+    if item.key != "rpm" or not has_own(values) or not isinstance(values.get(TABLE), str):
+        return item
+    low, high = speeds_within(str(values[TABLE]))
+    return replace(item, low=low, high=high)
 
 
 def usual(key: str, values: Values) -> float:

@@ -14,7 +14,8 @@ from urllib.parse import parse_qsl, urlencode
 
 import streamlit as st
 
-from rotorcalc import JournalBearing
+from rotorcalc import CoefficientTable
+from rotorcalc.machine import Bearing
 from rotorcalc.units import SYSTEMS, Units, with_amplitudes
 from ui import cases
 from ui.bearing import bearing_values, defaults_of, film_model, without_shape
@@ -23,7 +24,17 @@ from ui.cases import Case
 from ui.choices import Value as Choice
 from ui.choices import choices, release_of, words_of
 from ui.history import MOST_NEAR, History
-from ui.inputs import LAW, PRESET_VALUES, has_gas, has_supply, on_lubricant, usual_values
+from ui.inputs import (
+    LAW,
+    PRESET_VALUES,
+    SUPPLY,
+    has_gas,
+    has_supply,
+    number,
+    on_lubricant,
+    usual_values,
+)
+from ui.own import TABLE, TOO_LONG, speeds_within
 from ui.preview import Preview
 from ui.sharing import address, labels
 
@@ -121,10 +132,37 @@ class Session:
                 "temperature is given."
             )
 
-    def set_bearing(self, bearing: JournalBearing) -> None:
-        """Take over another bearing's bore and film model; diameter, length, clearance stay."""
+    def set_bearing(self, bearing: Bearing) -> None:
+        """Take over another bearing's bore and film model; diameter, length, clearance stay.
+
+        Or a table of its own coefficients: a supply of oil and a running speed that do not go with
+        it give way, and the page says so.
+        """
+        if isinstance(bearing, CoefficientTable):
+            self._set_table(bearing)
+            return
         self._set(on_lubricant(without_shape(self.values) | bearing_values(bearing)))
         self.set_film(bearing.model)
+
+    def _set_table(self, table: CoefficientTable) -> None:
+        values = on_lubricant(without_shape(self.values) | bearing_values(table))
+        problems: list[str] = []
+        if has_supply(values):
+            values |= dict.fromkeys(SUPPLY) | {"T": values["T_in"]}
+            problems.append(
+                "Own coefficients give no loss, so no film temperature follows from a supply of "
+                "oil: it was left out."
+            )
+        low, high = speeds_within(str(values[TABLE]))
+        speed = number(values, "rpm")
+        if not low <= speed <= high:
+            values["rpm"] = min(max(speed, low), high)
+            problems.append(
+                f"The running speed was {speed:g} rpm; own coefficients are given from {low:g} to "
+                f"{high:g} rpm, so it is {values['rpm']:g} rpm now."
+            )
+        self._set(values)
+        self.problems += problems
 
     def set_supply(self, heat: Values) -> None:
         """Take over film temperature and supply of oil, of which one is None (`ui.supply`)."""
@@ -312,6 +350,8 @@ class Session:
     def _recall_history(self, links: object, place: object) -> None:
         """Take over the states that a browser kept, and go on from them."""
         given = links[:MOST_NEAR] if isinstance(links, list) else []
+        if any(f"{TABLE}={TOO_LONG}" in str(link) for link in given):
+            return  # a table that no link carries: another machine would stand in its place
         states = [Work.of(link) for link in given if isinstance(link, str)]
         if states and isinstance(place, int) and 0 <= place < len(states):
             self.history = History(*states, at=place)

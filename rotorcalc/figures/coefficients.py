@@ -11,6 +11,7 @@ import numpy as np
 
 from rotorcalc.analysis import ForceCoefficients, Sweep
 from rotorcalc.arrays import Array, BoolArray
+from rotorcalc.coefficient_table import CoefficientTable
 from rotorcalc.coefficients import AddedMass, OverWhirlRatio, Unloading
 from rotorcalc.figures import cursor, style
 from rotorcalc.figures.style import Axis, Chart, Trace
@@ -187,11 +188,35 @@ def _dimensional(
     if is_stiffness:
         K_eq = unit.of(curve.equivalent_stiffness)
         traces.append(style.line(speed, K_eq, style.symbols("K_eq"), style.GREY, dash="dot"))
+    traces += _rows(sweep, symbol, units)
     now = float(units.speed.of(point.speed))
     chart = style.chart(
         [*traces, *_points(now, values_here, (x, y), signed=True)], x, y, legend=_LEGEND
     )
     return cursor.over_speed(chart, point.speed, units)
+
+
+def _rows(sweep: Sweep, symbol: str, units: Units) -> list[Trace]:
+    """Return the rows of a table of coefficients within the sweep, as circles on its lines."""
+    table = sweep.machine.bearing
+    if not isinstance(table, CoefficientTable):
+        return []
+    given, unit = (
+        (table.stiffness, units.stiffness) if symbol == "K" else (table.damping, units.damping)
+    )
+    rows = np.asarray(table.speed)
+    within = (rows >= sweep.speed[0]) & (rows <= sweep.speed[-1])
+    speed, values = units.speed.of(rows[within]), unit.of(np.asarray(given)[within])
+    return [
+        {
+            **style.mark(speed, values[:, *place], "row of the table"),
+            "marker": {
+                "size": 5, "symbol": "circle-open", "color": colour, "line": {"width": 1.5}
+            },
+            "showlegend": False,
+        }
+        for place, colour in _COLOURS.items()
+    ]  # fmt: skip
 
 
 def _elements(symbol: str, axes: str, places: Array, values: Array) -> list[Trace]:

@@ -14,7 +14,8 @@ from rotorcalc.units import SI
 from ui.bearing import film_model, kinds, shape_of
 from ui.bores import FILMS, KIND, NAMES, Pick, Value, Values, bore_inputs, name_of
 from ui.input_record import Input, tidy
-from ui.inputs import INPUTS, machine_of, number
+from ui.inputs import INPUTS, has_own, machine_of, number
+from ui.own import TABLE, described, rows_of
 from ui.preview import Text
 from ui.session import session
 from ui.widgets import show_inputs
@@ -41,6 +42,8 @@ def draw() -> DeltaGenerator:
     with left:
         _kind()
     _film()
+    if has_own(session().values):
+        _own()
     for place, (is_pick, items) in enumerate(
         groupby(bore_inputs(session().values), lambda item: isinstance(item, Pick))
     ):
@@ -104,6 +107,19 @@ def _film() -> None:
         key="film_model", required=True, help=_FILM_HELP,
         on_change=_from("film_model", visitor.set_film),
     )  # fmt: skip
+
+
+def _own() -> None:
+    """Say what the table of own coefficients is, in place of a bore's inputs."""
+    visitor = session()
+    try:
+        table = rows_of(visitor.values.get(TABLE))
+    except ValueError:  # no machine: said on the page
+        return
+    st.caption(
+        f"Own coefficients: {described(table, visitor.units)}, interpolated between. Choose a "
+        "bearing above to compute one again; undo brings these back."
+    )
 
 
 def _picks(items: Iterable[Input | Pick]) -> None:

@@ -20,10 +20,13 @@ from ui.inputs import (
     LAWS,
     OPEN_GROUPS,
     applies,
+    fitting,
     has_gas,
+    has_own,
     machine_of,
     number,
 )
+from ui.own import OF_OIL
 from ui.session import Session, session
 from ui.supply import film_temperature
 from ui.widgets import show_inputs
@@ -59,7 +62,9 @@ def draw_inputs() -> DeltaGenerator | None:
             if group == "Bearing":
                 bearing = bore.draw()
             _group(group)
-            if group == "Oil" and not has_gas(session().values):
+            if group == "Oil" and has_own(session().values):
+                st.caption(OF_OIL)
+            elif group == "Oil" and not has_gas(session().values):
                 _law()
                 _oil_library()
     _settings()
@@ -90,12 +95,12 @@ def _group(group: str) -> None:
     for key, item in INPUTS.items():
         if item.group != group:
             continue
-        if key in _SWITCHES and not (key == "T" and has_gas(values)):
+        if key in _SWITCHES and not (key == "T" and (has_gas(values) or has_own(values))):
             _sliders(place, together)
             place, together = f"{group}, after {key}", []
             _SWITCHES[key]()
         if applies(key, values) and key not in _ALONE:
-            together.append(item)
+            together.append(fitting(item, values))
     _sliders(place, together)
 
 

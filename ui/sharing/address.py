@@ -42,6 +42,7 @@ from ui.inputs import (
     machine_of,
     usual_values,
 )
+from ui.own import in_link
 
 CASES = "cases"
 # Parameters that are no value of the machine.
@@ -116,7 +117,7 @@ def _differing(preset: str, values: Values) -> dict[str, str]:
     usual = usual_values(preset, values)
     for key, value in values.items():
         if key not in usual or value != usual[key]:
-            params[key] = "weight" if key == "load" and value is None else written(value)
+            params[key] = "weight" if key == "load" and value is None else in_link(written(value))
     if values[KIND] != PRESET_VALUES[preset][KIND]:
         params[KIND] = str(values[KIND])
     return params

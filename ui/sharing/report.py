@@ -103,8 +103,11 @@ def _subtitle(computed: Computed, cases: Sequence[Shown], units: Units) -> str:
     rotor = amount(units.mass, computed.machine.rotor.mass)
     names = ", ".join(shown.case.name for shown in cases)
     beside = f" It is compared with the cases {names}." if names else ""
+    on = "bearings with own coefficients" if computed.has_own else (
+        f"bearings of {size} {units.length.name}"
+    )  # fmt: skip
     return (
-        f"A rotor of {rotor} on bearings of {size} {units.length.name}, at "
+        f"A rotor of {rotor} on {on}, at "
         f"{amount(speed, computed.speed)}; charts run to {amount(speed, computed.top_speed)}."
         f"{beside}"
     )
@@ -167,6 +170,7 @@ def _results(computed: Computed, units: Units) -> str:
             (result.cited(computed), ""),
         ])
         for result in RESULTS.values() if result.belongs(computed)
+        and not (computed.has_own and math.isnan(result.value(computed)))
     )  # fmt: skip
     head = _head("Result", ("Value", "n"), "Equation")
     return f"<h2>Results at the running speed</h2>{_table(head, rows)}"
@@ -272,6 +276,9 @@ def _mode(name: str, value: complex, speed: float, units: Units) -> str:
 
 
 def _validity(computed: Computed, units: Units) -> str:
+    if computed.has_own:
+        words = escape(validity_words.panel(computed, units).words)
+        return f"<h2>Where the model holds</h2><p>{words}</p>"
     rows = (
         _row([
             (check.name, ""),

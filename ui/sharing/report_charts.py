@@ -98,6 +98,12 @@ def _dimensionless(symbol: Literal["k", "c"]) -> Callable[[Computed, Units], Cha
 
 
 _NOT_GIVEN = "The model of this bearing's film does not give it."
+# Charts that need a film, of which a table of coefficients knows nothing.
+_OF_A_FILM = frozenset((
+    "cross_section", "path", "position", "film", "power", "flow", "temperatures", "rise", "balance",
+    "viscosity", "k", "c", "whirl_ratio", "threshold_speed", "clearance",
+))  # fmt: skip
+_OWN = "The bearing is known by its own coefficients alone."
 RESPONSE = "Imbalance response"
 SECTIONS: dict[str, tuple[Figure, ...]] = {
     "Static equilibrium": (
@@ -243,17 +249,24 @@ def sections(computed: Computed) -> dict[str, tuple[Figure, ...]]:
     """Return the charts that a machine has: a balanced one has no response."""
     balanced = computed.machine.rotor.imbalance == 0.0
     return {
-        title: tuple(figure for figure in figures if not figure.missing(computed))
+        title: tuple(figure for figure in figures if not _missing(figure, computed))
         for title, figures in SECTIONS.items()
         if not (balanced and title == RESPONSE)
     }
+
+
+def _missing(figure: Figure, computed: Computed) -> str:
+    """Return why a machine has no such chart, or nothing."""
+    if computed.has_own and figure.key in _OF_A_FILM:
+        return _OWN
+    return figure.missing(computed)
 
 
 def left_out(computed: Computed, title: str) -> list[str]:
     """Return which charts of a section are left out, and why, a sentence for each reason."""
     reasons: dict[str, list[str]] = {}
     for figure in SECTIONS[title]:
-        if reason := figure.missing(computed):
+        if reason := _missing(figure, computed):
             reasons.setdefault(reason, []).append(figure.title)
     return [f"Left out: {', '.join(titles)}. {reason}" for reason, titles in reasons.items()]
 

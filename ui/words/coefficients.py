@@ -70,6 +70,8 @@ def show_matrices(preview: Preview, axes: Axes) -> None:
 
 
 def _without_dimensions(symbol: Literal["k", "c"], computed: Computed, axes: Axes) -> Text:
+    if computed.has_own:
+        return Text(f"{symbol} is in units of load and clearance, which is not known.", "caption")
     if computed.unloaded:
         return Text(
             f"{symbol} is in units of the load, so it is undefined without load.", "caption"

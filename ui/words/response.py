@@ -52,7 +52,7 @@ def unstable(computed: Computed) -> Text | None:
 def wall(computed: Computed, units: Units) -> Text | None:
     """Return by how much the journal would move into the wall, where it would."""
     closest = computed.clearance_orbit.closest
-    if closest > 0.0:
+    if not closest <= 0.0:  # or not known
         return None
     C = float(units.film.of(computed.machine.bearing.radial_clearance))
     return Text(

@@ -124,7 +124,9 @@ def read(text: str, machine: Machine) -> tuple[tuple[Spread, ...], list[str]]:
 def usual_spreads(machine: Machine) -> tuple[Spread, ...]:
     """Return what a page shows by itself: the clearance and the temperature of a machine spread."""
     warm = "T" if machine.supply is None else "T_in"
-    return tuple(usual_spread(machine, key) for key in ("C", warm))
+    known = fields_of(machine)
+    keys = [key for key in ("C", warm) if key in known] or ["mass"]
+    return tuple(usual_spread(machine, key) for key in keys)
 
 
 def usual_spread(machine: Machine, key: str, word: str = "uniform") -> Spread:

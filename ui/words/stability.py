@@ -25,6 +25,10 @@ NO_WHIRL = (
     "This film cannot whirl: at no load does it have the cross-coupled stiffness that feeds a "
     "whirl. Every rotor is stable on it, so there is no threshold speed to draw."
 )
+_OWN_NO_WHIRL = (
+    "At no speed of the chart do these coefficients feed a whirl, so there is no threshold speed "
+    "to draw."
+)
 SLOWER_WHIRL = (
     "At no load does this film feed a whirl at running speed, so there is no threshold speed to "
     "draw. Its stiffness and damping depend on the whirl's frequency, and a slower whirl may still "
@@ -129,6 +133,8 @@ def meets(computed: Computed) -> str:
 
 def no_whirl(computed: Computed) -> str:
     """Return why there is no threshold speed to draw."""
+    if computed.has_own:
+        return _OWN_NO_WHIRL
     film = film_of(computed.machine.bearing)
     return SLOWER_WHIRL if film.can_whirl and film.frequency_dependent else NO_WHIRL
 
@@ -144,6 +150,8 @@ def can_whirl(computed: Computed) -> bool:
 def whirls(computed: Computed) -> bool:
     """Return whether any load lets the film feed a whirl."""
     film = film_of(computed.machine.bearing)
+    if computed.has_own:
+        return bool(np.any(computed.sweep.whirl_ratio > 0.0))
     return film.can_whirl and bool(np.any(computed.curves.onset.whirl_ratio > 0.0))
 
 

@@ -18,6 +18,11 @@ from ui.words.heat import needed
 
 _BADGES = {"good": "green", "caution": "orange", "outside": "red"}
 _FILM = ":small[Film: {}; laminar, isoviscous, aligned, rigid walls. Orbits: small.]"
+_OWN = (
+    "Own coefficients are taken as they are: whether they hold for this load, oil and temperature "
+    "is not known here. They are synchronous, the same for a whirl at any frequency, and hold for "
+    "small motions."
+)
 WORDS = {"good": "holds", "caution": "strained", "outside": "outside"}
 
 
@@ -28,6 +33,8 @@ def worst(computed: Computed) -> Check:
 
 def headline(computed: Computed) -> str:
     """Return the worst of the assumptions in a few words."""
+    if computed.has_own:
+        return "Own coefficients"
     check = worst(computed)
     if check.worst == "good":
         return "The model holds"
@@ -39,11 +46,15 @@ def headline(computed: Computed) -> str:
 
 def badge(computed: Computed) -> str:
     """Return the headline in its colour, Markdown."""
+    if computed.has_own:
+        return f":gray-badge[{headline(computed)}]"
     return f":{_BADGES[worst(computed).worst]}-badge[{headline(computed)}]"
 
 
 def panel(computed: Computed, units: Units) -> Text:
     """Return each assumption with its number and limits."""
+    if computed.has_own:
+        return Text(_OWN)
     lines = (_line(check, computed, units) for check in computed.checks)
     return Text("\n\n".join([*lines, _FILM.format(citation.film(computed))]))
 

@@ -12,6 +12,7 @@ from ui.results.stability import leading
 from ui.ring import has_ring
 from ui.words import validity
 from ui.words.citation import without_load
+from ui.words.own import begins_unstable
 from ui.words.ring import BEYOND
 
 
@@ -85,6 +86,8 @@ def _never(computed: Computed, units: Units) -> str:
     if not computed.onset_is_unknown:
         return "no speed makes this machine whirl."
     limit = amount(units.speed, computed.onset.searched_to)
+    if computed.has_own:
+        return f"no whirl up to {limit}, where its own coefficients end."
     return f"no whirl up to {limit}; above, the oil supplied is too little to carry the heat."
 
 
@@ -93,6 +96,9 @@ def _past(computed: Computed, units: Units) -> str:
     now = f"{_growing(computed, growing, units)}; " if growing.real > 0.0 else ""
     if math.isinf(onset.speed):
         return f"{now}no onset was found."
+    if begins_unstable(computed):
+        first = amount(units.speed, onset.speed)
+        return f"{now}it is so from {first} on, where its own coefficients begin."
     below = digits((1.0 - onset.speed / computed.speed) * 100.0)
     return f"{now}it became unstable at {amount(units.speed, onset.speed)}, {below} % below."
 
