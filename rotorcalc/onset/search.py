@@ -40,8 +40,9 @@ _INNER, _RISES = 10.0, 60
 # it; otherwise the onset is computed in sixty digits.
 _SURE = 1e-9
 # Parts into which the spacings on both sides of a hump are divided, again and again, and their
-# share of the speed at which that ends.
-_ON_A_HUMP, _ONE_SPEED = 8, 1e-7
+# share of the speed at which that ends: where a pad is about to give up its film its tilt has
+# hardly any stiffness, and closer to there the error of the film's table would decide.
+_ON_A_HUMP, _ONE_SPEED = 8, 1e-3
 # Rounding of Hurwitz's determinant, over its largest value between two speeds of the search.
 _NOISE = 1e-11
 # What counts as stable: a machine is not run where its film has no answer.

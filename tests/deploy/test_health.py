@@ -89,7 +89,8 @@ def _processes(server: Replica) -> dict[str, int]:
             if status.read_text().rsplit(")", 1)[1].split()[1] == str(server.process.pid):
                 command = (status.parent / "cmdline").read_text().split("\0")
                 if len(command) > 3:  # one that has ended has none
-                    what = "releases" if command[3] == "0" else "long computations"
+                    names = {"0": "releases", "9": "comparisons"}
+                    what = names.get(command[3], "long computations")
                     found[what] = int(status.parent.name)
     return found
 

@@ -498,16 +498,16 @@ def test_a_hump_between_two_speeds_is_found(place):
 
 @given(st.floats(0.02, 0.98))
 def test_a_hump_whose_top_is_a_jump_is_found(place):
-    """As where a pad gives up its film; a thousandth below zero it is not one."""
+    """As where a pad gives up its film; a hundredth below zero it is not one."""
     speeds = np.arange(1.0, 11.0)
     jump = 4.0 + place
 
     def values(speed):
-        return np.where(speed < jump, -2.0 - 0.01 * speed, jump - speed) + 1e-3
+        return np.where(speed < jump, -2.0 - 0.01 * speed, jump - speed) + 0.01
 
     ((low, top),) = search.humps(values, speeds, values(speeds))
     assert values(np.array(low)) < 0.0 < values(np.array(top))
-    assert not list(search.humps(lambda s: values(s) - 2e-3, speeds, values(speeds) - 2e-3))
+    assert not list(search.humps(lambda s: values(s) - 0.02, speeds, values(speeds) - 0.02))
 
 
 def test_a_hump_far_below_zero_is_looked_at_once():

@@ -19,7 +19,7 @@ from typing import Any
 import streamlit as st
 from streamlit.runtime.scriptrunner import get_script_run_ctx
 
-from ui.jobs.process import Worker, WorkerError
+from ui.jobs.process import NICER, Worker, WorkerError
 from ui.jobs.work import Progress
 from ui.serving import log, settings
 
@@ -193,7 +193,10 @@ def wait_while(why: Callable[[], str], changed: threading.Condition) -> None:
 # Computations about as short as a page have their own process; longer ones have lower priority.
 SHORT = Turns(1, hire=partial(Worker, nicer=0), name="releases")
 LONG = Turns(settings.heavy_jobs())
-LINES = SHORT, LONG
+# Rows of the comparison come in tens: one process has all their tables, and stands back behind the
+# pages as long computations do.
+ROWS = Turns(1, hire=partial(Worker, nicer=NICER - 1), name="comparisons")
+LINES = SHORT, LONG, ROWS
 
 
 def _nobody_looks() -> bool:

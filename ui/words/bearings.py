@@ -26,7 +26,7 @@ from ui.frame.bore import picture_address, picture_tag
 from ui.frame.page import Page
 from ui.inputs import as_shown, machine_of, on_lubricant
 from ui.jobs import cache, work
-from ui.jobs.queue import SHORT
+from ui.jobs.queue import ROWS
 from ui.session import session
 
 _NO_ANSWER = "This machine's own bearing has no answer at this speed and load"
@@ -35,7 +35,7 @@ _A_ROW = 4
 # Seconds after which the results so far are shown.
 _PATIENCE = 0.4
 
-_results = cache.Cached(work.bearing, entries=256, megabytes=4, turns=SHORT)
+_results = cache.Cached(work.bearing, entries=256, megabytes=4, turns=ROWS)
 
 
 @dataclass(frozen=True)

@@ -110,8 +110,7 @@ class FiniteFilm:
 
     def place_and_flow(self, sommerfeld: Array) -> tuple[Array, Array]:
         """Return the journal's centre at σ, (..., 2), in C, and the side flow: of `state` alone."""
-        row = self._table.row(sommerfeld)
-        return row.position, row.side_flow
+        return self._table.place_and_flow(sommerfeld)
 
     def dynamics(self, points: OperatingPoints) -> FilmDynamics:
         """Return stiffness and damping only."""

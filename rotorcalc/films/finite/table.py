@@ -118,6 +118,11 @@ class FilmTable:
             values[..., :2], values[..., 2], values[..., 3], values[..., 4], self._angle(load)
         )
 
+    def place_and_flow(self, sommerfeld: Array) -> tuple[Array, Array]:
+        """Return the journal's centre and the side flow at σ, as in `row`."""
+        values = self._rows.at(self._load(sommerfeld))
+        return values[..., :2], values[..., 3]
+
     def drag_and_flow(self, sommerfeld: Array) -> tuple[Array, Array]:
         """Return drag and side flow at σ, as in `row`."""
         values = self._rows.at(self._load(sommerfeld))

@@ -50,6 +50,8 @@ _MESHES, _COARSE = ((96, 2), (112, 6)), ((48, 2), (64, 4))
 _KNOTS, _COARSE_KNOTS = (10, 20, 48), (6, 12, 20)
 # Places in the search for the end, and in each of its refinements.
 _SEARCHED, _REFINED, _REFINEMENTS = 20, 6, 2
+# Tables over speed, and over load, that are kept, of 3 MB each.
+_KEPT = 24
 # So few equilibria make no table.
 _TOO_FEW = 6
 _NOTHING = "no gas film carries this load up to the highest compressibility number, Λ = 30"
@@ -145,7 +147,7 @@ class FoilTable:
         return taken(self.films, np.array([np.abs(self.place - place).argmin()]))
 
 
-@functools.lru_cache(maxsize=96)
+@functools.lru_cache(maxsize=_KEPT)
 def over_speed(foil: FoilShape, load: float) -> FoilTable:
     """Return the film over ln Λ at one load.
 
@@ -177,7 +179,7 @@ def over_speed(foil: FoilShape, load: float) -> FoilTable:
     return _tabulated(foil, path, math.log(HIGHEST_NUMBER), math.log(lowest))
 
 
-@functools.lru_cache(maxsize=96)
+@functools.lru_cache(maxsize=_KEPT)
 def over_load(foil: FoilShape, number: float) -> FoilTable:
     """Return the film over ln W at one Λ.
 
