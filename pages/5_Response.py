@@ -3,6 +3,7 @@ from typing import Literal, cast
 import streamlit as st
 
 from rotorcalc.figures import response as draw
+from ui import measured
 from ui.choices import choose
 from ui.frame.page import Page, show
 from ui.preview import Text
@@ -31,14 +32,16 @@ def against_speed(page: Page) -> None:
     left, right = st.columns(2)
     with left:
         page.chart(
-            lambda c: draw.amplitude(c.response, shown, units),
+            measured.over_amplitude(
+                lambda c: draw.amplitude(c.response, shown, units), shown, units
+            ),
             "amplitude",
             alt="Amplitudes of disk and journal against speed, with peaks and unstable range.",
             caption=words.amplitude_caption,
         )
     with right:
         page.chart(
-            lambda c: draw.phase(c.response, units),
+            measured.over_phase(lambda c: draw.phase(c.response, units), units),
             "phase",
             alt="Phase lag of disk and journal behind the imbalance against speed.",
             caption="Lag of X behind cos Ωt and of Y behind sin Ωt, the imbalance's "

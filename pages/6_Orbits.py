@@ -5,6 +5,7 @@ import streamlit as st
 from rotorcalc.figures import orbits as draw
 from rotorcalc.figures import run_up as draw_run
 from rotorcalc.nonlinear.run_up import RunUp
+from ui import measured
 from ui.choices import choose
 from ui.frame.page import Page, show
 from ui.preview import Draw, not_at_once
@@ -81,10 +82,11 @@ def orbit(page: Page, asked: ask.Ask) -> None:
     with left:
         page.chart(
             key="orbits_path",
-            **of_release(draw.orbit, page, asked),
+            **of_release(measured.over_orbit(draw.orbit), page, asked),
             alt="The journal's path in its clearance, with an animation.",
             caption="Play it, or move the slider. Blue: M ẍ = F(x, ẋ) + load + imbalance (Eq. 5.1, "
-            "forward); purple: the linear theory from the same start (Eq. 5.38).",
+            "forward); purple: the linear theory from the same start (Eq. 5.38)."
+            + measured.orbit_words(),
         )
     with right:
         page.chart(
@@ -129,7 +131,7 @@ def spectrum(page: Page, asked: ask.Ask) -> None:
     with left:
         page.chart(
             key="orbits_spectrum",
-            **of_release(draw.spectrum, page, asked),
+            **of_release(measured.over_spectrum(draw.spectrum), page, asked),
             alt="Spectrum of the motion over orders, ½× and 1× marked.",
             caption="Of X + jY over the last quarter, Hann window; negative orders turn against "
             "the shaft.",

@@ -28,6 +28,8 @@ X, Y = BLUE, GREEN
 XX, YY, XY, YX = BLUE, GREEN, PURPLE, OCHRE
 JOURNAL, DISK = BLUE, OCHRE
 FLEXIBLE, RIGID = BLUE, PURPLE
+# What was measured on a machine, beside what is computed of one.
+MEASURED = GREEN
 # Reserved for instability, on lines, areas and the onset's mark.
 UNSTABLE = RED
 HERE = "#f0b400"

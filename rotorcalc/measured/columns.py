@@ -104,6 +104,16 @@ def read_table(given: str | bytes | Path, known: Mapping[str, Quantity], *, fewe
     return Table(columns, places, readings, unread)
 
 
+def keys_in(text: str | bytes, known: Mapping[str, Quantity]) -> set[str]:
+    """Return the keys of the columns that a table's header has; none where it cannot be read."""
+    try:
+        lines = rows(readable(text, most_bytes=MOST_BYTES), most=MOST_ROWS, things="rows")
+        found, _, _ = _columns(next(iter(lines))[1][:MOST_COLUMNS], known)
+    except (ValueError, StopIteration):
+        return set()
+    return {column.key for column in found}
+
+
 def _columns(
     header: Sequence[str], known: Mapping[str, Quantity]
 ) -> tuple[list[_Column], dict[str, str], tuple[str, ...]]:
