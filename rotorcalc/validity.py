@@ -6,7 +6,7 @@ The program computes outside these limits too, and says so beside the result.
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +20,7 @@ from rotorcalc.coefficient_table import CoefficientTable
 from rotorcalc.coefficients import operating_points
 from rotorcalc.display import Result, in_brief
 from rotorcalc.films import film_of
+from rotorcalc.films.tilting import TiltingFilm
 from rotorcalc.gas import air_density, mean_free_path
 from rotorcalc.geometry import Foil, Hydrostatic, TiltingPads
 from rotorcalc.machine import Machine, Oil
@@ -185,10 +186,18 @@ def _unloaded(sweep: Sweep) -> tuple[Check, ...]:
     points = operating_points(sweep.machine, sweep.speed)
     pads = film_of(sweep.machine.bearing).state(points).unloaded_pads
     count = np.zeros(sweep.speed.shape) if pads is None else pads.sum(axis=-1).astype(float)
+    unloaded = _above("Pads that carry nothing", count, 0.0, np.inf,
+                      "nothing holds a pad without a film: it may flutter and touch the journal "
+                      "with its leading edge, which the model leaves out")  # fmt: skip
+    if sweep.machine.bearing.geometry.rotational_stiffness == 0.0:
+        return (unloaded,)
+    film = cast("TiltingFilm", film_of(sweep.machine.bearing))
+    others = film.other_films(points).sum(axis=-1).astype(float)
     return (
-        _above("Pads that carry nothing", count, 0.0, np.inf,
-               "nothing holds a pad without a film: it may flutter and touch the journal with its "
-               "leading edge, which the model leaves out"),
+        unloaded,
+        _above("Pads with two possible films", others, 0.0, np.inf,
+               "which of the two a pad has depends on what came before; the results are for the "
+               "one that it keeps as its flexure becomes stiffer"),
     )  # fmt: skip
 
 

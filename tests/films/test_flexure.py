@@ -1,11 +1,12 @@
 """Pads on flexures: the films of one pad over the plane, balances, limits, and pads that snap."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rotorcalc import JournalBearing, Lobes, TiltingPads
+from rotorcalc import JournalBearing, Lobes, TiltingPads, analyse, validity
 from rotorcalc.films import film_of, film_state
 from rotorcalc.films.finite.reynolds import films, mesh
 from rotorcalc.films.finite.table import carried, settled_pressures
@@ -18,6 +19,7 @@ from rotorcalc.films.tilting.pivots import Pivots, pivots_of, places
 from rotorcalc.films.tilting.plane import plane
 from rotorcalc.films.tilting.rest import FreePads
 from tests.films import plain_program
+from tests.machines import SHEET
 
 ARC = math.radians(75)
 R, C, L = 0.05, 1e-4, 0.05
@@ -113,16 +115,16 @@ def test_forces_and_moments_balance():
 
 
 def test_what_was_asked_before_changes_no_answer():
-    """Rests of one machine begin between those already known: on either side of a snap."""
-    load = np.geomspace(0.1, 3.0, 60)
-    order = np.random.default_rng(5).permutation(60)
+    """Rests of one machine begin between those already known: not across a snap."""
+    known, load = np.geomspace(0.1, 3.0, 16), np.geomspace(0.1, 3.0, 300)
     for ratio in (0.01, 0.1):
-        expected = PADS.at(load, np.append(ratio * load[:-1], 0.0)).tilt  # of no one machine
+        kappa = np.append(ratio * load[:-1], 0.0)  # of no one machine: each from free pads
+        expected = PADS.at(load, kappa).tilt[:-1]
         assert np.abs(np.diff(expected, axis=0)).max() > 0.1
-        for some in np.split(order, 20):
-            found = PADS.at(load[some], ratio * load[some]).tilt
-            inside = some < 59
-            assert found[inside] == pytest.approx(expected[some[inside]], abs=1e-6)
+        PADS.at(known, ratio * known)
+        for some in np.array_split(load[:-1], 4):
+            found = PADS.at(some, ratio * some).tilt
+            assert found == pytest.approx(expected[np.isin(load[:-1], some)], abs=1e-6)
 
 
 def test_stiff_flexures_are_fixed_pads_and_soft_ones_tilt():
@@ -178,6 +180,18 @@ def test_a_pad_keeps_its_film_while_its_flexure_becomes_stiffer():
     )  # fmt: skip
     assert other.good.all()
     assert np.abs(other.tilt[0] - rest.tilt[before])[dry] > 0.1
+    twice = PADS.other_films(rest, kappa)
+    assert twice[before].tolist() == (np.arange(4) == dry).tolist()
+    assert not twice[-1].any()
+
+
+def test_the_assumptions_name_pads_with_two_possible_films():
+    for stiffness, level in ((2e4, "caution"), (2e6, "good")):
+        shape = TiltingPads(number=4, arc=ARC, rotational_stiffness=stiffness)
+        machine = replace(SHEET, bearing=replace(SHEET.bearing, geometry=shape))
+        checks = validity(analyse(machine, np.array([90.0, 300.0])))
+        (found,) = (check for check in checks if check.name == "Pads with two possible films")
+        assert found.worst == level
 
 
 def test_where_nothing_holds_the_journal_the_bearing_has_no_answer():

@@ -171,6 +171,14 @@ class TiltingFilm:
         """Return the tilt of each pad at rest [rad], (..., N)."""
         return self._rest(points).tilt * self.bearing.radial_clearance / self.bearing.radius
 
+    def other_films(self, points: OperatingPoints) -> BoolArray:
+        """Return which pads could have another film where the journal stands, (..., N)."""
+        rest, pads = self._rest(points), self._pads
+        if not isinstance(pads, FlexurePads):  # of a free pad the other film does not hold it
+            return np.zeros(rest.tilt.shape, dtype=bool)
+        kappa = np.broadcast_to(self._stiffness(points), rest.tilt.shape[:-1])
+        return pads.other_films(rest, kappa)
+
     def drag_and_flow(self, points: OperatingPoints) -> tuple[Array, Array]:
         """Return drag and side flow only."""
         pads = self._rest(points).pads

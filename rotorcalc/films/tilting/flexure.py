@@ -44,6 +44,8 @@ _SOFTEST = 1e-4
 _LIGHTEST = 1e-4
 # From so many loads on, one in so many is found first.
 _MANY, _APART = 100, 4
+# Tilts among which other films of a pad are sought, and the farthest, in C.
+_TILTS, _FAR = 64, 2.5
 # A film whose highest pressure is below this is none.
 _NO_PRESSURE = 1e-9
 # Directions in which the heaviest load of fixed pads is sought.
@@ -109,6 +111,20 @@ class FlexurePads:
             if rows.size:
                 _put(found, rows, at(Held(flat[rows], k[rows])))
         return _shaped(self.pivots, found, w.shape)
+
+    def other_films(self, rest: Rest, stiffness: Array) -> BoolArray:
+        """Return which pads (..., N) could have another film where the journal stands.
+
+        Tilts at which the film's moment passes κ δ from above hold a pad: more than one do.
+        """
+        xi, kappa = rest.pads.xi[..., None], stiffness[..., None, None]
+        untilted = rest.position @ self.pivots.frames[:, 1].T
+        low, high = _ends_of_tilt(self._films.pad, xi)
+        eta = low + (high - low) * np.linspace(0.0, 1.0, _TILTS)
+        e = np.stack(np.broadcast_arrays(xi, eta), axis=-1)
+        left = self._films.forces(e)[0][..., 1] - kappa * (eta - untilted[..., None])
+        held = (left[..., :-1] > 0.0) & (left[..., 1:] <= 0.0)
+        return held.sum(axis=-1) > 1
 
     @property
     def _free(self) -> FreePads:
@@ -178,6 +194,16 @@ class FlexurePads:
 def _known(pads: FlexurePads, _ratio: str) -> KnownRests:
     """Return what is known at one κ in units of the load, at first nothing."""
     return KnownRests(pads.pivots.number)
+
+
+def _ends_of_tilt(pad: Pad, xi: Array) -> tuple[Array, Array]:
+    """Return the least and the largest η at which a pad leaves the journal a film, (...)."""
+    theta = np.linspace(pad.start, pad.end, _TILTS)
+    with np.errstate(divide="ignore"):
+        meets = (1.0 - THINNEST - xi * np.cos(theta)) / np.sin(theta)
+    low = np.where(theta < 0.0, meets, -np.inf).max(axis=-1, keepdims=True)
+    high = np.where(theta > 0.0, meets, np.inf).min(axis=-1, keepdims=True)
+    return np.maximum(low, -_FAR), np.minimum(high, _FAR)
 
 
 def _by_turns(load: Array) -> tuple[IntArray, ...]:
