@@ -12,7 +12,7 @@ import numpy as np
 from rotorcalc.analysis import analyse
 from rotorcalc.arguments import checked
 from rotorcalc.batch.reading import Case, Problem
-from rotorcalc.criteria import balance_quality, level_one
+from rotorcalc.criteria import amplification, balance_quality, level_one
 from rotorcalc.numerics.parts import in_parts
 from rotorcalc.onset import onset_speed
 from rotorcalc.onset.judge import is_unstable
@@ -52,6 +52,8 @@ class CaseResult:
 def result(case: Case) -> CaseResult:
     """Return the onset of a machine, and at its running speed the sheet and the criteria.
 
+    Of its critical speeds their number, and the one whose margin lacks most or has least to spare.
+
     Parameters
     ----------
     case : Case
@@ -64,7 +66,7 @@ def result(case: Case) -> CaseResult:
     """
     values: dict[str, float] = {}
     refusals: list[str] = []
-    running = () if math.isnan(case.speed) else (_stability, _sheet, _criteria)
+    running = () if math.isnan(case.speed) else (_stability, _sheet, _criteria, _critical_speed)
     for compute in (_onset, *running):
         try:
             values |= compute(case)
@@ -101,6 +103,23 @@ def _criteria(case: Case) -> dict[str, float]:
         "zero_decrement_cross_coupling [N/m]": found.zero_decrement,
         "balance_quality [m/s]": float(quality),
     }
+
+
+def _critical_speed(case: Case) -> dict[str, float]:
+    """Return the critical speed that lacks most of its margin, or has least to spare."""
+    found = amplification(case.machine, maximum_speed=case.speed)
+    number = len(found.critical_speed)
+    columns = (
+        found.critical_speed, found.amplification_factor, found.separation_margin,
+        found.required_margin,
+    )  # fmt: skip
+    spare = found.separation_margin - found.required_margin
+    row = [float(one[spare.argmin()]) if number else math.nan for one in columns]
+    names = (
+        "critical_speed [rad/s]", "amplification_factor [-]", "separation_margin [-]",
+        "required_margin [-]",
+    )  # fmt: skip
+    return {"critical_speeds [-]": float(number), **dict(zip(names, row, strict=True))}
 
 
 @dataclass(frozen=True)

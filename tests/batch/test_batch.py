@@ -338,9 +338,25 @@ def test_results_are_those_of_each_machine() -> None:
         assert table["stiffness_XY [N/m]"][row] == sweep.stiffness[0, 1]
         assert table["unstable [-]"][row] == 0.0
         assert table["log_decrement [-]"][row] > 0.0
+        critical = rc.amplification(case.machine, maximum_speed=case.speed)
+        spare = list(critical.separation_margin - critical.required_margin)
+        i = spare.index(min(spare))
+        assert table["critical_speeds [-]"][row] == len(spare)
+        assert table["critical_speed [rad/s]"][row] == critical.critical_speed[i]
+        assert table["amplification_factor [-]"][row] == critical.amplification_factor[i]
+        assert table["separation_margin [-]"][row] == critical.separation_margin[i]
+        assert table["required_margin [-]"][row] == critical.required_margin[i]
     assert table["problem"][0] == ""
     assert "journal_mass" in table["problem"][1]
     assert math.isnan(table["onset [rad/s]"][1])
+
+
+def test_a_machine_without_critical_speed_has_none_in_its_row() -> None:
+    stiff = rc.read_machines(TABLE.replace("1e8", "inf"))
+    [one] = rc.batch.results(stiff.cases)
+    assert one.values["critical_speeds [-]"] == 0.0
+    assert math.isnan(one.values["critical_speed [rad/s]"])
+    assert one.refusal == ""
 
 
 def test_what_has_no_answer_says_why_and_keeps_the_rest() -> None:
