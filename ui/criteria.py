@@ -127,6 +127,9 @@ class Asked:
         return self.given
 
 
+NOTHING = Asked()
+
+
 def asked_of(chosen: Mapping[str, object]) -> Asked:
     """Return what is asked by a visitor's choices; raises ValueError where one cannot be used."""
     source = chosen.get(COUPLING, "none")
@@ -137,6 +140,12 @@ def asked_of(chosen: Mapping[str, object]) -> Asked:
         stages=_stages(str(chosen.get(STAGES, NO_STAGE))) if source == "stages" else (),
         grade=grade if (grade := str(chosen.get(GRADE, API_RESIDUAL))) in GRADES else API_RESIDUAL,
     )
+
+
+def is_known(key: str, word: str) -> bool:
+    """Return whether a file's word is one of a choice of this page; numbers are checked there."""
+    options = {COUPLING: COUPLINGS, GRADE: GRADES}.get(key)
+    return key in KEYS and (options is None or word in options)
 
 
 def value_of(item: Input, word: object) -> float | None:

@@ -13,6 +13,7 @@ from ui.sharing import machine_file
 from ui.sharing.labels import Labels
 
 LABELS = Labels(name="Pump 3", note="Trip at 80 µm.\nNew oil.")
+CRITERIA = "pages/10_Criteria.py"
 CASES = "Wide~3~C~95~~Thin oil~1~T~90"
 
 
@@ -43,6 +44,33 @@ def test_a_file_brings_machine_speeds_units_cases_name_and_note() -> None:
     other.button(key="undo").click().run()
     assert session_of(other).values == PRESET_VALUES["sheet-1e8"] | {"C": 70.0}
     assert session_of(other).cases == ()
+
+
+def test_a_file_brings_what_the_page_criteria_asks() -> None:
+    query = {"slowest": "5000", "coupling": "given", "qa": "2.5", "grade": "G 6.3"}
+    at = visit(CRITERIA, **query)
+    chosen = at.session_state["rotorcalc_choices"].kept()
+    visitor = session_of(at)
+    document = machine_file.write(machine_of(visitor.values), visitor, LABELS, chosen)
+    assert json.loads(document)["app"]["criteria"] == query
+    # Onto a page that shows other choices already.
+    other = visit(CRITERIA, grade="G 1", fastest="7000")
+    open_part(other, "share")
+    other.file_uploader(key="upload").upload("machine.json", document).run()
+    assert other.query_params == query | {"fastest": "7000"}
+    assert not other.warning
+    assert faults(other) == []
+
+
+@pytest.mark.parametrize(
+    "asked", [1, {"grade": "G 7"}, {"coupling": []}, {"what": "5"}, {"<b>": {}}], ids=str
+)
+def test_what_a_file_asks_of_criteria_is_checked(asked: object) -> None:
+    document = json.loads(_written(visit(HOME)))
+    document["app"]["criteria"] = asked
+    at = _loaded(json.dumps(document).encode())
+    assert any("left out" in one.value for one in at.warning)
+    assert not at.exception
 
 
 @pytest.mark.parametrize("preset", PRESET_VALUES)

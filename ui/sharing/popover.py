@@ -8,6 +8,7 @@ import streamlit as st
 
 from ui import cases
 from ui.cases import Shown
+from ui.choices import choices
 from ui.computed import Computed, computed_from
 from ui.format import literal
 from ui.session import Session, session
@@ -47,7 +48,7 @@ def _downloads(
     files = (
         (
             "Machine (JSON)", "machine.json", "application/json",
-            lambda: machine_file.write(computed.machine, visitor, written),
+            lambda: machine_file.write(computed.machine, visitor, written, choices().kept()),
         ),
         (
             "Sweep over speed (CSV)", "sweep.csv", "text/csv",
@@ -59,7 +60,9 @@ def _downloads(
         ),
         (
             "Report (HTML)", "report.html", "text/html",
-            lambda: report.report(computed, beside, units, address, written),
+            lambda: report.report(
+                computed, beside, units, address, written, choices().kept()
+            ),
         ),
     )  # fmt: skip
     for label, name, mime, build in files:
@@ -85,6 +88,7 @@ def _load() -> None:
     visitor.amplitude = link.amplitude
     if loaded.has_cases:
         visitor.cases = link.cases
+    choices().restore(loaded.criteria)
     labels.name(loaded.name, loaded.note)
     visitor.problems.clear()
     visitor.refused[:] = loaded.problems

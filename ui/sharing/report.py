@@ -8,9 +8,10 @@ import functools
 import importlib.resources
 import math
 import string
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from html import escape
 from pathlib import Path
+from types import MappingProxyType
 from typing import TypeAlias
 
 import numpy as np
@@ -20,18 +21,20 @@ from rotorcalc import __version__, modes
 from rotorcalc.arrays import Array
 from rotorcalc.units import Unit, Units
 from rotorcalc.validity import validity
-from ui import comparison
+from ui import comparison, criteria
 from ui.bearing import fields_of, film_name
 from ui.bores import KIND, Values, name_of
 from ui.cases import Shown
 from ui.computed import Computed
+from ui.criteria import Asked
 from ui.format import amount, digits, minus
-from ui.inputs import GROUPS, INPUTS, applies, law_of, values_of
+from ui.inputs import GROUPS, INPUTS, applies, in_units, law_of, values_of
 from ui.results.table import RESULTS
 from ui.sharing import report_charts
 from ui.sharing.labels import Labels
 from ui.sharing.report_charts import Figure
 from ui.words import citation, recesses
+from ui.words import criteria as criteria_words
 from ui.words import validity as validity_words
 from ui.words.verdict import verdict
 
@@ -41,12 +44,18 @@ _ROWS = 20
 Cell: TypeAlias = tuple[str, str]
 
 
-def report(
-    computed: Computed, cases: Sequence[Shown], units: Units, link: str, labels: Labels
-) -> bytes:
-    """Return the report as HTML: `link` reproduces the machine, cases stand beside it."""
+def report(  # noqa: PLR0913, PLR0917 - a machine, what stands beside it, and how it is shown
+    computed: Computed, cases: Sequence[Shown], units: Units, link: str, labels: Labels,
+    chosen: Mapping[str, object] = MappingProxyType({}),
+) -> bytes:  # fmt: skip
+    """Return the report as HTML.
+
+    `link` reproduces the machine, cases stand beside it, and what its criteria ask is `chosen`.
+    """
     judged = verdict(computed, units)
-    charts = report_charts.charts(computed, cases, units)
+    asked, problem = _asked(computed, chosen)
+    charts = report_charts.charts(computed, cases, units, asked)
+    told = {report_charts.CRITERIA: _criteria(computed, asked, problem, units)}
     page = string.Template(Path(__file__).with_suffix(".html").read_text(encoding="utf-8"))
     body = (
         _inputs(computed, units),
@@ -59,8 +68,13 @@ def report(
         _validity(computed, units),
         _reading(computed, cases),
         *(
-            _section(computed, title, figures, charts)
-            for title, figures in report_charts.sections(computed).items()
+            _section(
+                title,
+                _rows(computed, figures, charts),
+                told.get(title, ""),
+                report_charts.left_out(computed, title, asked),
+            )
+            for title, figures in report_charts.sections(computed, asked).items()
         ),
     )
     return page.substitute(
@@ -306,16 +320,51 @@ def _reading(computed: Computed, cases: Sequence[Shown]) -> str:
     return f'<p class="reading">{"".join(lines)}</p>'
 
 
-def _section(
-    computed: Computed, title: str, figures: Iterable[Figure], charts: report_charts.Charts
-) -> str:
+def _section(title: str, drawn: str, told: str, left_out: Iterable[str]) -> str:
+    """Return a section: what is told before its charts, the charts, and which are left out."""
+    missing = (f"<p>{escape(words)}</p>" for words in left_out)
+    return f"<h2>{escape(title)}</h2>{told}{drawn}{''.join(missing)}"
+
+
+def _rows(computed: Computed, figures: Iterable[Figure], charts: report_charts.Charts) -> str:
     rows = (
         "".join(_figure(computed, figure, charts[figure.key]) for figure in row)
         for row in _paired(figures)
     )
-    drawn = "".join(f'<div class="charts">{row}</div>' for row in rows)
-    missing = (f"<p>{escape(words)}</p>" for words in report_charts.left_out(computed, title))
-    return f"<h2>{escape(title)}</h2>{drawn}{''.join(missing)}"
+    return "".join(f'<div class="charts">{row}</div>' for row in rows)
+
+
+def _asked(computed: Computed, chosen: Mapping[str, object]) -> tuple[Asked, str]:
+    """Return what a visitor asked, or, with the reason, what is asked where that is no use."""
+    try:
+        asked = criteria.asked_of(chosen)
+        asked.operation(computed)
+    except ValueError as error:
+        return Asked(), f"{error}; instead, for the running speed alone"
+    return asked, ""
+
+
+def _criteria(computed: Computed, asked: Asked, problem: str, units: Units) -> str:
+    """Return what was asked, the verdict, the table of criteria, and where they are from."""
+    begin = f"<p>{escape(in_units(problem, units))}:</p>" if problem else ""
+    try:
+        found = criteria_words.rows(computed, asked, units)
+        said = criteria_words.inputs(computed, asked, units)
+    except ValueError as error:
+        return f"{begin}<p>Not judged: {escape(in_units(str(error), units))}.</p>"
+    styles = {"good": "good", "failed": "outside", "unknown": "caution"}
+    rows = (
+        _row([
+            (criteria_words.tidy(row.name), ""), (row.value, "n"), (row.limit, "n"),
+            (criteria_words.WORDS[row.state], styles[row.state]),
+            (criteria_words.tidy(" ".join(filter(None, (row.remark, f"{row.source}.")))), ""),
+        ])
+        for row in found
+    )  # fmt: skip
+    head = _head("Criterion", ("Value", "n"), ("Limit", "n"), "Verdict", "Remark and source")
+    told = f"<p>{escape(said)}</p><p><b>{escape(criteria_words.sentence(found))}</b></p>"
+    notes = (criteria_words.SOURCES, criteria_words.LEFT_OUT)
+    return f"{begin}{told}{_table(head, rows)}" + "".join(f"<p>{escape(one)}</p>" for one in notes)
 
 
 def _paired(figures: Iterable[Figure]) -> Iterator[list[Figure]]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from rotorcalc.figures import (
     Chart,
+    campbell,
     coefficients,
     equilibrium,
     film,
@@ -18,9 +19,17 @@ from rotorcalc.figures import (
     root_locus,
     stability,
 )
+from rotorcalc.figures import criteria as criteria_figures
+from rotorcalc.figures import recesses as of_recesses
+from rotorcalc.figures import ring as of_ring
+from rotorcalc.ring import unloaded_speed_ratio
 from rotorcalc.units import Units
+from ui import criteria, ring
 from ui.cases import Shown, compared
 from ui.computed import Computed
+from ui.criteria import Asked
+from ui.words import criteria as criteria_words
+from ui.words import recesses as recess_words
 from ui.words import stability as ask
 from ui.words.citation import cited
 
@@ -51,6 +60,8 @@ class Figure:
     height: int = _HEIGHT
     titles: Mapping[str, str] = field(default_factory=dict[str, str])
     legend: bool = True
+    # Whether cases stay out of it.
+    alone: bool = False
     missing: Callable[[Computed], str] = lambda _: ""
 
     def words(self, computed: Computed) -> str:
@@ -97,6 +108,19 @@ def _dimensionless(symbol: Literal["k", "c"]) -> Callable[[Computed, Units], Cha
     )
 
 
+def _refused(ask_for: Callable[[Computed], object]) -> Callable[[Computed], str]:
+    """Return what says why a result cannot be computed, where it cannot."""
+
+    def reason(computed: Computed) -> str:
+        try:
+            ask_for(computed)
+        except ValueError as error:
+            return f"{error}."
+        return ""
+
+    return reason
+
+
 _NOT_GIVEN = "The model of this bearing's film does not give it."
 # Charts that need a film, of which a table of coefficients knows nothing.
 _OF_A_FILM = frozenset((
@@ -104,7 +128,8 @@ _OF_A_FILM = frozenset((
     "viscosity", "k", "c", "whirl_ratio", "threshold_speed", "clearance",
 ))  # fmt: skip
 _OWN = "The bearing is known by its own coefficients alone."
-RESPONSE = "Imbalance response"
+RESPONSE, CRITERIA = "Imbalance response", "Criteria"
+RING, RECESSES = "Floating ring", "Recesses over speed"
 SECTIONS: dict[str, tuple[Figure, ...]] = {
     "Static equilibrium": (
         Figure(
@@ -135,6 +160,47 @@ SECTIONS: dict[str, tuple[Figure, ...]] = {
         Figure(
             "flow", "Side flow", _of_sweep(equilibrium.side_flow), "Of one bearing.", ("flow",),
             titles={"yaxis": "Q [{units.flow.name}]"}, missing=_unknown("side_flow"),
+        ),
+    ),
+    RING: (
+        Figure(
+            "ring_ratio", "Speed of the ring",
+            lambda c, u: of_ring.speed_ratio(
+                ring.over_speed(c), ring.here(c), unloaded_speed_ratio(c.machine.bearing), u
+            ),
+            "Over the shaft's; dotted: without load.", ("drag",),
+            titles={"yaxis": "Ω<sub>R</sub>/Ω [-]"},
+        ),
+        Figure(
+            "ring_eccentricity", "Eccentricity ratios",
+            lambda c, u: of_ring.eccentricities(ring.over_speed(c), ring.here(c), u),
+            "Each over its own clearance.", titles={"yaxis": "ε [-]"},
+        ),
+        Figure(
+            "ring_films", "Smallest films",
+            lambda c, u: of_ring.thicknesses(ring.over_speed(c), ring.here(c), u),
+            "The thinnest place of each film.", ("thickness",),
+            titles={"yaxis": "h [{units.film.name}]"},
+        ),
+        Figure(
+            "ring_whirls", "Two whirls", lambda c, u: of_ring.whirls(ring.whirls(c), u),
+            "Of the inner and of the outer film; red where they grow.",
+            titles={"yaxis": "ω [{units.speed.name}]"},
+        ),
+    ),
+    RECESSES: (
+        Figure(
+            "recess_pressures", "Pressures of the recesses",
+            lambda c, u: of_recesses.pressures(
+                c.recesses, c.recesses_here, recess_words.supply(c), u
+            ),
+            "By number and angle from the load line; dotted: the supply.", width=FULL, height=250,
+        ),
+        Figure(
+            "recess_powers", "Powers",
+            lambda c, u: of_recesses.powers(c.recesses, c.recesses_here, u),
+            "Of one bearing: supply pressure times flow, and friction on the lands.",
+            width=FULL, height=240,
         ),
     ),
     "Heat": (
@@ -245,13 +311,50 @@ SECTIONS: dict[str, tuple[Figure, ...]] = {
 }  # fmt: skip
 
 
-def sections(computed: Computed) -> dict[str, tuple[Figure, ...]]:
+_BELONGS: dict[str, Callable[[Computed], bool]] = {
+    RESPONSE: lambda c: c.machine.rotor.imbalance != 0.0,
+    RING: ring.has_ring,
+    RECESSES: lambda c: c.has_recesses,
+}
+
+
+def of_criteria(asked: Asked) -> tuple[Figure, ...]:
+    """Return the charts of the criteria, for what is asked of a machine."""
+    return (
+        Figure(
+            "level_one", "Level one",
+            lambda c, u: criteria_figures.decrement(criteria.stability(c, asked), u),
+            "Least log decrement over the cross-coupled stiffness at midspan. API 617, level I.",
+            width=FULL, height=260, missing=_refused(lambda c: criteria.stability(c, asked)),
+        ),
+        Figure(
+            "critical_speeds", "Critical speeds",
+            lambda c, u: criteria_figures.critical_speeds(criteria.critical(c, asked), u),
+            "Green: speeds of operation; grey: margins required beside them. API 684, SP6.8.2.",
+            (), "Eq. 5.38", width=FULL, height=270,
+            missing=_refused(lambda c: criteria.critical(c, asked)),
+        ),
+        Figure(
+            "campbell", "Campbell diagram",
+            lambda c, u: campbell.diagram(
+                criteria.modes_over_speed(c), u, running_speed=c.speed
+            ),
+            criteria_words.CAMPBELL, width=FULL, height=290, alone=True,
+            missing=_refused(criteria.modes_over_speed),
+        ),
+    )  # fmt: skip
+
+
+def _all(asked: Asked) -> dict[str, tuple[Figure, ...]]:
+    return SECTIONS | {CRITERIA: of_criteria(asked)}
+
+
+def sections(computed: Computed, asked: Asked = criteria.NOTHING) -> dict[str, tuple[Figure, ...]]:
     """Return the charts that a machine has: a balanced one has no response."""
-    balanced = computed.machine.rotor.imbalance == 0.0
     return {
         title: tuple(figure for figure in figures if not _missing(figure, computed))
-        for title, figures in SECTIONS.items()
-        if not (balanced and title == RESPONSE)
+        for title, figures in _all(asked).items()
+        if title not in _BELONGS or _BELONGS[title](computed)
     }
 
 
@@ -262,26 +365,29 @@ def _missing(figure: Figure, computed: Computed) -> str:
     return figure.missing(computed)
 
 
-def left_out(computed: Computed, title: str) -> list[str]:
+def left_out(computed: Computed, title: str, asked: Asked = criteria.NOTHING) -> list[str]:
     """Return which charts of a section are left out, and why, a sentence for each reason."""
     reasons: dict[str, list[str]] = {}
-    for figure in SECTIONS[title]:
+    for figure in _all(asked)[title]:
         if reason := _missing(figure, computed):
             reasons.setdefault(reason, []).append(figure.title)
     return [f"Left out: {', '.join(titles)}. {reason}" for reason, titles in reasons.items()]
 
 
-def charts(computed: Computed, cases: Sequence[Shown], units: Units) -> Charts:
+def charts(
+    computed: Computed, cases: Sequence[Shown], units: Units, asked: Asked = criteria.NOTHING
+) -> Charts:  # fmt: skip
     """Return the report's charts by key, those of cases behind the live machine's."""
     return {
         figure.key: _chart(figure, computed, cases, units)
-        for figures in sections(computed).values()
+        for figures in sections(computed, asked).values()
         for figure in figures
     }
 
 
 def _chart(figure: Figure, computed: Computed, cases: Sequence[Shown], units: Units) -> Chart:
-    chart = compared(lambda c: _still(figure.draw(c, units)), cases)(computed)
+    beside = () if figure.alone else cases
+    chart = compared(lambda c: _still(figure.draw(c, units)), beside)(computed)
     return {
         "data": [_unnamed(trace) for trace in chart["data"]],
         "layout": _layout(figure, chart["layout"], units),
