@@ -85,7 +85,7 @@ def decrement(shown: Stability, units: Units) -> Chart:
     traces += _marks(shown, unit, (x, y))
     return style.chart(
         traces, x, y, height=HEIGHT, shapes=[_unstable_below(y)],
-        annotations=[style.note("unstable", 0.995, 0.01, xanchor="right", yanchor="bottom",
+        annotations=[style.note("unstable", 0.005, 0.01, xanchor="left", yanchor="bottom",
                                 font={"color": style.UNSTABLE, "size": 13})],
     )  # fmt: skip
 

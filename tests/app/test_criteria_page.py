@@ -232,4 +232,4 @@ def test_the_verdict_counts_what_is_met():
     rows.append(words.Row("Q_0/Q_A", "–", "at least 2", "unknown", "S", ""))
     assert words.sentence(rows) == "Met: 2 of 3. Unknown: Q₀/Qₐ."
     rows.append(words.Row("Margin", "1 %", "at least 2 %", "failed", "S", ""))
-    assert words.sentence(rows).startswith("Not met: 1 of 4. Not met: margin, 1 %, at least 2 %")
+    assert words.sentence(rows).startswith("Not met: 1 of 4: margin, 1 %, at least 2 % is")

@@ -352,7 +352,7 @@ def _criteria(computed: Computed, asked: Asked, problem: str, units: Units) -> s
         said = criteria_words.inputs(computed, asked, units)
     except ValueError as error:
         return f"{begin}<p>Not judged: {escape(in_units(str(error), units))}.</p>"
-    styles = {"good": "good", "failed": "outside", "unknown": "caution"}
+    styles = {"good": "good", "failed": "failed", "unknown": "caution"}
     rows = (
         _row([
             (criteria_words.tidy(row.name), ""), (row.value, "n"), (row.limit, "n"),
@@ -362,7 +362,8 @@ def _criteria(computed: Computed, asked: Asked, problem: str, units: Units) -> s
         for row in found
     )  # fmt: skip
     head = _head("Criterion", ("Value", "n"), ("Limit", "n"), "Verdict", "Remark and source")
-    told = f"<p>{escape(said)}</p><p><b>{escape(criteria_words.sentence(found))}</b></p>"
+    count, _, rest = criteria_words.sentence(found).partition(":")
+    told = f"<p>{escape(said)}</p><p><b>{escape(count)}</b>{escape(f':{rest}' if rest else '')}</p>"
     notes = (criteria_words.SOURCES, criteria_words.LEFT_OUT)
     return f"{begin}{told}{_table(head, rows)}" + "".join(f"<p>{escape(one)}</p>" for one in notes)
 

@@ -113,12 +113,12 @@ def verdict(computed: Computed, asked: Asked, units: Units) -> Text:
         return Text(
             f":orange-badge[? Not judged] {in_units(f'{error}', units)}.".replace("..", ".")
         )
-    return Text(f"{_badge(found)} {speeds}.{_lists(found)}")
+    return Text(f"{_badge(found)} {speeds}{_lists(found)}")
 
 
 def sentence(found: Sequence[Row]) -> str:
     """Return the verdict in plain words, as the report has it."""
-    return f"{_count(found)}.{_lists(found)}"
+    return f"{_count(found)}{_lists(found)}"
 
 
 def _count(found: Sequence[Row]) -> str:
@@ -141,7 +141,7 @@ def _lists(found: Sequence[Row]) -> str:
     failed, unknown = (_of(found, state) for state in ("failed", "unknown"))
     bad = "; ".join(f"{_begun(row.name)}, {row.value}, {row.limit} is asked" for row in failed)
     open_ = ", ".join(_begun(row.name) for row in unknown)
-    return tidy((f" Not met: {bad}." if bad else "") + (f" Unknown: {open_}." if open_ else ""))
+    return tidy((f": {bad}." if bad else ".") + (f" Unknown: {open_}." if open_ else ""))
 
 
 def _begun(name: str) -> str:
