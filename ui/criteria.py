@@ -71,8 +71,8 @@ KINDS = {"c": "impeller, B = 3", "a": "blades, B = 1.5"}
 _FACTORS = {"c": CENTRIFUGAL, "a": AXIAL}
 # Places of Q on the chart; its end over Q_0 and over Q_A.
 _PLACES, _OVER_Q_0, _OVER_Q_A = 80, 1.3, 2.2
-# Of the sweep's speeds every third, where a slider is held.
-_WHILE_DRAGGING = 3
+# Of the sweep's speeds every fifth, where a slider is held.
+_WHILE_DRAGGING = 5
 
 
 @dataclass(frozen=True)
