@@ -168,7 +168,7 @@ def checks(
 
 def _margins(found: Amplification) -> list[Criterion]:
     """Return the separation margin of each critical speed."""
-    name, nothing = "Separation margin", "The response has no peak: there is no critical speed."
+    name, nothing = "Separation margin", "The response has no peak at the speeds searched."
     rows = [
         Criterion(
             name=name, value=margin, limit=required, kind="percent", source=_MARGIN,
