@@ -144,7 +144,7 @@ def _ask_stages(units: Units, problems: list[str]) -> None:
     """Show the numbers of each stage, and buttons that add one and remove one."""
     text = choice(STAGES, criteria.NO_STAGE, lambda given: len(given) <= _LONGEST_STAGES)
     stages = criteria.words_of_stages(text or criteria.NO_STAGE)
-    with st.container(key="criteria_stages"):
+    with st.expander("Stages", expanded=True), st.container(key="criteria_stages"):
         for place, stage in enumerate(stages):
             _stage(place, stage, units, problems, alone=len(stages) == 1)
         st.button(
