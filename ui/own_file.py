@@ -76,7 +76,7 @@ def picture(load_axis: str, turns: str) -> str:
     )
     address = f"data:image/svg+xml;base64,{base64.b64encode(svg.encode()).decode()}"
     words = f"The load acts along {load_axis}; the shaft turns from {turns}."
-    return f'<img src="{address}" alt="{words}" width="200" height="179">'
+    return f'<img src="{address}" alt="{words}" width="158" height="141">'
 
 
 def _at(direction: tuple[float, ...], radius: float) -> tuple[float, float]:

@@ -11,7 +11,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import cast
+from typing import TypeAlias, cast
 
 import numpy as np
 
@@ -24,6 +24,9 @@ from rotorcalc.coefficient_files.columns import DAMPING, NUMBERS, STIFFNESS
 from rotorcalc.coefficient_files.doubts import doubts
 from rotorcalc.coefficient_files.handbooks import Scale, doubt
 from rotorcalc.coefficient_files.numbers import Numbers, ReadColumn, numbers_of
+from rotorcalc.coefficient_table import CoefficientTable
+
+Matrices: TypeAlias = tuple[tuple[tuple[float, ...], ...], ...]
 
 __all__ = ["ReadColumn", "ReadTable", "read_coefficients"]
 
@@ -66,6 +69,16 @@ class ReadTable:
     notes: tuple[str, ...]
     warnings: tuple[str, ...]
     said_axes: tuple[str, str] | None
+
+    @property
+    def table(self) -> CoefficientTable:
+        """The coefficients as a machine's bearing: `Machine(bearing=read.table, …)`."""
+        # Lists become tuples there.
+        return CoefficientTable(
+            speed=cast("tuple[float, ...]", self.speed.tolist()),
+            stiffness=cast("Matrices", self.stiffness.tolist()),
+            damping=cast("Matrices", self.damping.tolist()),
+        )
 
 
 def read_coefficients(  # noqa: PLR0913 - what a file cannot say of itself

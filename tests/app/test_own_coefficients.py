@@ -2,6 +2,7 @@
 
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from streamlit.testing.v1 import AppTest
 
@@ -104,3 +105,16 @@ def test_the_sample_is_the_machines_own_and_says_its_axes() -> None:
     assert float(at.dataframe[0].value["Speed [rpm]"].iloc[-1]) == pytest.approx(
         read.speed[-1] / RPM
     )
+
+
+def test_what_is_used_is_the_machines_bearing_until_it_is_undone() -> None:
+    at = given(text(header=("rpm", *NAMES)))
+    at.segmented_control(key="data_load_axis").set_value("+x").run()
+    before = dict(session_of(at).values)
+    at.button(key="use_own").click().run()
+    assert faults(at) == []
+    sweep = session_of(at).preview.computed.sweep
+    np.testing.assert_allclose(sweep.stiffness[0], K[0], rtol=1e-9)
+    assert sweep.speed[[0, -1]] == pytest.approx([ROWS[0][0] * RPM, ROWS[-1][0] * RPM])
+    at.button(key="undo").click().run()
+    assert session_of(at).values == before

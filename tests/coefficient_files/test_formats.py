@@ -1,12 +1,13 @@
 """The same numbers from every format; units, order of columns, what a table may leave out."""
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from rotorcalc import PRESETS, read_coefficients
+from rotorcalc import PRESETS, analyse, read_coefficients
 from rotorcalc.coefficient_files import written
 from tests.coefficient_files.tables import (
     NAMES,
@@ -131,6 +132,14 @@ def test_a_table_written_here_comes_back_to_the_last_digit():
     np.testing.assert_array_equal(read.speed, speed)
     np.testing.assert_array_equal(read.stiffness, K)
     np.testing.assert_array_equal(read.damping, C)
+
+
+def test_a_machine_runs_on_what_was_read():
+    read = read_coefficients(text())
+    machine = replace(PRESETS["sheet-1e8"].machine, bearing=read.table)
+    sweep = analyse(machine, SPEED[1:2])
+    np.testing.assert_allclose(sweep.stiffness[0], K[1], rtol=1e-12)
+    np.testing.assert_allclose(sweep.damping[0], C[1], rtol=1e-12)
 
 
 def test_what_a_table_may_leave_out_is_as_in_ross_and_said():

@@ -3,9 +3,11 @@
 from collections.abc import Callable, Sequence
 from typing import TypeAlias
 
+import numpy as np
 import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
 
+from rotorcalc import CoefficientTable
 from rotorcalc.arrays import Array
 from rotorcalc.coefficient_files import ReadTable, Scale, written
 from rotorcalc.coefficient_files.axes import LOAD_AXES, TURNS
@@ -58,6 +60,10 @@ _HELP = (
     "it, with or without units; or speed and eight numbers a line; or a handbook's S, ε, φ and "
     "eight dimensionless numbers. At most 1 MB; no formula is run."
 )
+_AXES = (
+    "The picture has x to the right and y upward. ROSS's tables usually have the load along −y. "
+    "The program's own axes are X along the load, Y at +90° as the shaft turns."
+)
 _KINDS = {
     "classical": "S, μNDL/W·(R/C)²", "modified": "σ, μΩLR/(4W)·(L/C)²", "DIN": "So, Wψ²/(DLμΩ)",
 }  # fmt: skip
@@ -72,7 +78,7 @@ def draw(page: Page) -> None:
     left, middle, right = st.columns((5, 4, 3))
     with left:
         upload = st.file_uploader(
-            "Stiffness and damping of one bearing over speed", type=_TYPES, key="own_file",
+            "A file of one bearing's stiffness and damping over speed", type=_TYPES, key="own_file",
             help=_HELP,
         )  # fmt: skip
         _offer_sample(page)
@@ -94,19 +100,17 @@ def draw(page: Page) -> None:
 def _axes(said: tuple[str, str] | None) -> tuple[str, str]:
     """Ask for load axis and sense of rotation, unless the file says them."""
     if said is not None:
-        st.info(f"The file says that its load acts along {said[0].replace('-', '−')} and that the "
-                f"shaft turns from {said[1]}.")  # fmt: skip
+        st.info(
+            f"The file says that its load acts along {said[0].replace('-', '−')} and that the "
+            f"shaft turns from {said[1]}."
+        )
         return said
     options = sorted(LOAD_AXES, key=lambda axis: axis != "-y")
     axis = choose(
         "In the file the load acts along", options, "data_load_axis",
-        format_func=lambda axis: axis.replace("-", "−"),
+        format_func=lambda axis: axis.replace("-", "−"), help=_AXES,
     )  # fmt: skip
     turns = choose("and the shaft turns from", list(TURNS), "data_turns")
-    st.caption(
-        "The picture has x to the right and y upward. ROSS's tables usually have the load along "
-        "−y. The program's own axes are X along the load, Y at +90° as the shaft turns."
-    )
     return axis, turns
 
 
@@ -126,7 +130,7 @@ def _offer_sample(page: Page) -> None:
     except ValueError:  # a film without an answer: said above
         return
     st.download_button(
-        "Sample file: this machine's own", text, "coefficients.csv", "text/csv",
+        "Sample file: this machine's own (CSV)", text, "coefficients.csv", "text/csv",
         key="own_sample", on_click="ignore",
     )  # fmt: skip
 
@@ -136,7 +140,9 @@ def _own(page: Page) -> str:
 
 
 def _sample(computed: Computed) -> Table:
-    """Return some of a machine's own coefficients, without the lowest speeds, where K diverges."""
+    """Return a machine's own table, or some of its sweep; at the lowest speeds K diverges."""
+    if isinstance(own := computed.machine.bearing, CoefficientTable):
+        return np.array(own.speed), np.array(own.stiffness), np.array(own.damping)
     sweep = computed.sweep
     step = max(1, len(sweep.speed) // _SAMPLE)
     some = slice(2 * step - 1, None, step)
@@ -190,6 +196,10 @@ def _show(
     table = found.table
     with place:
         _say(table)
+        st.button(
+            "Use these coefficients", key="use_own", type="primary",
+            on_click=lambda: session().set_bearing(table.table),
+        )  # fmt: skip
     _doubt(table)
     _charts(
         page, "own", lambda _: (table.speed, table.stiffness, table.damping),
