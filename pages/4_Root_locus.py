@@ -81,6 +81,7 @@ def mode_shape(page: Page, *, bends: bool) -> None:
                 words.same_mode(c.locus(bends), None if page.is_case(c) else mode),
                 rigid=c.machine.rotor.is_rigid or not bends,
                 spiral=spiral,
+                ring=c.machine.bearing.geometry.kind == "floating-ring",
             ),
             "shape",
             at_one_speed=True,

@@ -86,6 +86,7 @@ def orbit(page: Page, asked: ask.Ask) -> None:
             alt="The journal's path in its clearance, with an animation.",
             caption="Play it, or move the slider. Blue: M ẍ = F(x, ẋ) + load + imbalance (Eq. 5.1, "
             "forward); purple: the linear theory from the same start (Eq. 5.38)."
+            + ask.of_ring(page.computed)
             + measured.orbit_words(),
         )
     with right:

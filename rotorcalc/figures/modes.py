@@ -108,7 +108,9 @@ def natural(shown: OverSpeed, *, rigid: Array, shaft: float) -> Chart:
     return _chart(shown, y, quantity, beside=beside)
 
 
-def shape(here: ModeShapes, mode: int, *, rigid: bool, spiral: bool = False) -> Chart:
+def shape(
+    here: ModeShapes, mode: int, *, rigid: bool, spiral: bool = False, ring: bool = False
+) -> Chart:
     """Return a mode shape: the orbits of disk and journal, and the shaft between them.
 
     Parameters
@@ -121,6 +123,8 @@ def shape(here: ModeShapes, mode: int, *, rigid: bool, spiral: bool = False) -> 
         Whether disk and journal move as one.
     spiral : bool
         Whether to draw growth or decay over three turns, or the orbit's shape alone.
+    ring : bool
+        Whether the film's inner coordinates are the place of a floating ring, whose orbit is drawn.
     """
     value = complex(here.eigenvalues[mode])
     turn = np.linspace(0.0, 2.0 * np.pi * (3.0 if spiral else 0.92), 289 if spiral else 97)
@@ -130,6 +134,9 @@ def shape(here: ModeShapes, mode: int, *, rigid: bool, spiral: bool = False) -> 
     if not rigid:
         parts.append(("disk", here.disk[mode], style.DISK))
     held = np.array([np.zeros(2), *(phasors.real for _, phasors, _ in parts)])
+    if ring:
+        parts.append(("ring", here.inner[mode], style.RING))
+    at_first = np.array([phasors.real for _, phasors, _ in parts])
     # X points down, as the load does, so that the shaft turns counterclockwise from X to Y.
     x = style.axis("Y [-]", -1.3, 1.3, scaleanchor="y", constrain="domain")
     y = style.axis("X, along the load [-]", 1.3, -1.3)
@@ -138,7 +145,7 @@ def shape(here: ModeShapes, mode: int, *, rigid: bool, spiral: bool = False) -> 
         style.line(
             held[:, 1], held[:, 0], "shaft at t = 0", style.GREY, dash="dot", width=1.6
         ),
-        style.mark(held[1:, 1], held[1:, 0], "t = 0"),
+        style.mark(at_first[:, 1], at_first[:, 0], "t = 0"),
     ]  # fmt: skip
     return style.chart(traces, x, y, height=460)
 

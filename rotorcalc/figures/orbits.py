@@ -275,25 +275,34 @@ def _steps(let_go: Release, unit: Unit) -> tuple[list[list[Trace]], list[str]]:
         [_at(path[places]) for path in (linear, journal) for places in (trail, trail[-1:])]
         for trail in trails
     ]
+    if let_go.ring is not None:
+        around = unit.of(plane.arc(0.0, 2.0 * math.pi, let_go.clearance)).astype(np.float32)
+        ring = unit.of(let_go.ring).astype(np.float32)
+        for step, trail in zip(steps, trails, strict=True):
+            step[:0] = [_at(ring[trail]), _at(ring[trail[-1]] + around)]
     return steps, [f"{turns[end]:.1f}" for end in ends]
 
 
 def _moving(step: list[Trace]) -> list[Trace]:
-    """Return the moving traces at a step: trails of both journals, and where they are now."""
+    """Return the moving traces at a step: trails of both journals, and where they are now.
+
+    With a floating ring its centre's trail comes first, and where its clearance lies.
+    """
     still = np.zeros((1, 2))
-    return [
-        trace | place
-        for trace, place in zip(
-            (
-                plane.line(still, "linear theory", LINEAR, dash="dash", width=1.6),
-                style.mark(0.0, 0.0, "linear journal", LINEAR, showlegend=False, opacity=0.8),
-                plane.line(still, "journal", style.JOURNAL, width=2.6),
-                style.mark(0.0, 0.0, "now"),
-            ),
-            step,
-            strict=True,
-        )
+    of_ring = [
+        plane.line(still, "ring", style.RING, width=2.0),
+        plane.line(
+            still, "clearance in the ring", style.RING, width=1.2, dash="dot", showlegend=False
+        ),
     ]
+    of_journals = [
+        plane.line(still, "linear theory", LINEAR, dash="dash", width=1.6),
+        style.mark(0.0, 0.0, "linear journal", LINEAR, showlegend=False, opacity=0.8),
+        plane.line(still, "journal", style.JOURNAL, width=2.6),
+        style.mark(0.0, 0.0, "now"),
+    ]
+    traces = of_journals if len(step) == len(of_journals) else [*of_ring, *of_journals]
+    return [trace | place for trace, place in zip(traces, step, strict=True)]
 
 
 def _at(points: NDArray[np.float32]) -> Trace:

@@ -15,6 +15,7 @@ from rotorcalc.arrays import Array
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.display import Result
 from rotorcalc.films import film_of
+from rotorcalc.geometry import FloatingRing
 from rotorcalc.machine import Bearing, Machine
 from rotorcalc.nonlinear.equations import film_gap, resting
 from rotorcalc.nonlinear.linear_motion import linear_theory, motion_of
@@ -64,6 +65,8 @@ class Release(Result):
         Why the motion ended early; empty where it did not.
     lowest_pressure : float
         Of a film that the model keeps full whatever its pressure, above ambient [Pa]; else NaN.
+    ring : array, (n, 2), or None
+        The positions of a floating ring's centre in X, Y [m].
     """
 
     motion: Transient
@@ -78,6 +81,7 @@ class Release(Result):
     points: Array
     stopped: str
     lowest_pressure: float = math.nan
+    ring: Array | None = None
 
     @property
     def size(self) -> Array:
@@ -190,7 +194,14 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
         points=poincare_points(motion),
         stopped=stopped,
         lowest_pressure=lowest_pressure(machine, motion),
+        ring=_ring(machine.bearing, motion),
     )
+
+
+def _ring(bearing: Bearing, motion: Transient) -> Array | None:
+    if motion.inner is None or not isinstance(bearing.geometry, FloatingRing):
+        return None
+    return motion.inner[:, :2]
 
 
 @checked

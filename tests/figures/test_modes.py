@@ -13,6 +13,7 @@ from rotorcalc.figures import root_locus as plane_figure
 from rotorcalc.figures.conventions import conventions
 from rotorcalc.root_locus import root_locus
 from tests.figures.charts import beside, check_plotly_takes_it
+from tests.films.models import RINGS
 
 
 def shown_of(preset, units=SI, *, flexible=True, speed=None, **changes):
@@ -189,6 +190,21 @@ def test_a_forward_orbit_turns_from_x_down_to_y_right():
     orbit = next(trace for trace in chart["data"] if trace["name"] == "disk")
     Y, X = orbit["x"], orbit["y"]
     assert np.all(X[:-1] * np.diff(Y) - Y[:-1] * np.diff(X) > 0.0)
+
+
+def test_a_floating_rings_orbit_stands_in_the_shape_beside_the_shaft():
+    machine = replace(PRESETS["sheet-1e8"].machine, bearing=RINGS["floating ring"])
+    here = analyse(machine, 600.0).mode_shapes()
+    mode = int(np.argmax(np.abs(here.inner[:, 0]) * (here.eigenvalues.imag > 0.0)))
+    chart = figures.shape(here, mode, rigid=False, ring=True)
+    check_plotly_takes_it(chart)
+    drawn = {trace["name"]: trace for trace in reversed(chart["data"])}  # arrows come second
+    X, Y = here.inner[mode].real
+    assert (drawn["ring"]["y"][0], drawn["ring"]["x"][0]) == pytest.approx((X, Y))
+    assert len(drawn["shaft at t = 0"]["x"]) == 3
+    assert len(drawn["t = 0"]["x"]) == 3
+    without = figures.shape(here, mode, rigid=False)
+    assert "ring" not in [trace["name"] for trace in without["data"]]
 
 
 def test_the_spiral_shrinks_by_the_decrement():

@@ -90,6 +90,24 @@ def test_the_animation_ends_on_the_still_and_moves_its_last_traces(releases):
     assert stop["args"][0] == [None]
 
 
+def test_a_floating_ring_moves_with_its_clearance_around_the_journal():
+    name = "floating ring, heavy"
+    let_go = release(
+        replace(balanced(SHEET.rotor), bearing=BEARINGS[name]), 6000 * RPM,
+        kick=0.5 * C, revolutions=16,
+    )  # fmt: skip
+    assert let_go.ring == pytest.approx(let_go.motion.inner[:, :2])
+    chart = orbits.orbit(let_go, SI)
+    check_plotly_takes_it(chart)
+    assert len(chart["frames"][0]["data"]) == 6
+    drawn = {trace["name"]: trace for trace in chart["data"]}
+    ring, around, now = drawn["ring"], drawn["clearance in the ring"], drawn["now"]
+    assert (ring["y"][-1], ring["x"][-1]) == pytest.approx(tuple(1e6 * let_go.ring[-1]), rel=1e-5)
+    off = np.hypot(around["y"] - ring["y"][-1], around["x"] - ring["x"][-1])
+    assert off == pytest.approx(1e6 * C, rel=1e-5)
+    assert np.hypot(now["y"][0] - ring["y"][-1], now["x"][0] - ring["x"][-1]) < 1e6 * C
+
+
 def test_the_charts_show_the_records_numbers(releases):
     found = releases["jumps"]
     (least,) = (trace for trace in orbits.film(found, SI)["data"] if "least" in trace["name"])

@@ -251,6 +251,13 @@ def _can_let_go(computed: Computed, ask: Ask, tell: Progress | None = None) -> b
     return True
 
 
+def of_ring(computed: Computed) -> str:
+    """Return what the chart of a path shows of a floating ring, for its caption."""
+    if computed.machine.bearing.geometry.kind != "floating-ring":
+        return ""
+    return " Green: the ring's centre; dotted, the clearance in the ring, in which the journal is."
+
+
 def say_outcome(preview: Preview, asked: Ask) -> None:
     """Show what the journal did, and what the linear theory predicts."""
     units = preview.units
@@ -261,14 +268,14 @@ def say_outcome(preview: Preview, asked: Ask) -> None:
         while_dragging=lambda c: _stopped(coarse(c, asked)),
     )
     preview.say(
-        "suction",
-        lambda c: _suction(let_go(c, asked), units),
-        while_dragging=lambda c: _suction(coarse(c, asked), units),
-    )
-    preview.say(
         "outcome",
         lambda c: _judged(c, let_go(c, asked), units),
         while_dragging=lambda c: _judged(c, coarse(c, asked), units, _COARSELY),
+    )
+    preview.say(
+        "suction",
+        lambda c: _suction(let_go(c, asked), units),
+        while_dragging=lambda c: _suction(coarse(c, asked), units),
     )
 
 

@@ -25,7 +25,7 @@ ALTS = {
     "natural": "Natural frequency of each mode against speed, beside that of a rigid rotor on the "
     "film and of the shaft alone.",
     "decrement": "Logarithmic decrement of each mode against speed.",
-    "shape": "Orbits of disk and journal in one mode, seen along the shaft.",
+    "shape": "Orbits of disk, journal and floating ring in one mode, seen along the shaft.",
 }
 CAPTIONS = {
     "locus": "Eigenvalues λ of Eq. 5.38 (rigid) and of the calculation sheet (flexible), the upper "
