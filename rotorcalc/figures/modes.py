@@ -135,7 +135,7 @@ def shape(
         parts.append(("disk", here.disk[mode], style.DISK))
     held = np.array([np.zeros(2), *(phasors.real for _, phasors, _ in parts)])
     if ring:
-        parts.append(("ring", here.inner[mode], style.RING))
+        parts.append(("ring", here.inner[mode], style.GREEN))
     at_first = np.array([phasors.real for _, phasors, _ in parts])
     # X points down, as the load does, so that the shaft turns counterclockwise from X to Y.
     x = style.axis("Y [-]", -1.3, 1.3, scaleanchor="y", constrain="domain")

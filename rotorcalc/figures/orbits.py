@@ -19,7 +19,7 @@ from rotorcalc.nonlinear.measured_onset import GrowthCurve, Onsets
 from rotorcalc.nonlinear.release import Release
 from rotorcalc.units import Unit, Units
 
-LINEAR = style.PURPLE
+LINEAR, RING = style.PURPLE, style.OCHRE
 UP, DOWN = style.GREEN, style.OCHRE
 # Tall: the clearance is the page's main picture.
 _PLANE_HEIGHT = 550
@@ -290,10 +290,8 @@ def _moving(step: list[Trace]) -> list[Trace]:
     """
     still = np.zeros((1, 2))
     of_ring = [
-        plane.line(still, "ring", style.RING, width=2.0),
-        plane.line(
-            still, "clearance in the ring", style.RING, width=1.2, dash="dot", showlegend=False
-        ),
+        plane.line(still, "ring", RING, width=2.0),
+        plane.line(still, "clearance in the ring", RING, width=1.2, dash="dot", showlegend=False),
     ]
     of_journals = [
         plane.line(still, "linear theory", LINEAR, dash="dash", width=1.6),

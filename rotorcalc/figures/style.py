@@ -26,7 +26,7 @@ BLUE, GREEN, PURPLE, OCHRE, RED, GREY = (
 )  # fmt: skip
 X, Y = BLUE, GREEN
 XX, YY, XY, YX = BLUE, GREEN, PURPLE, OCHRE
-JOURNAL, DISK, RING = BLUE, OCHRE, GREEN
+JOURNAL, DISK = BLUE, OCHRE
 FLEXIBLE, RIGID = BLUE, PURPLE
 # What was measured on a machine, beside what is computed of one.
 MEASURED = GREEN

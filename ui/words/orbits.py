@@ -255,7 +255,7 @@ def of_ring(computed: Computed) -> str:
     """Return what the chart of a path shows of a floating ring, for its caption."""
     if computed.machine.bearing.geometry.kind != "floating-ring":
         return ""
-    return " Green: the ring's centre; dotted, the clearance in the ring, in which the journal is."
+    return " Ochre: the ring's centre; dotted, the clearance in the ring, in which the journal is."
 
 
 def say_outcome(preview: Preview, asked: Ask) -> None:
