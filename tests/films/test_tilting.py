@@ -192,14 +192,20 @@ def test_a_small_motion_is_the_linear_theorys(inertia):
         assert np.abs(found.journal[i] - still.journal[i] - expected).max() < 1.5e-2 * 1e-3 * C
 
 
+def _same_matrix(found, expected):
+    np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-14 * np.abs(expected).max())
+
+
 def test_coefficients_depend_on_the_whirl_ratio():
     one, ratio = machine(TiltingPads()), np.array([0.25, 0.5, 1.0])
     K, C = stiffness_and_damping(one, 600.0, whirl_ratio=ratio)
     assert K.shape == C.shape == (3, 2, 2)
-    assert K[2] == pytest.approx(stiffness_and_damping(one, 600.0)[0], rel=1e-12)
+    # By symmetry the cross terms are zero, but for the rounding of the direct ones.
+    _same_matrix(K[2], stiffness_and_damping(one, 600.0)[0])
     for i, each in enumerate(ratio):
         k, c = reduced(dynamics(one, 600.0), each * 600.0)
-        assert (K[i], C[i]) == (pytest.approx(k, rel=1e-12), pytest.approx(c, rel=1e-12))
+        _same_matrix(K[i], k)
+        _same_matrix(C[i], c)
     assert K[0, 0, 0] > K[1, 0, 0] > K[2, 0, 0]
     for wrong in (0.0, -1.0, math.nan, math.inf):
         with pytest.raises(ValueError, match=r"whirl_ratio = .*must be positive and finite"):

@@ -72,9 +72,9 @@ def scan(mesh: Mesh) -> tuple[Array, Array, BoolArray]:
     position = places.reshape(-1, 2)
     found = films(mesh, position)
     wet = np.ones((len(position), *mesh.shape), dtype=bool)
-    at = solved(found, wet)
+    at = solved(found, wet, adjoint=False)
     for _ in range(_SCAN_SWEEPS):
-        at = solved(found, at.next_wet)
+        at = solved(found, at.next_wet, adjoint=False)
     load, place, near = crossings(at.force.reshape(places.shape), places)
     return load, place, at.next_wet[near]
 

@@ -30,8 +30,6 @@ _TURN = 2.0 * math.pi
 _GRADING, _STEEPEST = 0.7, 0.9
 # Right side by a velocity v over the weights of the force: −12 ∫ h_τ with h_τ = −v·n, and −½ ∫ n.
 SQUEEZE = -24.0
-# Diagonal of a node without film, many orders above any other.
-_SUPPORT = 1e30
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +62,18 @@ class Mesh:
     def axial(self) -> Array:
         """(D/L)² times the axial stiffness, (N, zones, m, m)."""
         return self.slenderness * np.array([basis.stiffness for basis in self.bases])
+
+    @functools.cached_property
+    def bands(self) -> Array:
+        """Lower diagonals of `axial`, each pressure's in a row, (N, zones, m·(m + 1)).
+
+        The last in a row is for the next node around, with which the axial term has no part.
+        """
+        N, zones, m, _ = self.axial.shape
+        rows = np.zeros((N, zones, m, m + 1))
+        for d in range(m):
+            rows[:, :, : m - d, d] = np.diagonal(self.axial, d, -2, -1)
+        return rows.reshape(N, zones, m * (m + 1))
 
     @functools.cached_property
     def outflow(self) -> Array:
@@ -165,12 +175,13 @@ class Films:
     @functools.cached_property
     def width(self) -> Array:
         """Width of each cell [rad]."""
-        return np.diff(self.beta)
+        return self.beta[..., 1:] - self.beta[..., :-1]
 
     @functools.cached_property
     def means(self) -> tuple[Array, Array]:
         """Means of cos β and sin β over each cell."""
-        return np.diff(self.sin) / self.width, -np.diff(self.cos) / self.width
+        cos, sin, width = self.cos, self.sin, self.width
+        return (sin[..., 1:] - sin[..., :-1]) / width, (cos[..., :-1] - cos[..., 1:]) / width
 
     @functools.cached_property
     def middles(self) -> tuple[Array, Array]:
@@ -221,11 +232,7 @@ class Films:
         )  # fmt: skip
 
     def _by_zone(self, values: Array) -> Array:
-        weights = self.mesh.weights
-        total = values[:, :, 0, :, None] * weights[:, 0]
-        for z in range(1, weights.shape[1]):
-            total += values[:, :, z, :, None] * weights[:, z]
-        return total
+        return values.swapaxes(2, 3) @ self.mesh.weights[:, :, 0]
 
     def axial_flow(self, p: Array) -> Array:
         """Return the axial term Σ ∫h³ A p of pressures (P, N, nodes, m)."""
@@ -256,7 +263,7 @@ def films(mesh: Mesh, position: Array) -> Films:
     relative = position[:, None, :] - mesh.a
     e_x, e_y = relative[..., 0, None], relative[..., 1, None]
     node = (1.0 - e_x * cos - e_y * sin)[:, :, None, :]
-    width = np.diff(beta)
+    width = beta[..., 1:] - beta[..., :-1]
     # cos of the middle from those of the ends: (cos a + cos b)/2 = cos((a+b)/2) cos((b−a)/2).
     half = np.cos(0.5 * width)
     middle = (1.0 - 0.5 * (2.0 - (node[:, :, 0, 1:] + node[:, :, 0, :-1])) / half)[:, :, None, :]
@@ -325,7 +332,7 @@ class Solution:
     excess : array, (P, N, nodes, m)
         Right side less the operator's left: positive at a dry node that must fill again.
     adjoint : array, (2, P, N, nodes, m)
-        Pressures that the force's own weights would give.
+        Pressures that the force's own weights would give; none of them (0, …) where not asked for.
     force : array, (P, 2)
         Force on the journal in X, Y.
     """
@@ -342,7 +349,9 @@ class Solution:
         return np.where(self.wet, self.pressure > 0.0, self.excess > 0.0)
 
 
-def solved(found: Films, wet: BoolArray, squeeze: Array | None = None) -> Solution:
+def solved(
+    found: Films, wet: BoolArray, squeeze: Array | None = None, *, adjoint: bool = True
+) -> Solution:
     """Return the pressures of an active set, and the adjoint ones.
 
     Parameters
@@ -353,6 +362,8 @@ def solved(found: Films, wet: BoolArray, squeeze: Array | None = None) -> Soluti
         Where pressure is unknown; it is zero elsewhere.
     squeeze : array, (P, 2), optional
         The journal's velocity in X, Y, in CΩ.
+    adjoint : bool
+        Whether sensitivities will be asked of the solution.
 
     Returns
     -------
@@ -366,11 +377,11 @@ def solved(found: Films, wet: BoolArray, squeeze: Array | None = None) -> Soluti
         right = right + SQUEEZE * (
             squeeze[:, 0, None, None, None] * loads[0] + squeeze[:, 1, None, None, None] * loads[1]
         )
-    values = np.stack([right, *loads])
-    p, *adjoint = banded(found, G, wet, values)
+    values = np.stack([right, *loads] if adjoint else [right])
+    p, *others = banded(found, G, wet, values)
     excess = right - flow_out(found, G, p)
-    force = np.stack([(p * load).sum(axis=(1, 2, 3)) for load in loads], axis=-1)
-    return Solution(p, wet, excess, np.stack(adjoint), force)
+    force = np.stack([np.einsum("pnsq,pnsq->p", p, load) for load in loads], axis=-1)
+    return Solution(p, wet, excess, np.array(others), force)
 
 
 def force_weights(found: Films) -> tuple[Array, Array]:
@@ -378,7 +389,9 @@ def force_weights(found: Films) -> tuple[Array, Array]:
     cos, sin = found.means
     w = -0.5 * found.mesh.weights.sum(axis=1)
     # ∫ hat·cos = mean sin after the node less before it: exact for pressures linear in between.
-    return np.diff(sin)[..., None] * w, -np.diff(cos)[..., None] * w
+    return (sin[..., 1:] - sin[..., :-1])[..., None] * w, (cos[..., :-1] - cos[..., 1:])[
+        ..., None
+    ] * w
 
 
 def flow_out(found: Films, G: Array, p: Array) -> Array:
@@ -402,7 +415,7 @@ def flow_out(found: Films, G: Array, p: Array) -> Array:
     flux[:, :, 1:-1] = p[:, :, :-1] - p[:, :, 1:]
     flux[:, :, 0], flux[:, :, -1] = -p[:, :, 0], p[:, :, -1]
     flux *= G
-    return np.diff(flux, axis=2) + found.axial_flow(p)
+    return flux[:, :, 1:] - flux[:, :, :-1] + found.axial_flow(p)
 
 
 def refilled(found: Films, wet: BoolArray, p: Array, right: Array) -> BoolArray:
@@ -431,30 +444,41 @@ def banded(found: Films, G: Array, wet: BoolArray, values: Array) -> Array:
     The right sides are overwritten.
     """
     m = G.shape[-1]
-    lower = np.zeros((*wet.shape, m + 1))
-    lower[..., 0] = G[:, :, :-1] + G[:, :, 1:]
-    A, cubes = found.mesh.axial, found.cubes
-    for z in range(A.shape[1]):
-        for d in range(m):
-            diagonal = np.diagonal(A[:, z], d, -2, -1)[:, None, :]
-            lower[..., : m - d, d] += cubes[:, :, z, :, None] * diagonal
-    lower[:, :, :-1, :, m] = -G[:, :, 1:-1]
-    # A dry node is held at zero by a support so stiff that its neighbours do not matter.
-    lower[..., 0] = np.where(wet, lower[..., 0], _SUPPORT)
-    count = wet.size
+    # Pad by pad, as each has an axial term of its own; a node of which no pressure is wet has no
+    # part.
+    of_pads, wet = values.swapaxes(1, 2), wet.swapaxes(0, 1)
+    kept: BoolArray = np.any(wet, axis=-1)
+    if not kept.any():
+        return np.zeros_like(values)
+    cubes = found.cubes.transpose(1, 0, 3, 2)
+    each: list[Array] = [cubes[n][kept[n]] @ axial for n, axial in enumerate(found.mesh.bands)]
+    bands: Array = np.concatenate(each).reshape(-1, m, m + 1)
+    around = G.swapaxes(0, 1)
+    before, after = around[:, :, :-1][kept], around[:, :, 1:][kept]
+    bands[..., 0] += before + after
+    beside = np.zeros_like(kept)
+    beside[..., :-1] = kept[..., 1:]
+    np.negative(after, out=bands[..., m], where=beside[kept][:, None])
+    bands, right = bands.reshape(-1, m + 1), of_pads[:, kept].reshape(len(values), -1)
+    _cut_off(np.flatnonzero(~wet[kept].ravel()), bands, right)
     solve = cast("Any", lapack.dpbsv)
-    _, x, info = solve(
-        lower.reshape(count, m + 1).T,
-        values.reshape(len(values), count).T,
-        lower=1,
-        overwrite_ab=1,
-        overwrite_b=1,
-    )
+    _, x, info = solve(bands.T, right.T, lower=1, overwrite_ab=1, overwrite_b=1)
     if info != 0:
         raise ValueError(
             "position: the journal must lie inside the bore, where every pad leaves it a film"
         )
-    return np.asarray(x).T.reshape(values.shape) * wet
+    values[...] = 0.0
+    of_pads[:, kept] = np.asarray(x).T.reshape(len(values), -1, m)
+    return values
+
+
+def _cut_off(dry: IntArray, bands: Array, right: Array) -> None:
+    """Make some of the unknowns of a matrix, given by its lower diagonals, zero on their own."""
+    bands[dry] = 0.0
+    bands[dry, 0] = 1.0
+    right[:, dry] = 0.0
+    for d in range(1, bands.shape[1]):
+        bands[dry[dry >= d] - d, d] = 0.0
 
 
 def stiffness(found: Films, at: Solution) -> Array:
@@ -472,51 +496,42 @@ def stiffness(found: Films, at: Solution) -> Array:
     array, (P, 2, 2)
         In μΩR³L/C³.
     """
-    weights = found.mesh.weights
-    flux = _cell_flux(found, at.pressure)
-    across = np.stack([differences(adjoint) for adjoint in at.adjoint])
-    K = np.empty((at.force.shape[0], 2, 2))
+    dp, moved = differences(at.pressure), _moved_flow(found, at.pressure)
+    weights = found.mesh.weights[:, :, 0].swapaxes(1, 2)
     dI2, dI3 = found.slopes
-    for i in (0, 1):
-        through = at.adjoint[i]
-        for j in (0, 1):
-            K[:, i, j] = _thinner(found, at.pressure, through, j)
-        for z in range(weights.shape[1]):
-            w = weights[:, z] * across[i]
-            a = w.sum(axis=-1) / found.I3[:, :, z]
-            b = (w * flux[z]).sum(axis=-1) / found.I3[:, :, z]
-            for j in (0, 1):
-                K[:, i, j] -= (6.0 * dI2[j][:, :, z] * a - dI3[j][:, :, z] * b).sum(axis=(1, 2))
+    K = np.empty((at.force.shape[0], 2, 2))
+    for i, adjoint in enumerate(at.adjoint):
+        across = differences(adjoint)
+        along = np.einsum("pnsq,pnsq->pns", adjoint, moved)
+        # Σ w λ/I₃ and Σ w λ q/I₃ of each cell, by zone: q = (6 I₂ − Δp)/I₃ is its flux.
+        a = (across @ weights).swapaxes(2, 3) / found.I3
+        b = (6.0 * found.I2 * a - ((across * dp) @ weights).swapaxes(2, 3) / found.I3) / found.I3
+        for j, n in enumerate((found.cos, found.sin)):
+            K[:, i, j] = np.einsum("pns,pns->p", along, n[:, :, 1:-1])
+            K[:, i, j] += np.einsum("pnzc,pnzc->p", dI3[j], b)
+            K[:, i, j] -= 6.0 * np.einsum("pnzc,pnzc->p", dI2[j], a)
     return K
 
 
-def _thinner(found: Films, p: Array, adjoint: Array, j: int) -> Array:
-    """Return the part of stiffness from the axial flow: λᵀA p times the derivative of ∫h³."""
-    n = (found.cos, found.sin)[j][:, :, 1:-1]
+def _moved_flow(found: Films, p: Array) -> Array:
+    """Return by what the axial flow of each pressure changes, over (cos, sin) of its node.
+
+    It is A p times the derivative of ∫h³: with ∂h = −n, −3 n h² over the node's volume.
+    """
     width = found.width[:, :, None, :]
-    # ∂h = −n: ∂∫h³ = −3 n h² over the node's volume.
     left, right = width * found.h_right**2, width * found.h_left**2
-    change = -1.5 * n[:, :, None, :] * (left[..., :-1] + right[..., 1:])
+    change = -1.5 * (left[..., :-1] + right[..., 1:])
     A = found.mesh.axial
-    total = np.zeros(p.shape[0])
-    for z in range(A.shape[1]):
-        total += (change[:, :, z] * (adjoint * (p @ A[:, z])).sum(axis=-1)).sum(axis=(1, 2))
+    total = change[:, :, 0, :, None] * (p @ A[:, 0])
+    for z in range(1, A.shape[1]):
+        total += change[:, :, z, :, None] * (p @ A[:, z])
     return total
-
-
-def _cell_flux(found: Films, p: Array) -> Array:
-    """Return q = (6I₂ − Δp)/I₃ of each cell by zone, (zones, P, N, links, m)."""
-    dp = differences(p)
-    zones = found.I3.shape[2]
-    return np.stack([
-        (6.0 * found.I2[:, :, z, :, None] - dp) / found.I3[:, :, z, :, None] for z in range(zones)
-    ])  # fmt: skip
 
 
 def differences(p: Array) -> Array:
     """Return differences over the cells, with zero at the pads' edges."""
     out = np.empty((*p.shape[:2], p.shape[2] + 1, p.shape[3]))
-    out[:, :, 1:-1] = np.diff(p, axis=2)
+    np.subtract(p[:, :, 1:], p[:, :, :-1], out=out[:, :, 1:-1])
     out[:, :, 0], out[:, :, -1] = p[:, :, 0], -p[:, :, -1]
     return out
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotorcalc.arrays import Array, BoolArray
+from rotorcalc.arrays import Array, BoolArray, IntArray
 from rotorcalc.films.finite.equilibrium import ASTRAY, Equilibria, scan, settled
 from rotorcalc.films.finite.fronts import coefficients
 from rotorcalc.films.finite.results import drag, peak, side_flow
@@ -46,6 +46,8 @@ _LIGHT_LOADS = 6
 # lightest.
 _NEXT_TO_NONE = 1e-5
 _ROUGH, _MOST_SWEEPS = 5, 40
+# With pockets light films are far wider than the scan's, and grow by a node a step.
+_ROUGH_WITH_POCKETS = 8
 # So few equilibria make no table.
 _TOO_FEW = 8
 
@@ -207,8 +209,11 @@ def _tabulated(pads: tuple[Pad, ...], slenderness: float, fine: tuple[int, int, 
     concentric = zones == 1 and are_concentric(pads)
     load, start, wet = _loads(grids[0], count, lightest=_NEXT_TO_NONE if concentric else 0.0)
     # Rough positions are good enough to go on from.
-    rough = settled(grids[1], load, start, carried(wet, grids[1]), steps=_ROUGH)
-    found = _followed(grids[2], load, rough.position, carried(rough.wet, grids[2]))
+    steps = _ROUGH if zones == 1 else _ROUGH_WITH_POCKETS
+    rough = settled(grids[1], load, start, carried(wet, grids[1]), steps=steps)
+    near = carried(rough.wet, grids[2])
+    # A film that is too wide shrinks at once.
+    found = _followed(grids[2], load, rough.position, near if zones == 1 else _wider(near))
     return _made(grids[2], found, concentric)
 
 
@@ -286,15 +291,37 @@ def carried(wet: BoolArray, fine: Mesh) -> BoolArray:
     return np.ascontiguousarray(wet[:, :, i][..., q])
 
 
+def _wider(wet: BoolArray) -> BoolArray:
+    """Return an active set with a node more around the pads at each of its ends."""
+    wide = wet.copy()
+    wide[:, :, 1:] |= wet[:, :, :-1]
+    wide[:, :, :-1] |= wet[:, :, 1:]
+    return wide
+
+
 def settled_pressures(found: Films, wet: BoolArray) -> Solution:
     """Return pressures at fixed positions, the active set corrected until nothing changes."""
-    at = solved(found, wet)
+    at = solved(found, wet, adjoint=False)
+    rows = np.arange(len(wet))
     for _ in range(_MOST_SWEEPS):
         after = at.next_wet
-        if np.array_equal(after, at.wet):
+        changed = (after[rows] != at.wet[rows]).any(axis=(1, 2, 3))
+        rows = rows[changed]
+        if not rows.size:
             break
-        at = solved(found, after)
+        again = solved(found.taken(rows), after[rows], adjoint=False)
+        at = Solution(
+            _with(at.pressure, rows, again.pressure), after, _with(at.excess, rows, again.excess),
+            at.adjoint, _with(at.force, rows, again.force),
+        )  # fmt: skip
     return at
+
+
+def _with(values: Array, rows: IntArray, others: Array) -> Array:
+    """Return values with some rows in place."""
+    values = values.copy()
+    values[rows] = others
+    return values
 
 
 def _made(grid: Mesh, found: Equilibria, concentric: bool) -> FilmTable:
