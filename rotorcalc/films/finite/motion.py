@@ -46,6 +46,19 @@ class Drive(NamedTuple):
     slope: float
 
 
+class Placed(NamedTuple):
+    """The journal's place from a pad's centre of curvature, and in the pad's table."""
+
+    e_x: float
+    e_y: float
+    cos: float
+    sin: float
+    share: float
+    row: float
+    turn: float
+    scale: float
+
+
 @dataclass(frozen=True)
 class FinitePadsInMotion:
     """The pads of a bearing of finite length, and their force on a moving journal.
@@ -135,18 +148,27 @@ class FinitePadsInMotion:
 
 def drive(table: Impedance, pad: Pad, motion: tuple[float, float, float, float]) -> Drive:
     """Return what drives a pad's film, of the journal's motion (x, y, x', y') in C and CΩ."""
-    x, y, dx, dy = motion
+    return driven(table, placed(table, pad, *motion[:2]), *motion[2:])
+
+
+def placed(table: Impedance, pad: Pad, x: float, y: float) -> Placed:
+    """Return the journal's place (x, y), in C, over a pad and in its table."""
     e_x, e_y = x - pad.a_x, y - pad.a_y
     e = math.hypot(e_x, e_y)
     cos, sin = (e_x / e, e_y / e) if e > 0.0 else (1.0, 0.0)
+    share, row, turn = table.place(e, math.atan2(e_y, e_x) - 0.5 * (pad.start + pad.end))
+    return Placed(e_x, e_y, cos, sin, share, row, turn, (1.0 - share * share) ** -1.5)
+
+
+def driven(table: Impedance, at: Placed, dx: float, dy: float) -> Drive:
+    """Return what drives the film of a pad at a velocity of the journal, in CΩ."""
+    e_x, e_y, cos, sin, share, row, turn, scale = at
     A, B = 6.0 * e_x - 12.0 * dy, -6.0 * e_y - 12.0 * dx
     # Along and across the line of centres.
     a, b = A * cos - B * sin, A * sin + B * cos
-    share, row, turn = table.place(e, math.atan2(e_y, e_x) - 0.5 * (pad.start + pad.end))
     # G = −V cos(θ − m): the film converges most at its middle m.
     m = math.atan2(-a, -b)
     column, slope = table.middle(share, m)
-    scale = (1.0 - share * share) ** -1.5
     return Drive(
         cos, sin, math.cos(m), math.sin(m), math.hypot(a, b), scale, row, turn, column, slope
     )

@@ -24,7 +24,7 @@ from rotorcalc.arrays import Array
 from rotorcalc.films import convex
 from rotorcalc.films.convex import Answer
 from rotorcalc.films.finite.impedance import Impedance, Shape, impedance
-from rotorcalc.films.finite.motion import drive, pad_answers
+from rotorcalc.films.finite.motion import driven, pad_answers, placed
 from rotorcalc.films.pads import Pad
 from rotorcalc.films.tilting.family import generic_pad
 from rotorcalc.films.tilting.pivots import Pivots, pivots_of
@@ -59,6 +59,22 @@ class Moving(NamedTuple):
 _Pads = Callable[[Array], Moving]
 
 
+class _Films:
+    """The films of pads at places (ξ, η) (N, 2), in any motion, from their table."""
+
+    def __init__(self, table: Impedance, pad: Pad, at: Array) -> None:
+        """Find the places in the table, which no velocity changes."""
+        self._table = table
+        self._placed = [placed(table, pad, *one) for one in at.tolist()]
+
+    def moving(self, velocity: Array) -> tuple[Array, Array, Array]:
+        """Return F (N, 2), C (N, 2, 2) and Φ (N,) at velocities (N, 2)."""
+        pairs = zip(self._placed, velocity.tolist(), strict=True)
+        drives = [driven(self._table, at, *one) for at, one in pairs]
+        found = np.array(pad_answers(self._table, drives))
+        return found[:, :2], found[:, 2:6].reshape(-1, 2, 2), found[:, 6]
+
+
 @dataclass(frozen=True)
 class PadsInMotion:
     """The pads of a bearing, and their force on a moving journal.
@@ -70,8 +86,12 @@ class PadsInMotion:
     """
 
     bearing: JournalBearing
-    # The last point's films' middles or tilts' rates: how soon the next are found, not what.
+    # The last point's films' middles or tilts' rates, and the journal's velocity: how soon the next
+    # are found, not what.
     _last: list[Array] = field(default_factory=list["Array"], init=False, repr=False, compare=False)
+    _velocity: list[float] = field(
+        default_factory=list["float"], init=False, repr=False, compare=False
+    )
 
     def __reduce__(self) -> tuple[type, tuple[JournalBearing]]:
         """Return the bearing, with which another process makes the table again."""
@@ -84,6 +104,12 @@ class PadsInMotion:
     @cached_property
     def _frames(self) -> Array:
         return self._pivots.frames
+
+    @cached_property
+    def _onto_journal(self) -> tuple[Array, Array]:
+        """Sums of the pads' forces and damping on the journal, as matrices (2N, 2) and (4N, 4)."""
+        T = self._frames
+        return T.reshape(-1, 2), np.einsum("nai,nbj->nabij", T, T).reshape(-1, 4)
 
     @cached_property
     def _pad(self) -> Pad:
@@ -122,7 +148,7 @@ class PadsInMotion:
         As `InnerMotion.force`: from (x, y, x', y') in C and CΩ, in μΩRL³/C².
         """
         found = self._pads(moving[:2], inner, mu, speed)(self._frames @ np.array(moving[2:]))
-        f_x, f_y = self._unit * np.einsum("nai,na->i", self._frames, found.force)
+        f_x, f_y = self._unit * (found.force.ravel() @ self._onto_journal[0])
         return float(f_x), float(f_y), self._rates(found, inner, mu, speed)
 
     def velocity(
@@ -132,20 +158,26 @@ class PadsInMotion:
 
         As `InnerMotion.velocity`: from (x, y, f_x, f_y), as `convex.velocity`.
         """
-        pads = self._pads(moving[:2], inner, mu, speed)
-        v_x, v_y = convex.velocity(partial(self._answer, pads), moving[2], moving[3])
-        found = pads(self._frames @ np.array([v_x, v_y]))
-        return v_x, v_y, self._rates(found, inner, mu, speed)
+        pads, seen = self._pads(moving[:2], inner, mu, speed), dict[tuple[float, float], Moving]()
+        v_x, v_y = convex.velocity(
+            partial(self._answer, pads, seen), moving[2], moving[3], self._velocity
+        )
+        return v_x, v_y, self._rates(seen[v_x, v_y], inner, mu, speed)
 
-    def _answer(self, pads: _Pads, v_x: float, v_y: float) -> Answer:
-        """Return force, damping and potential over the journal's velocity."""
-        T = self._frames
-        found = pads(T @ np.array([v_x, v_y]))
-        v = np.array([v_x, v_y])
-        F = np.einsum("nai,na->i", T, found.force) - _SUPPORT * v
-        C = np.einsum("nai,nab,nbj->ij", T, found.damping, T) + _SUPPORT * np.eye(2)
-        potential = found.potential.sum() + 0.5 * _SUPPORT * v @ v
-        return Answer(*(self._unit * np.array([*F, *C.ravel(), potential])).tolist())
+    def _answer(
+        self, pads: _Pads, seen: dict[tuple[float, float], Moving], v_x: float, v_y: float
+    ) -> Answer:
+        """Return force, damping and potential over the journal's velocity, and keep the pads'."""
+        found = seen[v_x, v_y] = pads(self._frames @ np.array([v_x, v_y]))
+        force, damping = self._onto_journal
+        unit, support = self._unit, self._unit * _SUPPORT
+        f_x, f_y = (found.force.ravel() @ force).tolist()
+        xx, xy, yx, yy = (found.damping.ravel() @ damping).tolist()
+        return Answer(
+            unit * f_x - support * v_x, unit * f_y - support * v_y,
+            unit * xx + support, unit * xy, unit * yx, unit * yy + support,
+            unit * float(found.potential.sum()) + 0.5 * support * (v_x * v_x + v_y * v_y),
+        )  # fmt: skip
 
     def _rates(self, found: Moving, inner: list[float], mu: float, speed: float) -> list[float]:
         stiffness, mass = self._numbers
@@ -163,33 +195,29 @@ class PadsInMotion:
         at[:, 0] += self._pivots.preload
         at[:, 1] += tilt
         if mass > 0.0:
-            return partial(self._heavy, at, np.array(inner[number:]))
+            return partial(self._heavy, self._films(at), np.array(inner[number:]))
         if stiffness == 0.0:
             return partial(self._free, at, *self._through_the_pivots(at))
         unit = float(FilmUnits(self.bearing, mu, speed).stiffness)
-        return partial(self._sprung, at, stiffness / (unit * self._unit) * tilt)
+        return partial(self._sprung, self._films(at), stiffness / (unit * self._unit) * tilt)
 
-    def _films(self, at: Array, velocity: Array) -> tuple[Array, Array, Array]:
-        """Return F (N, 2), C (N, 2, 2) and Φ (N,) of films at (ξ, η) with velocities (N, 2)."""
-        moving = np.column_stack([at, velocity]).tolist()
-        drives = [drive(self._table, self._pad, tuple(one)) for one in moving]
-        found = np.array(pad_answers(self._table, drives))
-        return found[:, :2], found[:, 2:6].reshape(-1, 2, 2), found[:, 6]
+    def _films(self, at: Array) -> _Films:
+        return _Films(self._table, self._pad, at)
 
-    def _heavy(self, at: Array, rates: Array, way: Array) -> Moving:
+    def _heavy(self, films: _Films, rates: Array, way: Array) -> Moving:
         """Return pads with inertia, whose tilts' rates are given."""
-        return Moving(*self._films(at, way + np.stack([0.0 * rates, rates], axis=-1)), rates)
+        return Moving(*films.moving(way + np.stack([0.0 * rates, rates], axis=-1)), rates)
 
     def _through_the_pivots(self, at: Array) -> tuple[Array, Array]:
         """Return M at which the force passes through the pivot, and −F_ξ/(6η + 12ξ') there."""
-        xi, eta = at[:, 0], at[:, 1]
+        films, xi, eta = self._films(at), at[:, 0], at[:, 1]
         middle = self._last[0] if self._last else np.zeros(len(at))
         low, high = np.full(len(at), -_FARTHEST), np.full(len(at), _FARTHEST)
         for _ in range(_MOST_STEPS):
             cos, sin = np.cos(middle), np.sin(middle)
             # V = 1
             velocity = np.stack([cos - 6.0 * eta, sin + 6.0 * xi], axis=-1) / 12.0
-            force, damping, _ = self._films(at, velocity)
+            force, damping, _ = films.moving(velocity)
             slope = (damping[:, 1, 0] * sin - damping[:, 1, 1] * cos) / 12.0
             behind = force[:, 1] < 0.0  # the film's middle lies too far behind the pivot
             low, high = np.where(behind, low, middle), np.where(behind, middle, high)
@@ -222,12 +250,12 @@ class PadsInMotion:
             rates=(turning + 6.0 * xi) / 12.0 - way[:, 1],
         )
 
-    def _sprung(self, at: Array, moment: Array, way: Array) -> Moving:
+    def _sprung(self, films: _Films, moment: Array, way: Array) -> Moving:
         """Return pads on flexures without inertia, whose rates balance their moments."""
-        rates = self._last[0] if self._last else np.zeros(len(at))
-        low, high = np.full(len(at), -np.inf), np.full(len(at), np.inf)
+        rates = self._last[0] if self._last else np.zeros(len(moment))
+        low, high = np.full(len(moment), -np.inf), np.full(len(moment), np.inf)
         for _ in range(_MOST_STEPS):
-            force, C, potential = self._films(at, way + np.stack([0.0 * rates, rates], axis=-1))
+            force, C, potential = films.moving(way + np.stack([0.0 * rates, rates], axis=-1))
             left = force[:, 1] - moment - _FRICTION * rates
             low, high = np.where(left > 0.0, rates, low), np.where(left > 0.0, high, rates)
             resists = np.maximum(C[:, 1, 1], 0.0) + _FRICTION
