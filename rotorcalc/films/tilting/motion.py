@@ -221,8 +221,11 @@ class PadsInMotion:
             slope = (damping[:, 1, 0] * sin - damping[:, 1, 1] * cos) / 12.0
             behind = force[:, 1] < 0.0  # the film's middle lies too far behind the pivot
             low, high = np.where(behind, low, middle), np.where(behind, middle, high)
-            after = middle - force[:, 1] / np.minimum(slope, -1e-12)
-            after = np.where((after > low) & (after < high), after, 0.5 * (low + high))
+            step = -force[:, 1] / np.minimum(slope, -1e-12)
+            after = middle + step
+            # A step below rounding leaves the bounds where it began from one of them.
+            inside = (after > low) & (after < high) | (np.abs(step) <= _TOLERANCE)
+            after = np.where(inside, after, 0.5 * (low + high))
             away = np.minimum(np.abs(after - middle), high - low)
             if np.all(away <= _TOLERANCE):
                 self._last[:] = [middle]
@@ -259,8 +262,10 @@ class PadsInMotion:
             left = force[:, 1] - moment - _FRICTION * rates
             low, high = np.where(left > 0.0, rates, low), np.where(left > 0.0, high, rates)
             resists = np.maximum(C[:, 1, 1], 0.0) + _FRICTION
-            after = rates + left / resists
+            step = left / resists
+            after = rates + step
             outside = np.isfinite(low) & np.isfinite(high) & ((after <= low) | (after >= high))
+            outside &= np.abs(step) > _TOLERANCE * (1.0 + np.abs(rates))
             after[outside] = 0.5 * (low[outside] + high[outside])
             away = np.minimum(np.abs(after - rates), high - low)
             if np.all(away <= _TOLERANCE * (1.0 + np.abs(rates))):
