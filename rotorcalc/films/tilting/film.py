@@ -19,7 +19,7 @@ from rotorcalc.films.tilting import linear, pivots
 from rotorcalc.films.tilting.accuracy import accuracy
 from rotorcalc.films.tilting.family import PadFamily, family
 from rotorcalc.films.tilting.flexure import FlexurePads
-from rotorcalc.films.tilting.motion import REVOLUTION, SECONDS, PadsInMotion
+from rotorcalc.films.tilting.motion import HEAVY_REVOLUTION, REVOLUTION, SECONDS, PadsInMotion
 from rotorcalc.films.tilting.pivots import Pivots, pivots_of
 from rotorcalc.films.tilting.rest import FreePads, Rest, Resting
 from rotorcalc.films.tilting.words import SOURCES
@@ -233,7 +233,7 @@ class TiltingFilm:
             gap=self._gap_of_states,
             tables=(moving.shape,),
             seconds=SECONDS,
-            revolution=REVOLUTION,
+            revolution=REVOLUTION if self._shape.pad_inertia == 0.0 else HEAVY_REVOLUTION,
         )
 
     def _resting_states(self, points: OperatingPoints) -> Array:

@@ -32,8 +32,9 @@ from rotorcalc.films.units import FilmUnits
 from rotorcalc.geometry import TiltingPads
 from rotorcalc.machine import JournalBearing
 
-# About how long the table of a pad and a revolution take on a laptop's core.
-SECONDS, REVOLUTION = 2.0, 0.5
+# About how long the table of a pad and a revolution take on a laptop's core, and a revolution with
+# inertia of the pads, whose motion is fast.
+SECONDS, REVOLUTION, HEAVY_REVOLUTION = 2.0, 0.2, 0.6
 # Damping of a flexure, in μR³L/C³: above what the table's rounding may take away without a film.
 _FRICTION = 5e-4
 _MOST_STEPS, _TOLERANCE = 200, 1e-11
