@@ -14,9 +14,10 @@ from ui.session import Session
 
 ROOT = Path(__file__).resolve().parents[2]
 TIMEOUT = 60  # seconds; a run takes 0.05, but the machine may be busy
-LECTURE = next(path for path, name in frame.PAGES.items() if name == "Lecture")
-# The pages of the visitor's own machine; a lecture has machines of its own.
-PAGES = {path: name for path, name in frame.PAGES.items() if path != LECTURE}
+_STAGES = {name: path for path, name in frame.PAGES.items() if name in ("Lecture", "Exercises")}
+LECTURE, EXERCISES_PAGE = _STAGES["Lecture"], _STAGES["Exercises"]
+# The pages of the visitor's own machine; a lecture and exercises have machines of their own.
+PAGES = {path: name for path, name in frame.PAGES.items() if name not in _STAGES}
 HOME, *OTHERS = PAGES
 _BY_NAME = {name: path for path, name in PAGES.items()}
 ORBITS, BEARINGS_PAGE, NOTES = (_BY_NAME[name] for name in ("Orbits", "Bearings", "Notes"))

@@ -12,6 +12,7 @@ from tests.app.session import NOTES, PAGES
 from tests.words import STATES, once, toured
 from ui.cases import computed
 from ui.computed import computed_from
+from ui.exercises.collection import EXERCISES, Exercise, of_student
 from ui.lecture.steps import Step, own_steps
 from ui.lecture.views import VIEWS
 from ui.sharing import address
@@ -77,6 +78,13 @@ def test_what_a_visitor_reads_keeps_to_the_rules(page: str, state: str) -> None:
 def test_what_a_step_of_the_lecture_says_keeps_to_the_rules(step: Step) -> None:
     said = (step.title, step.say, step.question, step.answer, step.derivation)
     assert [fault for text in said for fault in _faults(step.title, text)] == []
+
+
+@pytest.mark.parametrize("exercise", EXERCISES, ids=lambda exercise: exercise.title)
+def test_what_an_exercise_says_keeps_to_the_rules(exercise: Exercise) -> None:
+    text, _ = of_student(exercise, 1)
+    said = (text, exercise.hint, exercise.solution, *(ask.words for ask in exercise.asks))
+    assert [fault for words in said for fault in _faults(exercise.title, words)] == []
 
 
 def test_the_list_has_the_cases_of_its_link() -> None:

@@ -74,6 +74,7 @@ PAGES = {
     "pages/7_Bearings.py": "Bearings",
     "pages/13_Your_data.py": "Your data",
     "pages/12_Lecture.py": "Lecture",
+    "pages/14_Exercises.py": "Exercises",
     "pages/8_Notes.py": "Notes",
 }
 
