@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from rotorcalc import PRESETS, CoefficientTable, Machine, Supply, analyse
+from rotorcalc import PRESETS, CoefficientTable, Machine, Supply, analyse, read_coefficients
 from rotorcalc.units import SI
 from tests.app.session import HOME, OTHERS, faults, session_of, texts, tours, visit
 from ui import own
@@ -171,6 +171,17 @@ def test_a_case_with_own_coefficients_stands_beside_a_computed_bearing():
         assert not faults(at), page
     assert len(session_of(at).cases) == 1
     assert "Mine" in session_of(at).link()["cases"]
+
+
+def test_coefficients_as_csv_are_the_table_s_rows_or_the_sweep():
+    computed = computed_from(values_of(machine(), SPEED, 900.0))
+    read = read_coefficients(export.coefficients_csv(computed).decode())
+    assert tuple(read.speed) == table().speed
+    assert np.array_equal(read.stiffness, table().stiffness)
+    of_film = computed_from(values_of(SHEET, SPEED, 900.0))
+    read = read_coefficients(export.coefficients_csv(of_film).decode())
+    assert np.array_equal(read.damping, of_film.sweep.damping)
+    assert b"BearingElement" in export.ross_file(computed)
 
 
 def test_csv_and_report_have_what_is_known():

@@ -6,6 +6,7 @@ from ui.bearing import fields_of, film_name
 from ui.bores import FILM, KIND, Values, name_of
 from ui.format import lower
 from ui.inputs import INPUTS, LAW, LAWS
+from ui.own import TABLE
 from ui.session import Session, changed
 
 # Key of the place of the inputs changed.
@@ -33,7 +34,9 @@ def draw(visitor: Session) -> None:
 
 def changes(preset: str, values: Values) -> str:
     """Return which inputs differ from the preset's, in words."""
-    names = ", ".join(_symbol(key, values) for key in changed(preset, values))
+    # A table is the bearing's own coefficients themselves, which the bearing's name says.
+    keys = (key for key in changed(preset, values) if key != TABLE)
+    names = ", ".join(_symbol(key, values) for key in keys)
     return f"Changed from the preset: {names}." if names else "Unchanged from the preset."
 
 

@@ -10,11 +10,13 @@ from typing import TypeAlias
 
 import numpy as np
 
-from rotorcalc import orbit_ellipse
+from rotorcalc import CoefficientTable, orbit_ellipse
 from rotorcalc.arrays import Array, ComplexArray
+from rotorcalc.coefficient_files import written
 from rotorcalc.figures.recesses import names
 from rotorcalc.recesses import RecessEquilibrium
 from rotorcalc.root_locus import Locus
+from rotorcalc.ross_rotor import ross_axes, ross_rotor
 from rotorcalc.unbalance_response import phase_lag
 from rotorcalc.units import Unit, Units
 from ui import comparison, ring
@@ -29,7 +31,10 @@ Column: TypeAlias = tuple[str, Unit, Array]
 
 ROSS_NAME, ROSS_MIME = "ross_bearing.xlsx", xlsx.MIME
 
+ROTOR_NAME = "ross_rotor.toml"
+
 ROSS_NOTE = (
+    "ROSS rotor: `rs.Rotor.load('ross_rotor.toml')` reads the whole machine, on three nodes. "
     "ROSS table: `rs.BearingElement.from_table(n=0, file='ross_bearing.xlsx')` reads it. One "
     "bearing, K in N/m, C in N·s/m, speed in rad/s. ROSS's x is horizontal, its y up, the shaft "
     "turning from x to y; X here points down along the load, Y at +90° in the sense of rotation. "
@@ -50,8 +55,6 @@ _ROSS_HEAD = (
     ("Signs: k_ij = -dF_i/dx_j, F the film's force on the journal.",),
 )
 _ROSS_COLUMNS = ("kxx", "kxy", "kyx", "kyy", "cxx", "cxy", "cyx", "cyy")
-# (x, y) of ROSS from (X, Y): a rotation by −90°.
-_TO_ROSS = np.array([[0.0, 1.0], [-1.0, 0.0]])
 
 
 def sweep_csv(computed: Computed, units: Units) -> bytes:
@@ -81,10 +84,16 @@ def ross_table(computed: Computed) -> bytes:
     return xlsx.workbook("Bearing", [*_ROSS_HEAD, ("speed", *_ROSS_COLUMNS), units, *rows])
 
 
-def ross_axes(coefficients: Array) -> Array:
-    """Return force coefficients of shape (..., 2, 2) in ROSS's axes: `ROSS_NOTE` describes them."""
-    # 0.0 is added so that an unloaded film's −0 becomes 0.
-    return _TO_ROSS @ coefficients @ _TO_ROSS.T + 0.0
+def ross_file(computed: Computed) -> bytes:
+    """Return the machine as the rotor's file that ROSS's `Rotor.load` reads."""
+    return ross_rotor(computed.sweep).encode()
+
+
+def coefficients_csv(computed: Computed) -> bytes:
+    """Return K and C in SI units: the rows of own coefficients, else those of the sweep."""
+    bearing = computed.machine.bearing
+    source = bearing if isinstance(bearing, CoefficientTable) else computed.sweep
+    return written(source.speed, source.stiffness, source.damping).encode()
 
 
 def head(computed: Computed, units: Units) -> Iterator[tuple[str, str]]:

@@ -59,6 +59,14 @@ def _downloads(
             lambda: export.ross_table(computed),
         ),
         (
+            "Rotor for ROSS (TOML)", export.ROTOR_NAME, "application/toml",
+            lambda: export.ross_file(computed),
+        ),
+        (
+            "K and C over speed (CSV)", "coefficients.csv", "text/csv",
+            lambda: export.coefficients_csv(computed),
+        ),
+        (
             "Report (HTML)", "report.html", "text/html",
             lambda: report.report(
                 computed, beside, units, address, written, choices().kept()

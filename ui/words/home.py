@@ -36,10 +36,8 @@ def content(page: Page) -> None:
 def _own(page: Page) -> None:
     """Draw own coefficients in place of a bearing of which nothing else is known."""
     page.chart(
-        lambda c: style.small(
-            coefficients.stiffness_against_speed(
-                c.sweep, c.point, c.coefficients("XY"), c.coefficients_here("XY"), page.units
-            )
+        lambda c: coefficients.stiffness_against_speed(
+            c.sweep, c.point, c.coefficients("XY"), c.coefficients_here("XY"), page.units
         ),
         "home_stiffness",
         alt="Stiffness coefficients of one bearing against speed, the rows of the table marked.",
