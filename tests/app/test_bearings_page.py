@@ -2,7 +2,10 @@
 
 import math
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 from streamlit.testing.v1 import AppTest
@@ -200,6 +203,25 @@ def test_results_are_shown_as_they_come(monkeypatch: pytest.MonkeyPatch) -> None
     sizes.clear()
     at.run()
     assert sizes == [len(KINDS) + 1]
+
+
+def test_other_pages_have_one_long_turn_while_rows_are_computed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    turns: list[str] = []
+
+    @contextmanager
+    def aside() -> Iterator[None]:
+        turns.append("aside")
+        yield
+        turns.append("back")
+
+    monkeypatch.setattr(words, "one_at_a_time", SimpleNamespace(PAGES=SimpleNamespace(aside=aside)))
+    monkeypatch.setattr(words, "_PATIENCE", 60.0)
+    at = visit(BEARINGS_PAGE, C="61.9")
+    assert turns == ["aside", "back"]
+    at.run()
+    assert turns == ["aside", "back"]
 
 
 def test_nothing_is_compared_while_a_slider_is_dragged(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,7 +8,7 @@ import math
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
@@ -27,6 +27,7 @@ from ui.frame.page import Page
 from ui.inputs import as_shown, machine_of, on_lubricant
 from ui.jobs import cache, work
 from ui.jobs.queue import ROWS
+from ui.serving import one_at_a_time
 from ui.session import session
 
 _NO_ANSWER = "This machine's own bearing has no answer at this speed and load"
@@ -34,6 +35,9 @@ _OWN, _CLICKED = "This machine", "use_in_table"
 _A_ROW = 4
 # Seconds after which the results so far are shown.
 _PATIENCE = 0.4
+
+# A machine, its running speed, and another bore in place of its own.
+_Asked: TypeAlias = tuple[Machine, float, Geometry | None]
 
 _results = cache.Cached(work.bearing, entries=256, megabytes=4, turns=ROWS)
 
@@ -161,19 +165,37 @@ def compare(page: Page) -> list[BearingResult]:
     # A place made empty at once would be so until its table comes.
     top, below = st.container(), st.container()
     so_far: _SoFar | None = None
-    drawn = time.monotonic()
-    for one in asked:
-        late = time.monotonic() - drawn >= _PATIENCE
-        if found and late and _results.known(*one) is None:
+    while len(found) < len(asked):
+        if found:
             page.run_whole()
             so_far = so_far or _SoFar(top.empty(), below.empty())
-            so_far.show(found, one[2] or machine.bearing.geometry, len(asked), page)
-            drawn = time.monotonic()
-        found.append(_worded(_results(*one), page))
+            geometry = asked[len(found)][2] or machine.bearing.geometry
+            so_far.show(found, geometry, len(asked), page)
+        found += [_worded(one, page) for one in _next(asked[len(found) :])]
     if so_far:
         so_far.progress.empty()
     with so_far.table.container() if so_far else top:
         _table(found, page, done=True)
+    return found
+
+
+def _next(asked: Sequence[_Asked]) -> list[BearingResult]:
+    """Return the first results: those that are known, and as many more as patience allows for.
+
+    Other pages run meanwhile, and are not asked for a turn between two results.
+    """
+    found: list[BearingResult] = []
+    while len(found) < len(asked) and (known := _results.known(*asked[len(found)])) is not None:
+        found.append(known)
+    if len(found) == len(asked):
+        return found
+    begun = time.monotonic()
+    with one_at_a_time.PAGES.aside():
+        for one in asked[len(found) :]:
+            late = time.monotonic() - begun >= _PATIENCE
+            if found and late and _results.known(*one) is None:
+                break
+            found.append(_results(*one))
     return found
 
 
@@ -193,7 +215,7 @@ class _SoFar(NamedTuple):
             _table(found, page, done=False)
 
 
-def _asked(machine: Machine, speed: float) -> list[tuple[Machine, float, Geometry | None]]:
+def _asked(machine: Machine, speed: float) -> list[_Asked]:
     """Return what is computed: the machine as it is, then on every kind of bore by itself."""
     # The last visitor's bore does not matter to the others: their results are then the same.
     plain = _plain(machine)
