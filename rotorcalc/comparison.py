@@ -11,9 +11,10 @@ from rotorcalc import heat, modes
 from rotorcalc.analysis import Sweep, analyse
 from rotorcalc.arguments import checked
 from rotorcalc.coefficient_table import CoefficientTable
-from rotorcalc.coefficients import checked_speed
+from rotorcalc.coefficients import checked_speed, operating_points
 from rotorcalc.display import Result
-from rotorcalc.films.foil import CHECKED
+from rotorcalc.films import film_of
+from rotorcalc.films.foil import CHECKED, FoilFilm
 from rotorcalc.gas import Gas
 from rotorcalc.geometry import (
     AxialGrooves,
@@ -223,7 +224,7 @@ def bearing_result(machine: Machine, speed: float) -> BearingResult:
         With the reason where the film has no answer there.
     """
     checked_speed(speed)
-    if reason := _too_heavy_for_gas(machine):
+    if reason := _too_heavy_for_gas(machine, speed):
         return _refused(machine, reason)
     try:
         sweep = analyse(machine, speed)
@@ -249,14 +250,18 @@ def bearing_result(machine: Machine, speed: float) -> BearingResult:
     )
 
 
-def _too_heavy_for_gas(machine: Machine) -> str:
+def _too_heavy_for_gas(machine: Machine, speed: float) -> str:
     """Return why a foil's load is beyond what its model was checked for, before any table of it."""
     bearing = machine.bearing
     if not isinstance(bearing.geometry, Foil):
         return ""
     most = CHECKED * bearing.geometry.ambient_pressure * bearing.diameter * bearing.length
     if machine.static_load <= most:
-        return ""
+        film = film_of(bearing)
+        touches = isinstance(film, FoilFilm) and film.surely_touches(
+            operating_points(machine, speed)
+        )
+        return _TOUCHES if touches else ""
     return (
         f"static load = {machine.static_load:.6g} N: must be at most {most:.4g} N, "
         f"F/(pₐ D L) = {CHECKED:g}, up to which this foil was checked"

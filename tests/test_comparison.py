@@ -6,10 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.constants import atmosphere
 
 from rotorcalc import (
     Elliptical,
     Foil,
+    Gas,
     Lobes,
     Plain,
     PressureDam,
@@ -19,6 +21,7 @@ from rotorcalc import (
     response_peaks,
 )
 from rotorcalc.comparison import KINDS
+from rotorcalc.films.foil import points
 from rotorcalc.modes import logarithmic_decrement
 from tests.machines import RPM, SHEET, with_rotor
 
@@ -74,6 +77,17 @@ def test_an_executor_gives_the_same():
     with ThreadPoolExecutor(2) as pool:
         together = compare_bearings(SHEET, geometries, speed=SPEED, executor=pool)
     assert together == compare_bearings(SHEET, geometries, speed=SPEED)
+
+
+def test_a_journal_that_presses_through_a_foils_film_is_refused_without_a_table(monkeypatch):
+    one = SHEET.bearing
+    light = replace(SHEET, load=0.8 * atmosphere * one.diameter * one.length)
+    foil = Foil.around(one.diameter, one.length, one.radial_clearance)
+    machine = replace(light, bearing=replace(one, geometry=foil), oil=Gas())
+    assert analyse(machine, SPEED).minimum_film_thickness == 0.0
+    monkeypatch.setattr(points, "over_speed", None)
+    (found,) = compare_bearings(light, [foil], speed=SPEED)
+    assert "touches the foil" in found.refusal
 
 
 def test_a_film_that_cannot_carry_the_load_says_so():

@@ -12,6 +12,7 @@ from streamlit.testing.v1 import AppTest
 
 from rotorcalc import compare_bearings
 from rotorcalc.comparison import KINDS, BearingResult
+from rotorcalc.machine import Supply
 from rotorcalc.units import SI, US
 from tests.app.session import BEARINGS_PAGE, faults, session_of, visit
 from ui.bearing import defaults_of
@@ -203,6 +204,19 @@ def test_results_are_shown_as_they_come(monkeypatch: pytest.MonkeyPatch) -> None
     sizes.clear()
     at.run()
     assert sizes == [len(KINDS) + 1]
+
+
+def test_what_no_result_depends_on_makes_nothing_new() -> None:
+    """Without a supply of oil that is the heat that it carries; with one all depends on it."""
+    visitor = session_of(visit(BEARINGS_PAGE))
+    machines = [machine_of(visitor.values | {"cp": heat}) for heat in (1900.0, 2100.0)]
+    one, other = (words._asked(machine, 600.0) for machine in machines)
+    assert one == other
+    supplied = [
+        replace(each, temperature=None, supply=Supply(temperature=45.0)) for each in machines
+    ]
+    one, other = (words._asked(machine, 600.0) for machine in supplied)
+    assert one != other
 
 
 def test_other_pages_have_one_long_turn_while_rows_are_computed(

@@ -14,7 +14,7 @@ import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
 from streamlit.elements.lib.column_types import ButtonColumnResult, ColumnConfig
 
-from rotorcalc import JournalBearing, Machine
+from rotorcalc import JournalBearing, Machine, Oil
 from rotorcalc.comparison import BearingResult, usual_bores
 from rotorcalc.figures import Units
 from rotorcalc.gas import Gas
@@ -217,10 +217,21 @@ class _SoFar(NamedTuple):
 
 def _asked(machine: Machine, speed: float) -> list[_Asked]:
     """Return what is computed: the machine as it is, then on every kind of bore by itself."""
+    machine = _without_the_unused(machine)
     # The last visitor's bore does not matter to the others: their results are then the same.
     plain = _plain(machine)
     others = ((plain, speed, one) for one in usual_bores(plain.bearing))
     return [(machine, speed, None), *others]
+
+
+def _without_the_unused(machine: Machine) -> Machine:
+    """Return a machine with usual values where no result depends on them: nothing is new then."""
+    oil = machine.oil
+    if machine.supply is not None or not isinstance(oil, Oil):
+        return machine
+    # Only a supply's oil carries heat away; only Walther's law asks for the density.
+    density = oil.density if oil.law == "walther" else Oil.density
+    return replace(machine, oil=replace(oil, heat_capacity=Oil.heat_capacity, density=density))
 
 
 def _worded(one: BearingResult, page: Page) -> BearingResult:

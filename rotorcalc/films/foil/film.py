@@ -13,10 +13,18 @@ from scipy.optimize import brentq
 from rotorcalc.arrays import Array, real_array
 from rotorcalc.films.dynamics import NO_INERTIA, FilmDynamics
 from rotorcalc.films.foil.accuracy import accuracy
+from rotorcalc.films.foil.equilibrium import raised
 from rotorcalc.films.foil.points import Conditions, groups, named, solved_at
 from rotorcalc.films.foil.pressure import rise_at, thickness_at
 from rotorcalc.films.foil.sources import SOURCES
-from rotorcalc.films.foil.table import HEAVIEST, HIGHEST_NUMBER, LIGHTEST, FoilShape, over_speed
+from rotorcalc.films.foil.table import (
+    HEAVIEST,
+    HIGHEST_NUMBER,
+    LIGHTEST,
+    THINNEST,
+    FoilShape,
+    over_speed,
+)
 from rotorcalc.films.foil.whirl import RATIOS, Whirl
 from rotorcalc.films.model import Accuracy, Limit, Source
 from rotorcalc.films.state import FilmField, FilmState, OperatingPoints
@@ -26,6 +34,8 @@ from rotorcalc.machine import JournalBearing
 
 # Λ at which ranges and errors are told of that no speed belongs to.
 _USUAL_NUMBER = 1.0
+# ε beyond which the rough mesh does not place a journal that on the table's lies within 1.
+_SURELY = 1.02
 
 
 @dataclass(frozen=True)
@@ -141,6 +151,19 @@ class FoilFilm:
             peak_pressure=peak.reshape(shape),
             peak_angle=angle.reshape(shape),
         )
+
+    def surely_touches(self, points: OperatingPoints) -> bool:
+        """Return whether the journal lies beyond the undeformed foil at one operating point.
+
+        By one equilibrium on the mesh of the search, without a table, so told only where that
+        leaves no doubt.
+        """
+        at = self._conditions(points)
+        if at.number[0] > HIGHEST_NUMBER or not LIGHTEST < at.load[0] < HEAVIEST:
+            return False
+        rough, _ = self._foil.meshes()
+        found = raised(rough, self._foil.compliance, at.number, at.load, THINNEST)
+        return bool(found.good[0]) and math.hypot(*found.films.position[0]) > _SURELY
 
     def dynamics(self, points: OperatingPoints) -> FilmDynamics:
         """Return the impedance over the whirl ratio, and stiffness and damping at ν = 1.
