@@ -1,6 +1,7 @@
 """A visitor's own file of coefficients: read once, and how its axes lie as a picture."""
 
 import base64
+import threading
 from collections.abc import Mapping
 from functools import lru_cache
 from typing import NamedTuple
@@ -10,6 +11,7 @@ from rotorcalc.coefficient_files import Axes, ReadTable, Scale
 from rotorcalc.figures import style
 from ui.serving import one_at_a_time
 
+_READING = threading.Lock()
 _SIZE, _MIDDLE, _ARM = 190.0, 95.0, 62.0
 _TEXT = "#7d7d7d"
 
@@ -40,8 +42,9 @@ def _read(
     scale: Scale | None,
 ) -> Read:
     try:
-        # A workbook is read by another process: no other visitor waits for that.
-        with one_at_a_time.PAGES.aside():
+        # A workbook is read by another process, which may take long and much memory: one at a time,
+        # and only who sent one waits for it.
+        with one_at_a_time.PAGES.aside(), _READING:
             return Read(
                 read_coefficients(
                     raw, load_axis=axes[0], turns=axes[1], units=dict(units), scale=scale

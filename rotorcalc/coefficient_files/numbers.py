@@ -1,7 +1,7 @@
 """The numbers of a table in SI, each column's unit, and who says that it is that."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -270,4 +270,9 @@ def _turn_degrees(read: Numbers, units: Mapping[str, Unit]) -> None:
     angles = read.values.get("attitude")
     if angles is not None and units["attitude"].name == "rad" and np.max(angles) > 2.0 * np.pi:
         read.values["attitude"] = np.radians(angles)
-        read.notes.append("φ is read in degrees.")
+        read.columns = tuple(
+            replace(column, unit="°", why="by its size")
+            if column.key == SHOWN["attitude"]
+            else column
+            for column in read.columns
+        )

@@ -63,6 +63,7 @@ def test_without_a_header_eleven_columns_are_one_too_and_degrees_are_told():
     read = read_coefficients(table("classical", header=()), scale=scale)
     np.testing.assert_allclose(read.attitude_angle, SWEEP.attitude_angle, rtol=1e-12)
     np.testing.assert_allclose(read.stiffness, SWEEP.stiffness, rtol=1e-12)
+    assert [column.unit for column in read.columns if column.key == "φ"] == ["°"]
     assert any("taken to be S, ε, φ, K_xx" in words for words in read.notes)
 
 
