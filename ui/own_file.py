@@ -14,6 +14,7 @@ from ui.serving import one_at_a_time
 _READING = threading.Lock()
 _SIZE, _MIDDLE, _ARM = 190.0, 95.0, 62.0
 _TEXT = "#7d7d7d"
+_ANCHORS = {-1: "end", 0: "middle", 1: "start"}
 
 
 class Read(NamedTuple):
@@ -74,12 +75,12 @@ def picture(load_axis: str, turns: str) -> str:
         _turning(start, stop, sweep),
     ]
     svg = (
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="-20 -8 {_SIZE + 40} {_SIZE + 16}" '
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="-60 -8 {_SIZE + 120} {_SIZE + 16}" '
         f'font-family="Source Sans, Arial, sans-serif" font-size="15">{"".join(drawn)}</svg>'
     )
     address = f"data:image/svg+xml;base64,{base64.b64encode(svg.encode()).decode()}"
     words = f"The load acts along {load_axis}; the shaft turns from {turns}."
-    return f'<img src="{address}" alt="{words}" width="158" height="141">'
+    return f'<img src="{address}" alt="{words}" width="212" height="141">'
 
 
 def _at(direction: tuple[float, ...], radius: float) -> tuple[float, float]:
@@ -107,9 +108,11 @@ def _word(
     colour: str,
     shift: tuple[float, float] = (0.0, 0.0),
 ) -> str:
-    x, y = _at(direction, radius)
+    # A longer word beside a horizontal arrow begins, or ends, where the arrow does.
+    side = direction[0] if len(text) > 1 else 0.0
+    x, y = _at(direction, radius - 10.0 * abs(side))
     return (
-        f'<text x="{x + shift[0]}" y="{y + shift[1] + 5}" text-anchor="middle" '
+        f'<text x="{x + shift[0]}" y="{y + shift[1] + 5}" text-anchor="{_ANCHORS[round(side)]}" '
         f'fill="{colour}">{text}</text>'
     )
 

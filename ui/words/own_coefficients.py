@@ -230,7 +230,9 @@ def _columns(table: ReadTable) -> str:
     """Return in words each unit and who says it."""
     groups: dict[tuple[str, str], list[str]] = {}
     for column in sorted(table.columns, key=lambda column: column.key != "speed"):
-        groups.setdefault((column.unit, column.why), []).append(column.key.replace("speed", "Speed"))
+        groups.setdefault((column.unit, column.why), []).append(
+            column.key.replace("speed", "Speed")
+        )
     for keys in groups.values():  # all four of a kind by their letter
         for letter in "KC":
             four = [key for key in keys if key[0] == letter]
