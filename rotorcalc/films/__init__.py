@@ -22,7 +22,7 @@ from rotorcalc.films.finite.table import takes_long
 from rotorcalc.films.foil import CoarseFoilFilm, FoilFilm
 from rotorcalc.films.hydrostatic import CoarseHydrostaticFilm, HydrostaticFilm
 from rotorcalc.films.lobes import LobesFilm
-from rotorcalc.films.model import BoundedFilm, Film, FilmMotion, InnerMotion
+from rotorcalc.films.model import BoundedFilm, Film, FilmMotion, InnerMotion, at_one_speed
 from rotorcalc.films.own import OwnFilm
 from rotorcalc.films.pads import pads_of
 from rotorcalc.films.ring import RingFilm
@@ -134,13 +134,15 @@ def _takes_long(bearing: JournalBearing) -> bool:
 
 
 @checked
-def journal_motion(bearing: Bearing) -> FilmMotion:
+def journal_motion(bearing: Bearing, *, viscosity: float, speed: float) -> FilmMotion:
     """Return the force of a bearing's film on a moving journal, for films without inner states.
 
     Parameters
     ----------
     bearing : JournalBearing or CoefficientTable
         The bearing.
+    viscosity, speed : float
+        μ [Pa·s] and Ω [rad/s]: in its own units only the force of some films depends on them.
 
     Returns
     -------
@@ -153,12 +155,14 @@ def journal_motion(bearing: Bearing) -> FilmMotion:
         Where the film has inner coordinates, or the model has no force on a moving journal.
     """
     motion = film_of(bearing).motion()
-    if not isinstance(motion, FilmMotion):
+    if isinstance(motion, FilmMotion):
+        return motion
+    if motion.states > 0:
         raise ValueError(
             f"bearing = {bearing.geometry.kind}: its film has inner coordinates, parts that move "
             "on their own, which this computation does not include"
         )
-    return motion
+    return at_one_speed(motion, viscosity=viscosity, speed=speed)
 
 
 @checked

@@ -8,6 +8,7 @@ coefficients independent of the whirl frequency.
 
 from collections.abc import Callable, Hashable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Protocol, TypeAlias, runtime_checkable
 
 from numpy.typing import ArrayLike
@@ -117,6 +118,28 @@ class InnerMotion:
     seconds: float = 0.0
     revolution: float = 0.0
     apart: float = 0.0
+
+
+def at_one_speed(motion: InnerMotion, *, viscosity: float, speed: float) -> FilmMotion:
+    """Return the force of a film without inner states at one viscosity [Pa·s] and speed [rad/s]."""
+    force, velocity = (
+        partial(_at, rates, viscosity, speed) for rates in (motion.force, motion.velocity)
+    )
+    return FilmMotion(force, velocity, thinnest=motion.thinnest, apart=motion.apart)
+
+
+def _at(  # noqa: PLR0913, PLR0917 - as `Velocity` takes it, and `Force` with x', y' in place of f
+    rates: InnerRates,
+    viscosity: float,
+    speed: float,
+    x: float,
+    y: float,
+    f_x: float,
+    f_y: float,
+    near: list[float] | None = None,  # noqa: ARG001 - the film keeps its own
+) -> tuple[float, float]:
+    found_x, found_y, _ = rates((x, y, f_x, f_y), [], viscosity, speed)
+    return found_x, found_y
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,8 @@ import numpy as np
 
 from rotorcalc import heat
 from rotorcalc.arrays import Array, ComplexArray
-from rotorcalc.films import FilmUnits, film_of, journal_motion
+from rotorcalc.films import FilmUnits, InnerMotion, film_of, journal_motion
+from rotorcalc.films.model import Force
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.rotor_impedance import impedance
 
@@ -70,19 +71,28 @@ class Balance:
     def __init__(self, machine: Machine) -> None:
         bearing = machine.bearing
         self.machine, self.C = machine, bearing.radial_clearance
-        self.force, self.wall = journal_motion(bearing).force, film_of(bearing).gap
+        film = film_of(bearing)
+        # A film that depends on more than place and velocity in its units changes with the speed.
+        self.changes, self.wall = isinstance(film.motion(), InnerMotion), film.gap
+        journal_motion(bearing, viscosity=1.0, speed=1.0)  # refuses a film with inner states
+
+    def force(self, speed: float) -> Force:
+        """Return the film's force on a moving journal at a speed."""
+        mu = float(heat.viscosity(self.machine, speed))
+        return journal_motion(self.machine.bearing, viscosity=mu, speed=speed).force
 
     def residual(self, cycle: Cycle) -> tuple[Array, Array]:
         """Return the residual, (2m,), and its derivatives by `Cycle.vector()`, (2m, 2m + 2)."""
         m, unit = len(cycle.path), self.unit(cycle.speed)
         D = differentiation(m)
         velocity = cycle.ratio * (D @ cycle.path)
-        film, by_place, by_velocity = self.film(cycle.path, velocity)
+        film, by_place, by_velocity = self.film(cycle.path, velocity, cycle.speed)
         # The unknowns are ln ω̄ and ln Ω, so that both stay positive.
         omega = cycle.ratio * cycle.speed
         rotor, by_log = self.rotor(omega, m)
         scale, growth = self.C / unit, self._growth(cycle.speed)
         load = np.array([self.machine.static_load / unit, 0.0])
+        by_speed = self._by_speed(cycle.path, velocity, cycle.speed)
         # The module's balance over the film's unit of force; the load pulls along X.
         residual = film - scale * (rotor @ cycle.path) + load
         jacobian = np.zeros((2 * m, 2 * m + 2))
@@ -96,7 +106,7 @@ class Balance:
             stiffer = scale * (by_log @ cycle.path[:, i])
             jacobian[rows, -2] = np.sum(by_velocity[:, i] * velocity, axis=-1) - stiffer
             firmer = scale * (rotor @ cycle.path[:, i]) - load[i]
-            jacobian[rows, -1] = growth * firmer - stiffer
+            jacobian[rows, -1] = growth * firmer - stiffer + by_speed[:, i]
         return residual.T.ravel(), jacobian
 
     def unit(self, speed: float) -> float:
@@ -117,16 +127,29 @@ class Balance:
         Z, slope = impedance(self.machine.rotor, k * omega)
         return _circulant(Z), _circulant(slope * k * omega)
 
-    def film(self, place: Array, velocity: Array) -> tuple[Array, Array, Array]:
+    def _by_speed(self, place: Array, velocity: Array, speed: float) -> Array:
+        """Return the derivative of the force in its own units by ln Ω, (m, 2)."""
+        if not self.changes:
+            return np.zeros_like(place)
+        states = np.concatenate([place, velocity], axis=1)
+        low, high = (
+            _forces(self.force(speed * math.exp(step)), states)
+            for step in (-_SPEED_STEP, _SPEED_STEP)
+        )
+        return (high - low) / (2.0 * _SPEED_STEP)
+
+    def film(self, place: Array, velocity: Array, speed: float) -> tuple[Array, Array, Array]:
         """Return the film's force, (m, 2), and its derivatives by place and velocity, (m, 2, 2)."""
+        force_at = self.force(speed)
         states = np.concatenate([place, velocity], axis=1)
         h = self._difference(place, velocity)
-        force = self._forces(states)
+        force = _forces(force_at, states)
         slopes = np.empty((len(place), 2, 4))
         for j in range(4):
             # Central differences: a film model gives its force on a moving journal, not the slopes.
             step = h * np.eye(4)[j]
-            slopes[:, :, j] = (self._forces(states + step) - self._forces(states - step)) / (2 * h)
+            ahead, behind = (_forces(force_at, states + sign * step) for sign in (1.0, -1.0))
+            slopes[:, :, j] = (ahead - behind) / (2.0 * h)
         return force, slopes[:, :, :2], slopes[:, :, 2:]
 
     def gap(self, path: Array) -> float:
@@ -145,8 +168,9 @@ class Balance:
         share = _DIFFERENCE_SHARE * room[:, None]
         return np.clip(share, _SMALLEST_DIFFERENCE, _LARGEST_DIFFERENCE)
 
-    def _forces(self, states: Array) -> Array:
-        return np.array([self.force(*state) for state in states.tolist()])
+
+def _forces(force: Force, states: Array) -> Array:
+    return np.array([force(*state) for state in states.tolist()])
 
 
 def _circulant(spectrum: ComplexArray) -> Array:

@@ -46,7 +46,7 @@ def _monodromy(balance: Balance, cycle: Cycle) -> Array:
     """Return the matrix that maps a small motion about the cycle over one period."""
     m = len(cycle.path)
     velocity = cycle.ratio * (differentiation(m) @ cycle.path)
-    _, by_place, by_velocity = balance.film(cycle.path, velocity)
+    _, by_place, by_velocity = balance.film(cycle.path, velocity, cycle.speed)
     stiffness = balance.unit(cycle.speed) / balance.C
     balanced = replace(balance.machine.rotor, imbalance=0.0)
     # K_ij = −∂F_i/∂X_j and C_ij = −∂F_i/∂Ẋ_j (Eq. 5.14), here at each point of the cycle.

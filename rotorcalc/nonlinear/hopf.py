@@ -127,7 +127,7 @@ def hopf(machine: Machine) -> Hopf:
         Where the machine has no onset, or whirls at any speed, as a plain bearing without load
         does; where the film gives no force for a moving journal, or has inner coordinates.
     """
-    journal_motion(machine.bearing)  # refuses a film that this cannot expand
+    journal_motion(machine.bearing, viscosity=1.0, speed=1.0)  # refuses a film it cannot expand
     onset = onset_speed(machine)
     if not 0.0 < onset.speed < math.inf:
         why = "whirls at any speed" if onset.speed == 0.0 else "has no onset"
@@ -213,13 +213,15 @@ def _lyapunov_terms(machine: Machine, speed: float, frequency: float, points: in
     """Return the three terms of ℓ [1/s]: by the mean shift, the second harmonic and the cubic."""
     bearing, film = machine.bearing, equilibrium(machine, speed).film
     gap = float(film_of(bearing).gap(film.position))
-    expansion = FilmExpansion(journal_motion(bearing).force, film.position, gap, points)
+    mu = float(heat.viscosity(machine, speed))
+    motion = journal_motion(bearing, viscosity=mu, speed=speed)
+    expansion = FilmExpansion(motion.force, film.position, gap, points)
     q, p = _whirl(machine, speed, frequency)
     swing = 1j * frequency / speed
     Q = np.concatenate([q, swing * q])
     along = expansion.whirl(Q)
     # From the film's unit of force and clearances to N and m.
-    unit = float(FilmUnits(bearing, heat.viscosity(machine, speed), speed).stiffness)
+    unit = float(FilmUnits(bearing, mu, speed).stiffness)
     steady, double = (_balance(machine, speed, harmonic * frequency) for harmonic in (0.0, 2.0))
     # Mean shift and second harmonic, the two equations of the module's docstring.
     h_0 = unit * cast("ComplexArray", np.linalg.solve(steady, along.QQ_))

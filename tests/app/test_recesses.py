@@ -155,5 +155,7 @@ def test_a_journal_on_recesses_is_released_at_once_and_suction_in_its_motion_is_
     for tab in ("Spectrum", "Onset three ways"):
         open_part(at, "orbits_tab", tab)
         assert not faults(at)
+    open_part(at, "orbits_tab", "Limit cycles")
+    assert any(button.key == "orbits_cycles" for button in at.button)
     at = visit(ORBITS, bearing="hydrostatic")
     assert re.search("pressure falls to −.* suction, .* keeps the film full", " ".join(texts(at)))

@@ -48,7 +48,7 @@ _THREE = (
     "nonlinear motion. A few seconds …"
 )
 _NOT_FOLLOWED = (
-    "Limit cycles are followed on films whose force depends on the journal's motion alone. This "
+    "Limit cycles are followed on films without parts of their own. This "
     "film has parts that move on their own, which the method leaves out; a release and a run-up "
     "show the whirl on which this machine ends."
 )
@@ -113,7 +113,8 @@ def ask_cycles(page: Page) -> Bifurcation | None:
     if not 0.0 < onset < math.inf:
         st.info(_no_onset(computed))
         return None
-    if isinstance(film_of(computed.machine.bearing).motion(), InnerMotion):
+    motion = film_of(computed.machine.bearing).motion()
+    if isinstance(motion, InnerMotion) and motion.states > 0:
         st.info(_NOT_FOLLOWED)
         return None
     machine = balanced(computed.machine)
