@@ -4,10 +4,11 @@ import csv
 import html
 import math
 import re
+from dataclasses import replace
 
 import pytest
 
-from rotorcalc import PRESETS
+from rotorcalc import PRESETS, TransientError, onset_speed
 from rotorcalc.units import SI, US
 from tests.app.session import (
     HOME,
@@ -20,11 +21,14 @@ from tests.app.session import (
     texts,
     visit,
 )
+from tests.films.test_hydrostatic import MACHINE
 from ui.computed import computed_from
 from ui.format import amount, digits
 from ui.inputs import values_of
+from ui.jobs import work
 from ui.sharing import export, report
 from ui.sharing.labels import Labels
+from ui.words import run_up
 
 PAGE = "pages/1_Equilibrium.py"
 VARIED = "t the running speed, (the load alone varied|with any load)"
@@ -159,3 +163,17 @@ def test_a_journal_on_recesses_is_released_at_once_and_suction_in_its_motion_is_
     assert any(button.key == "orbits_cycles" for button in at.button)
     at = visit(ORBITS, bearing="hydrostatic")
     assert re.search("pressure falls to −.* suction, .* keeps the film full", " ".join(texts(at)))
+
+
+def test_a_run_up_that_ends_at_the_wall_says_at_which_speed(monkeypatch):
+    """On recesses the whirl past the onset grows until the film is thinner than computed."""
+    balanced = replace(MACHINE, rotor=replace(MACHINE.rotor, imbalance=0.0))
+    onset = onset_speed(balanced).speed
+    asked = run_up.AskRun(balanced, 0.9 * onset, 1.2 * onset, 320)
+    monkeypatch.setattr(run_up, "_runs", lambda *request, tell: work.run_up(*request, tell))
+    with pytest.raises(TransientError, match=r"^At \d+ rpm the journal came .* below this speed"):
+        run_up._run(asked, SI, None)
+    computed = computed_from(values_of(balanced, 1300.0, 1700.0))
+    assert run_up._takes(computed, asked) > 3.0
+    plain = computed_from(values_of(PRESETS["sheet-1e8"].machine, 600.0, 1200.0))
+    assert run_up._takes(plain, asked) < 1.0

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 
 import streamlit as st
 
-from rotorcalc import Bifurcation, Machine
+from rotorcalc import Bifurcation, Machine, TransientError
 from rotorcalc.figures import Units
 from rotorcalc.figures.run_up import Marks
+from rotorcalc.films import InnerMotion, film_of
 from rotorcalc.nonlinear.run_up import RunUp, delay
 from rotorcalc.unbalance_response import orbit_ellipse
 from ui.choices import choose
@@ -15,6 +16,7 @@ from ui.computed import Computed
 from ui.format import amount, digits
 from ui.frame.page import Page
 from ui.jobs import cache, work
+from ui.jobs.work import Progress
 from ui.words.on_demand import Job, attempt, balanced, on_demand, slow_film
 
 # Ends of a passage around the onset, over its speed; and the start of one to the top speed, over
@@ -23,8 +25,9 @@ _AROUND, _FROM = (0.9, 1.08), 0.1
 _PACES = {"quick": 1600, "slow": 5000, "very slow": 15000}
 _SPEEDS = ["around the onset", "to the top speed"]
 _BALANCES = ["none", "its own"]
-# Seconds of computing a revolution and way, on one core of a laptop.
-_COST = 0.7e-3
+# Seconds of computing a revolution and way, on one core of a laptop; of recesses, and of the parts
+# of a film.
+_COST, _COST_OF_PARTS = 0.7e-3, 5e-3
 # From the noise of the pushes, C/1000, to what counts as whirl, C/10.
 _GROWTH = 100.0
 
@@ -80,10 +83,7 @@ def ask_run(page: Page, asked: AskRun) -> RunUp | None:
     units = page.units
     ends = " to ".join(amount(units.speed, speed) for speed in (asked.lowest, asked.highest))
     rate = amount(units.speed, asked.acceleration)
-    film = slow_film(page.computed)
-    # Both ways, after the tables of a film that needs them.
-    ways = 2.0 * asked.revolutions
-    seconds = math.ceil(ways * _COST if film is None else ways * film.revolution + film.seconds)
+    seconds = math.ceil(_takes(page.computed, asked))
     job = Job(
         "Run up and down", "orbits_run_up",
         f"The speed rises from {ends} within {digits(asked.time)} s, by {rate} each second, "
@@ -93,8 +93,27 @@ def ask_run(page: Page, asked: AskRun) -> RunUp | None:
     )  # fmt: skip
     request = (asked.machine, asked.lowest, asked.highest, asked.revolutions)
     return on_demand(
-        page, job, ("run-up", *request), lambda tell: attempt(lambda: _runs(*request, tell=tell))
+        page, job, ("run-up", *request), lambda tell: attempt(lambda: _run(asked, units, tell))
     )
+
+
+def _takes(computed: Computed, asked: AskRun) -> float:
+    """Return about how many seconds a run-up and its run-down take."""
+    ways, film = 2.0 * asked.revolutions, slow_film(computed)
+    if film is not None:  # after the tables of a film that needs them
+        return ways * film.revolution + film.seconds
+    has_parts = isinstance(film_of(computed.machine.bearing).motion(), InnerMotion)
+    return ways * (_COST_OF_PARTS if has_parts else _COST)
+
+
+def _run(asked: AskRun, units: Units, tell: Progress | None) -> RunUp:
+    """Return the run-up; where it ends early, say at which speed, and what to do."""
+    try:
+        return _runs(asked.machine, asked.lowest, asked.highest, asked.revolutions, tell=tell)
+    except TransientError as error:
+        where = amount(units.speed, float(error.partial.speed[-1]))
+        words = f"At {where} {error}. A run-up that ends below this speed can be computed."
+        raise TransientError(words, error.partial) from error
 
 
 def expected(computed: Computed, asked: AskRun) -> float:
