@@ -32,8 +32,9 @@ _LEAST_LINE, _OVER_NOISE = 1e-3, 4.0
 # Samples of a pencil at most, and the singular values, over the largest, taken for rounding.
 _MOST_ROWS, _NOISE = 400, 1e-9
 _MOST_MODES = 12
-# Of a recorded motion, singular values below this multiple of their median are noise's.
-_OVER_MEDIAN = 4.0
+# Of a recorded motion, singular values below this multiple of their median are noise's; and whirls
+# with less than this share of the largest are not looked at.
+_OVER_MEDIAN, _LEAST_SHARE = 4.0, 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -247,16 +248,7 @@ def free_modes(
     ValueError
         Where the motion is at rest, or has less than two revolutions.
     """
-    recorded = isinstance(motion, MeasuredOrbit)
-    motion = motion.over_time if recorded else motion
-    path = _path(motion, "journal")
-    path = path - (np.zeros(2) if rest is None else real_array("rest", rest, ends=(2,)))
-    samples = _samples(motion)
-    count = len(path) if revolutions is None else min(revolutions * samples + 1, len(path))
-    if count < 2 * samples:
-        raise ValueError("motion: must have two revolutions or more")
-    step = float(motion.time[1] - motion.time[0])
-    return fitted_modes(path[:count], step, noise=None if recorded else _NOISE)
+    return _free_modes(motion, rest, revolutions)[0]
 
 
 @checked
@@ -283,15 +275,7 @@ def fitted_modes(path: Array, step: float, *, noise: float | None = _NOISE) -> C
     ValueError
         Where the path is at rest.
     """
-    stride = max(1, len(path) // _MOST_ROWS)
-    # Means of neighbours keep the exponents, and less of the noise.
-    path = path[: len(path) // stride * stride].reshape(-1, stride, 2).mean(axis=1)
-    factors = _pencil(path, noise)
-    values: ComplexArray = np.asarray(np.log(factors) / (stride * step), dtype=complex)
-    shares = _shares(factors, path)
-    values = values[np.argsort(-shares)]
-    # The path is real: each oscillating mode comes with its conjugate.
-    return values[values.imag >= 0.0]
+    return _fitted(path, step, noise)[0]
 
 
 @checked
@@ -304,7 +288,8 @@ def growth(
     ----------
     motion : Transient or MeasuredOrbit
         The motion, at constant speed; an integrated one without imbalance. In a recorded one only
-        whirl is looked for, orders 0.2 to 0.85, as the imbalance is in it too.
+        whirl is looked for, orders 0.2 to 0.85, as the imbalance is in it too; and of several
+        whirls, as imbalance and whirl at one half make two of, the least damped is taken.
     rest : array_like, (2,) or None
         Where the journal would rest [m]; None fits it with the modes.
     revolutions : int or None
@@ -321,11 +306,47 @@ def growth(
     ValueError
         As `free_modes`.
     """
-    values = free_modes(motion, rest=rest, revolutions=revolutions)
-    low, high = _WHIRL if isinstance(motion, MeasuredOrbit) else _FREE
+    values, shares = _free_modes(motion, rest, revolutions)
+    recorded = isinstance(motion, MeasuredOrbit)
+    low, high = _WHIRL if recorded else _FREE
     order = values.imag / float(np.median(motion.speed))
-    waves = values[(order > low) & (order < high)]
-    return complex(waves[0]) if len(waves) else complex(math.nan, math.nan)
+    inside = (order > low) & (order < high)
+    waves, shares = values[inside], shares[inside]
+    if not len(waves):
+        return complex(math.nan, math.nan)
+    if recorded:
+        waves = waves[shares >= _LEAST_SHARE * shares[0]]
+        return complex(waves[np.argmax(waves.real)])
+    return complex(waves[0])
+
+
+def _free_modes(
+    motion: Motion, rest: ArrayLike | None, revolutions: int | None
+) -> tuple[ComplexArray, Array]:
+    """Return the eigenvalues of `free_modes`, and their shares in the motion."""
+    recorded = isinstance(motion, MeasuredOrbit)
+    motion = motion.over_time if recorded else motion
+    path = _path(motion, "journal")
+    path = path - (np.zeros(2) if rest is None else real_array("rest", rest, ends=(2,)))
+    samples = _samples(motion)
+    count = len(path) if revolutions is None else min(revolutions * samples + 1, len(path))
+    if count < 2 * samples:
+        raise ValueError("motion: must have two revolutions or more")
+    step = float(motion.time[1] - motion.time[0])
+    return _fitted(path[:count], step, None if recorded else _NOISE)
+
+
+def _fitted(path: Array, step: float, noise: float | None) -> tuple[ComplexArray, Array]:
+    """Return the exponents of `fitted_modes`, and their shares, the largest first."""
+    stride = max(1, len(path) // _MOST_ROWS)
+    # Means of neighbours keep the exponents, and less of the noise.
+    path = path[: len(path) // stride * stride].reshape(-1, stride, 2).mean(axis=1)
+    factors = _pencil(path, noise)
+    values: ComplexArray = np.asarray(np.log(factors) / (stride * step), dtype=complex)
+    shares = _shares(factors, path)
+    # The path is real: each oscillating mode comes with its conjugate.
+    places = [place for place in np.argsort(-shares) if values[place].imag >= 0.0]
+    return values[places], shares[places]
 
 
 def _over_angle(motion: Motion) -> Motion:

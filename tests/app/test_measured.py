@@ -48,7 +48,7 @@ def test_what_was_read_is_said_in_the_visitors_units(files: dict[Kind, str]) -> 
     at = page_with(files, _PAGE, tab="Measured vibration", units="US", amplitude="p-p")
     said = "\n".join(texts(at))
     assert faults(at) == []
-    assert "1249 samples, 39 revolutions, running speed 6000 rpm, from the keyphasor" in said
+    assert "1889 samples, 59 revolutions, running speed 6000 rpm, from the keyphasor" in said
     assert "**whirl** at 0.5" in said
     assert "decaying: growth rate −2" in said
     # 4.85 µm zero to peak are 0.38 mil peak to peak.

@@ -31,9 +31,9 @@ def simulated(machine: Machine = SHEET, whirl: float = 1e-6) -> Transient:
     return simulate(machine, SPEED, revolutions=TURNS, samples_per_revolution=32, start=start)
 
 
-def late(motion: Transient, first: int) -> Transient:
-    """Return a motion from a sample on."""
-    own = {name: getattr(motion, name)[first:] for name in ("time", "journal", "speed", "angle")}
+def late(motion: Transient, first: int, end: int | None = None) -> Transient:
+    """Return a motion from a sample on, up to another."""
+    own = {name: getattr(motion, name)[first:end] for name in ("time", "journal", "speed", "angle")}
     return replace(motion, **own)
 
 
@@ -137,6 +137,19 @@ def test_noise_changes_what_is_read_by_no_more_than_its_share(noise: float) -> N
         assert found.imag == pytest.approx(0.478 * SPEED, rel=1e-3)
         assert spectrum(orbit).whirl_ratio == pytest.approx(0.478, abs=2e-3)
         assert synchronous_vector(orbit) == pytest.approx([22e-6, -18e-6j], abs=0.5 * noise + 1e-8)
+
+
+def test_of_two_whirls_that_an_imbalance_makes_of_one_the_least_damped_is_read() -> None:
+    # The imbalance holds the whirl at one half, of which one phase decays and the other grows.
+    speed = 10500 * RPM
+    start = start_on_mode(SHEET, speed, 1.2e-6)
+    motion = simulate(SHEET, speed, revolutions=80, samples_per_revolution=32, start=start)
+    found = growth(read_orbit(orbit_table(motion)))
+    # As its size at half the speed grows over the last twenty revolutions.
+    sizes = [spectrum(late(motion, 0, turns * 32 + 1), last=10).whirl for turns in (60, 80)]
+    rate = math.log(sizes[1] / sizes[0]) / (20 * 2.0 * math.pi / speed)
+    assert found.real == pytest.approx(rate, rel=0.05)
+    assert found.imag == pytest.approx(0.5 * speed, rel=1e-3)
 
 
 def test_noise_alone_is_no_whirl() -> None:

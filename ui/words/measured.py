@@ -36,8 +36,10 @@ _LABELS: dict[Kind, str] = {
 }
 _READS = {"displacement": "journal comes nearer", "gap": "journal moves away"}
 # Revolutions of the sample orbit, their samples, and the size of its first whirl in clearances.
-_TURNS, _SAMPLES, _WHIRL = 40, 32, 0.02
+_TURNS, _SAMPLES, _WHIRL = 60, 32, 0.02
 _POINTS = 60
+# Of a whirl's logarithm, over a whole record.
+_STEADY = 0.1
 
 
 def draw(page: Page) -> None:
@@ -164,9 +166,17 @@ def _whirl(found: Orbit, units: Units) -> str:
     )
     if math.isnan(found.growth.real):
         return said
-    rate = minus(digits(float(f"{found.growth.real:.3g}")))
-    way = "growing" if found.growth.real > 0.0 else "decaying"
-    return f"{said}, {way}: growth rate {rate} {units.growth.name}"
+    rate = minus(digits(float(f"{found.growth.real:.2g}")))
+    return f"{said}, {_way(found)}: growth rate {rate} {units.growth.name}"
+
+
+def _way(found: Orbit) -> str:
+    """Return in words how a whirl changes; by less than a tenth over the record is not at all."""
+    record = found.record
+    change = found.growth.real * float(record.time[-1] - record.time[0])
+    if abs(change) < _STEADY:
+        return "neither growing nor decaying"
+    return "growing" if change > 0.0 else "decaying"
 
 
 def _vector(found: Orbit, units: Units) -> str:
