@@ -61,7 +61,7 @@ def turned(time: Array, pulses: Array) -> tuple[Array, Array]:
 
 def _passages(above: Array, room: float) -> IntArray:
     """Return the samples before which a signal was below −room and after which it passes zero."""
-    armed, found = bool(above[0] < 0.0), list[int]()
+    armed, found = False, list[int]()
     below = above < -room
     crossing = (above[:-1] < 0.0) & (above[1:] >= 0.0)
     events = np.flatnonzero(crossing | below[:-1])

@@ -11,7 +11,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from rotorcalc import Machine, MeasuredOrbit, Transient, analyse, read_orbit, simulate
-from rotorcalc.measured import orbit_table
+from rotorcalc.measured import keyphasor, orbit_table
 from rotorcalc.nonlinear.signals import (
     growth,
     poincare_points,
@@ -128,6 +128,16 @@ def test_pulses_give_a_speed_that_changes_and_where_the_imbalance_points() -> No
     assert found.angle == pytest.approx(after.angle - 2.0 * math.pi + 0.5, abs=2e-3)
 
 
+@pytest.mark.parametrize("falling", [False, True])
+def test_noise_on_a_slow_edge_is_no_second_pulse(falling: bool) -> None:
+    drawn = np.random.default_rng(3)
+    time = np.arange(8000) / 400.0
+    signal = np.sin(2.0 * math.pi * time) + 0.03 * drawn.standard_normal(len(time))
+    found = keyphasor.pulses(time, signal, None, falling=falling)
+    assert found == pytest.approx((0.5 if falling else 1.0) + np.arange(len(found)), abs=0.02)
+    assert len(found) == 20 - (not falling)
+
+
 @pytest.mark.parametrize("noise", [1e-8, 1e-6])
 def test_noise_changes_what_is_read_by_no_more_than_its_share(noise: float) -> None:
     for seed in range(3):
@@ -143,12 +153,12 @@ def test_of_two_whirls_that_an_imbalance_makes_of_one_the_least_damped_is_read()
     # The imbalance holds the whirl at one half, of which one phase decays and the other grows.
     speed = 10500 * RPM
     start = start_on_mode(SHEET, speed, 1.2e-6)
-    motion = simulate(SHEET, speed, revolutions=80, samples_per_revolution=32, start=start)
-    found = growth(read_orbit(orbit_table(motion)))
+    motion = simulate(SHEET, speed, revolutions=60, samples_per_revolution=32, start=start)
+    found = growth(read_orbit(orbit_table(late(motion, 0, 40 * 32 + 1))))
     # As its size at half the speed grows over the last twenty revolutions.
-    sizes = [spectrum(late(motion, 0, turns * 32 + 1), last=10).whirl for turns in (60, 80)]
+    sizes = [spectrum(late(motion, 0, turns * 32 + 1), last=10).whirl for turns in (40, 60)]
     rate = math.log(sizes[1] / sizes[0]) / (20 * 2.0 * math.pi / speed)
-    assert found.real == pytest.approx(rate, rel=0.05)
+    assert found.real == pytest.approx(rate, abs=1.0)
     assert found.imag == pytest.approx(0.5 * speed, rel=1e-3)
 
 
