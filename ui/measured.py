@@ -32,7 +32,7 @@ class Setting:
     imbalance: float = 0.0
     reads: str = "displacement"
     sample_rate: float = 10000.0
-    rpm: float = 6000.0
+    rpm: float = 0.0  # until it is asked: then it begins with the machine's
     mean: str = "removed"
     reading: str = "p-p"
     phase: str = "lag"

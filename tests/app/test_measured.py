@@ -111,9 +111,13 @@ def test_a_refused_file_is_named_with_its_line_and_the_page_asks_for_what_it_lac
     motion = simulate(SHEET, SPEED, revolutions=8)
     table = orbit_table(motion, with_keyphasor=False)
     at = page_with(
-        {"orbit": table.replace("time [s]", "clock [s]")}, _PAGE, tab="Measured vibration"
-    )
+        {"orbit": table.replace("time [s]", "clock [s]")}, _PAGE, tab="Measured vibration",
+        rpm="7000",
+    )  # fmt: skip
     assert {"measured_set_sample_rate", "measured_set_rpm"} <= {one.key for one in at.number_input}
+    # Asked, and beginning with the machine's own.
+    assert at.number_input(key="measured_set_rpm").value == 7000.0
+    assert any("running speed 7000 rpm, as given" in text for text in texts(at))
     assert any("columns not read: `clock [s]`" in text for text in texts(at))
     rows = table.split("\r\n")
     rows[9] = "=1+1,2,3"
@@ -146,6 +150,13 @@ def test_a_balanced_machine_offers_no_response() -> None:
     keys = [one.key for one in at.get("download_button")]
     assert any("sample_orbit" in key for key in keys)
     assert not any("sample_response" in key for key in keys)
+
+
+def test_a_bearing_without_a_motion_offers_no_orbit() -> None:
+    at = visit(_PAGE, tab="Measured vibration", bearing="foil")
+    keys = [one.key for one in at.get("download_button")]
+    assert not any("sample_orbit" in key for key in keys)
+    assert any("sample_response" in key for key in keys)
 
 
 def test_a_table_of_a_balanced_rotor_has_no_phase_that_is_none() -> None:

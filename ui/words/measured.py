@@ -9,6 +9,7 @@ import streamlit as st
 
 from rotorcalc import MeasuredResponse, Transient, TransientError, simulate, start_on_mode
 from rotorcalc.figures import Units
+from rotorcalc.films import film_of
 from rotorcalc.measured import orbit_table, response_table
 from rotorcalc.measured.columns import keys_in
 from rotorcalc.measured.orbits import COLUMNS
@@ -38,6 +39,8 @@ _READS = {"displacement": "journal comes nearer", "gap": "journal moves away"}
 # Revolutions of the sample orbit, their samples, and the size of its first whirl in clearances.
 _TURNS, _SAMPLES, _WHIRL = 60, 32, 0.02
 _POINTS = 60
+# Running speeds of a record [rpm].
+_SPEEDS = (1.0, 1e6)
 # Of a whirl's logarithm, over a whole record.
 _STEADY = 0.1
 
@@ -80,7 +83,7 @@ def _draw_file(page: Page, mine: Measured, kind: Kind) -> None:
     if upload is not None:
         mine.take(kind, Upload(upload.name, upload.getvalue()))
     if kind == "orbit":
-        _ask_orbit(mine)
+        _ask_orbit(page, mine)
     else:
         left, right = st.columns(2)
         with left:
@@ -102,14 +105,17 @@ def _look(mine: Measured, kind: Kind, key: str) -> None:
         mine.remove(kind)
 
 
-def _ask_orbit(mine: Measured) -> None:
+def _ask_orbit(page: Page, mine: Measured) -> None:
     """Ask for what the file lacks."""
     given = mine.uploads.get("orbit")
     has = {"time", "keyphasor"} if given is None else keys_in(given.raw, COLUMNS)
     if "time" not in has:
         _number(mine, "sample_rate", "Sample rate [Hz]", (1e-2, 1e7), 100.0)
     if "keyphasor" not in has:
-        _number(mine, "rpm", "Running speed of the record [rpm]", (1.0, 1e6), 10.0)
+        if not mine.setting.rpm:
+            rpm = round(float(page.units.speed.of(page.computed.speed)), 1)
+            mine.setting = replace(mine.setting, rpm=min(max(rpm, _SPEEDS[0]), _SPEEDS[1]))
+        _number(mine, "rpm", "Running speed of the record [rpm]", _SPEEDS, 10.0)
     _choose(mine, "mean", "Mean of the record", {"removed": "removed", "kept": "kept"})
 
 
@@ -124,7 +130,9 @@ def _show(page: Page, mine: Measured, kind: Kind, given: Upload) -> None:
     elif mine.response is not None:
         st.markdown(f"Read from {literal(given.name, 80)}:")
         st.markdown(_response(mine.response, page.units))
-        st.caption("Drawn on **Response**, in the tab Against speed.")
+        balanced = page.computed.machine.rotor.imbalance == 0.0
+        place = "once the machine has an imbalance" if balanced else "in the tab Against speed"
+        st.caption(f"Drawn on **Response**, {place}.")
 
 
 # --- What was read --------------------------------------------------------------------------------
@@ -236,6 +244,7 @@ def _offer_sample(page: Page, kind: Kind) -> None:
 
 def _moves(c: Computed) -> bool:
     try:
+        film_of(c.machine.bearing).motion()
         start_on_mode(c.machine, c.speed, 1e-9)
     except ValueError:
         return False
