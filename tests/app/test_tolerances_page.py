@@ -14,12 +14,14 @@ from streamlit.testing.v1 import AppTest
 import rotorcalc as rc
 from rotorcalc.comparison import usual_bores
 from rotorcalc.units import SI, US
-from rotorcalc.variation import varied
-from tests.app.session import charts, faults, session_of, visit
+from rotorcalc.variation import value_of, varied
+from tests.app.session import charts, faults, session_of, tours, visit
+from tests.app.test_own import link as own_link
 from tests.machines import SHEET
 from ui.frame.page import PAGES
 from ui.sharing.drawn import drawn_csv
-from ui.words import studies
+from ui.words import spreads, studies
+from ui.words.design import fields_of, quantity
 from ui.words.tolerances import Study, quantity_of, said
 
 TOLERANCES = next(path for path, name in PAGES.items() if name == "Tolerances")
@@ -184,6 +186,29 @@ def test_what_cannot_be_drawn_is_refused_by_name_and_stays_on_the_page(
     *_, typed = query.get("spreads", "").split("~")
     assert typed in shown or "left out" in words
     assert {key: at.query_params[key] for key in query} == query
+
+
+@pytest.mark.parametrize("geometry", usual_bores(SHEET.bearing), ids=lambda one: one.kind)
+def test_every_input_of_every_bore_can_spread_and_be_swept_about_its_value(geometry) -> None:
+    oil = rc.Gas() if geometry.lubricant == "gas" else SHEET.oil
+    bearing = replace(SHEET.bearing, geometry=geometry, film=None)
+    machine = replace(SHEET, bearing=bearing, oil=oil)
+    for key in fields_of(machine):
+        spread = spreads.usual_spread(machine, key)
+        [(name, (_, low, high))] = spreads.given(machine, (spread,), SI)
+        now = value_of(machine, name)
+        assert low < high
+        assert low * (1 - 1e-9) <= now <= high * (1 + 1e-9)
+        axis = quantity(key, machine, SI)
+        assert axis.low < axis.high
+
+
+def test_of_own_coefficients_the_rotor_spreads() -> None:
+    at = visit(TOLERANCES, **own_link())
+    shown = [box.value for box in at.selectbox if (box.key or "").endswith("_input")]
+    assert shown == ["mass", "k"]
+    for label in tours(at):
+        assert faults(at) == [], label
 
 
 # --- A result and its machine -------------------------------------------------------------------

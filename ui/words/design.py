@@ -20,7 +20,7 @@ from ui.bearing import fields_of as bore_fields
 from ui.choices import choice
 from ui.computed import Computed
 from ui.format import amount
-from ui.inputs import GAS, INPUTS, OIL, usual, values_of
+from ui.inputs import GAS, INPUTS, OIL, inputs_of, usual, values_of
 from ui.jobs import cache, work
 from ui.words.citation import without_load
 
@@ -105,11 +105,26 @@ def _round(value: float) -> float:
 
 def _bore_quantity(key: str, machine: Machine, units: Units) -> Quantity:
     field, now = bore_field(machine, key), value_of(machine, key)
+    if now <= 0.0:
+        return _over_its_slider(key, machine, units)
     ends = [
         next((end for factor in _FACTORS if _makes(machine, key, end := now * factor**sign)), now)
         for sign in (-1, 1)
     ]
-    return Quantity(field.label, "", field.unit(units), *ends, log=now > 0.0)
+    return Quantity(field.label, "", field.unit(units), *ends, log=True)
+
+
+def _over_its_slider(key: str, machine: Machine, units: Units) -> Quantity:
+    """Return a bore's field that is zero or negative, which has no ratios, as an axis."""
+    field, now = bore_field(machine, key), value_of(machine, key)
+    values = values_of(machine, _SPEED, _SPEED)
+    item = inputs_of(values)[key]
+    ends = (item.low, item.high) if item.step else (0.0, _REACH * usual(key, values))
+    low, high = (
+        next((end for part in (1.0, 0.5, 0.2) if _makes(machine, key, end := now + part * by)), now)
+        for by in (item.unit(SI).to_si(end) - now for end in ends)
+    )
+    return Quantity(field.label, "", field.unit(units), low, high)
 
 
 def _makes(machine: Machine, key: str, value: float) -> bool:

@@ -30,8 +30,10 @@ _LONGEST = 40
 _BETWEEN, _PARTS = "~~", "~"
 # Where an input at zero or infinity depends on a running speed [rad/s], which an onset does not.
 _SPEED = 6000 * rpm
-# By itself a clearance spreads by such a share, a temperature by so many kelvins, others as far.
+# By itself a clearance spreads by such a share, a temperature by so many kelvins, others by less.
 _CLEARANCE, _DEGREES, _OTHERS = 0.15, 4.0, 0.10
+# What has a zero in the middle of its slider, as an angle, by such a share of that.
+_OF_ITS_RANGE = 0.05
 _WARM = ("T", "T_in", "TR", "TR_gas")
 
 
@@ -122,11 +124,13 @@ def read(text: str, machine: Machine) -> tuple[tuple[Spread, ...], list[str]]:
 
 
 def usual_spreads(machine: Machine) -> tuple[Spread, ...]:
-    """Return what a page shows by itself: the clearance and the temperature of a machine spread."""
-    warm = "T" if machine.supply is None else "T_in"
+    """Return what a page shows by itself: the clearance and the temperature of a machine spread.
+
+    With coefficients of its own neither moves the onset, and its rotor spreads.
+    """
     known = fields_of(machine)
-    keys = [key for key in ("C", warm) if key in known] or ["mass"]
-    return tuple(usual_spread(machine, key) for key in keys)
+    usual = [key for key in ("C", "T", "T_in") if key in known]
+    return tuple(usual_spread(machine, key) for key in usual or ("mass", "k"))
 
 
 def usual_spread(machine: Machine, key: str, word: str = "uniform") -> Spread:
@@ -151,13 +155,21 @@ def _about(key: str, word: str, low: float, middle: float, high: float) -> Sprea
 def _reach(machine: Machine, key: str) -> Reach:
     """Return low end, middle and high end, as kept, of what is usual about a machine's value."""
     now = float(unit_of(machine, key, SI).of(variation.value_of(machine, fields_of(machine)[key])))
-    if key in _WARM:
-        return now - _DEGREES, now, now + _DEGREES
     values = values_of(machine, _SPEED, _SPEED)
-    if not 0.0 < abs(now) < math.inf and key in inputs_of(values):
-        now = usual(key, values)
+    item = inputs_of(values).get(key)
+    if item is None:
+        return now, now, now
+    if now == 0.0 and not item.step:
+        most = usual(key, values)
+        return 0.0, 0.5 * most, most
+    now = now if math.isfinite(now) else usual(key, values)
     by = abs(now) * (_CLEARANCE if key == "C" else _OTHERS)
-    return now - by, now, now + by
+    if key in _WARM:
+        by = _DEGREES
+    elif now == 0.0:
+        by = _OF_ITS_RANGE * (item.high - item.low)
+    low, high = min(item.low, now), max(item.high, now)
+    return max(now - by, low), now, min(now + by, high)
 
 
 # --- In a visitor's units ----------------------------------------------------------------------
