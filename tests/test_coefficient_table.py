@@ -179,14 +179,17 @@ def test_a_second_program_interpolates_the_same(coarse):
 def test_rows_are_met_exactly_and_nothing_swings_beyond_them():
     speed = np.array([100.0, 110.0, 300.0, 301.0, 900.0])
     stiffness = np.array([1.0, 1.0, 5.0, -3.0, 0.1])[:, None, None] * np.full((2, 2), 1e7 / 3.0)
-    table = rc.CoefficientTable(speed=speed, stiffness=stiffness, damping=np.ones((5, 2, 2)))
+    stiffness, damping = stiffness * [[1.0, 2.0], [3.0, 4.0]], stiffness * [[5.0, 6.0], [7.0, 8.0]]
+    table = rc.CoefficientTable(speed=speed, stiffness=stiffness, damping=damping)
     machine = replace(REAL, bearing=table)
-    K, _ = rc.coefficients.stiffness_and_damping(machine, speed)
+    K, C = rc.coefficients.stiffness_and_damping(machine, speed)
     assert np.array_equal(K, stiffness)
+    assert np.array_equal(C, damping)
     for (low, high), (before, after) in zip(
         itertools.pairwise(speed), itertools.pairwise(stiffness[:, 0, 0]), strict=True
     ):
-        between = rc.coefficients.stiffness_and_damping(machine, np.linspace(low, high, 9))[0]
+        K, _ = rc.coefficients.stiffness_and_damping(machine, np.linspace(low, high, 9))
+        between = K[:, 0, 0]
         assert between.min() >= min(before, after) * (
             1.0 - math.copysign(1e-12, min(before, after))
         )
