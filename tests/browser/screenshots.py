@@ -19,6 +19,7 @@ ARGS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking"]
 # The machine that shows a page best, where that is not the usual one.
 QUERIES = {
     "Heat": {"T_in": "45", "flow": "12"},
+    "Tolerances": {"rpm": "8700", "spreads": "C~uniform~51~69~~load~triangular~1200~1334~1400"},
     "Criteria": {"preset": "sheet-1e7", "slowest": "3000", "coupling": "given", "qa": "0.8"},
 }
 
