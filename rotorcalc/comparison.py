@@ -10,8 +10,9 @@ import numpy as np
 from rotorcalc import heat, modes
 from rotorcalc.analysis import Sweep, analyse
 from rotorcalc.arguments import checked
+from rotorcalc.arrays import Array
 from rotorcalc.coefficient_table import CoefficientTable
-from rotorcalc.coefficients import checked_speed, operating_points
+from rotorcalc.coefficients import checked_speed, operating_points, stiffness_and_damping
 from rotorcalc.display import Result
 from rotorcalc.films import film_of
 from rotorcalc.films.foil import CHECKED, FoilFilm
@@ -34,7 +35,7 @@ from rotorcalc.geometry import (
 from rotorcalc.machine import Bearing, Machine, Oil
 from rotorcalc.numerics.first_answer import from_first_answer
 from rotorcalc.onset import onset_speed
-from rotorcalc.unbalance_peaks import response_peaks
+from rotorcalc.unbalance_peaks import ResponsePeaks, response_peaks
 
 # Every kind.
 KINDS: tuple[type[Geometry], ...] = (
@@ -285,8 +286,16 @@ def _largest_peak(machine: Machine, speed: float) -> tuple[float, float]:
     top = _TOP * speed
     speeds = np.linspace(top / _SPEEDS, top, _SPEEDS)
     speeds = speeds[heat.has_film(machine, speeds)]
-    found = from_first_answer(lambda some: response_peaks(machine, some), speeds)
-    if not found.amplitude.size:
+    found = from_first_answer(lambda some: _peaks(machine, some), speeds)
+    if found is None or not found.amplitude.size:
         return math.nan, math.nan
     largest = int(np.argmax(found.amplitude))
     return float(found.amplitude[largest]), float(found.speed[largest])
+
+
+def _peaks(machine: Machine, speeds: Array) -> ResponsePeaks | None:
+    """Return the peaks between speeds, None at a speed alone, where the film has an answer."""
+    if len(speeds) > 1:
+        return response_peaks(machine, speeds)
+    stiffness_and_damping(machine, speeds)
+    return None

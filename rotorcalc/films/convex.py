@@ -76,7 +76,10 @@ def velocity(
             return dx, dy
         last = left
         dx, dy, found = _lower(answers, (dx, dy, f_x, f_y), found)
-    raise ArithmeticError(f"no velocity found for the film force ({f_x}, {f_y})")
+    raise ArithmeticError(
+        f"no velocity found for the film force ({f_x:.3g}, {f_y:.3g}): pads only push, and a "
+        "journal without mass follows no other force; give the journals a mass. It stopped"
+    )
 
 
 def _lower(

@@ -186,11 +186,19 @@ def refusal(path: str, name: str) -> list[str]:
 @pytest.mark.usefixtures("coarse_maps")
 @pytest.mark.parametrize(("path", "name"), VISITS)
 def test_every_page_shows_every_bearing(path: str, name: str) -> None:
-    at = visit(path, **query(name))
+    # Pads on one side only push: a journal without mass has no velocity where it is pulled.
+    mass = {"mj": "10"} if "partial arc" in name else {}
+    at = visit(path, **query(name) | mass)
     for tab in tours(at):
         assert faults(at) == refusal(path, name), tab
     assert not at.warning or path != HOME
     assert machine_of(session_of(at).values).bearing == BEARINGS[name]
+
+
+def test_a_massless_journal_that_pads_on_one_side_cannot_follow_is_refused_in_words() -> None:
+    at = visit(ORBITS, **query("short partial arc"))
+    (said,) = faults(at)
+    assert "give the journals a mass. It stopped after" in said
 
 
 @pytest.mark.parametrize("path", PAGES)
