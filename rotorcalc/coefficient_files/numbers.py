@@ -58,6 +58,7 @@ def numbers_of(sheet: Sheet, given: Mapping[str, str]) -> Numbers:
     unit_row = below[0] if header.row >= 0 and below and _has_words_alone(below[0]) else None
     read = Numbers(_rows(sheet, header, below), notes=list(sheet.notes))
     units = _units(sheet, header, unit_row, given)
+    _check_named_alike(units)
     read.columns = tuple(
         ReadColumn(SHOWN[heading.key], heading.words, units[heading.key][0].name,
                    units[heading.key][1])
@@ -187,6 +188,18 @@ def _unsaid(
 
 
 _ASSUMED = "assumed: the file names none"
+
+
+def _check_named_alike(units: Mapping[str, tuple[Unit, str]]) -> None:
+    """Raise ValueError where a quantity's columns name a unit in part, and not the assumed one."""
+    for key, (unit, why) in units.items():
+        for other, (named, reason) in units.items():
+            other_unit = named.name != unit.name and why == _ASSUMED != reason
+            if other_unit and quantity_of(other) == quantity_of(key):
+                raise ValueError(
+                    f"{SHOWN[key]}: its column names no unit, and that of {SHOWN[other]} is in "
+                    f"{named.name}: name the unit of each, or give it with the file"
+                )
 
 
 # --- Values ---------------------------------------------------------------------------------

@@ -45,6 +45,7 @@ def _with(old, new, separator=","):
         (_with("Kxy", "Kxx"), "line 1, column 3: 'Kxx' is a second column of this"),
         (_with("cxx".title(), "Dxx"), "the table has no column cxx"),
         (_with("rpm", "turns"), "the table has no column of speed"),
+        (_with("Kxx", "Kxx [MN/m]"), "K_xy: its column names no unit, and that of K_xx is in MN/m"),
         (text(rows=ROWS[:1]), "at least two rows of numbers, at two speeds"),
         (text() + text(), "line 5: a second table begins"),
         (text() + ",".join("abcdefghi"), "line 5: has no number in any column"),
