@@ -190,6 +190,7 @@ def film_limit(bearing: Bearing) -> FilmCurves:
 
     Examples
     --------
+    >>> from rotorcalc import JournalBearing
     >>> bearing = JournalBearing(diameter=0.1, length=0.05, radial_clearance=1e-4)
     >>> round(float(film_limit(bearing).film.eccentricity_ratio), 9)
     0.756030386
@@ -234,6 +235,7 @@ def lowest_threshold(bearing: Bearing) -> float:
 
     Examples
     --------
+    >>> from rotorcalc import JournalBearing
     >>> bearing = JournalBearing(diameter=0.1, length=0.05, radial_clearance=1e-4)
     >>> round(lowest_threshold(bearing), 5)
     0.45697

@@ -12,6 +12,7 @@ import pytest
 
 import rotorcalc as rc
 from rotorcalc.films.dynamics import FilmDynamics
+from rotorcalc.measured import orbit_table, response_table
 from tests.machines import RPM, SHEET
 
 SPEEDS = np.linspace(1000, 12000, 12) * RPM
@@ -75,10 +76,16 @@ GOOD: dict[str, Any] = {
     "amplification_factor": 5.0, "above": True, "whirl_ratio": 0.5,
     "spreads": {"load": ("uniform", 1e3, 2e3)}, "natural_frequency": 100.0,
     "load": 100.0, "viscosity": 0.01,
+    "damping": 1.0, "source": rc.coefficient_files.written(SPEEDS, SWEEP.stiffness, SWEEP.damping),
     "text": "speed [rpm]\n6000", "cases": [CASE], "results": [], "columns": {"line": [2]},
 }  # fmt: skip
 # Where a name means something else.
 ITS_OWN: dict[str, dict[str, Any]] = {
+    "coefficient_files.written": {
+        "speed": SPEEDS,
+        "stiffness": SWEEP.stiffness,
+        "damping": SWEEP.damping,
+    },
     "criteria.campbell": {"speed": SPEEDS},
     "criteria.imbalance_of_grade": {"grade": "G 2.5"},
     "criteria.permissible_eccentricity": {"grade": "G 2.5"},
@@ -87,6 +94,12 @@ ITS_OWN: dict[str, dict[str, Any]] = {
     "foil_deflection": {"machine": FOIL},
     "lift_off_speed": {"machine": FOIL},
     "mode_onsets": {"machine": RING},
+    "read_orbit": {"table": orbit_table(GOOD["motion"])},
+    "read_vibration_over_speed": {
+        "table": response_table(SPEEDS, SWEEP.disk_response),
+        "reading": "0-p",
+        "phase": "lag",
+    },
     "recess_equilibrium": {"machine": RECESSED},
     "recess_pressure": {"machine": RECESSED},
     "ring_equilibrium": {"machine": RING},
@@ -105,6 +118,10 @@ HARMLESS = {
     ("varied", "values", "dict"),
     *((f"batch.to_{form}", "columns", "dict") for form in ("csv", "json", "report")),
     *((f"{where}read_machines", "text", "text") for where in ("", "batch.")),
+    ("read_orbit", "table", "text"),
+    ("read_vibration_over_speed", "table", "text"),
+    *((f"{where}read_coefficients", "units", "dict") for where in ("", "coefficient_files.")),
+    ("signals.fitted_modes", "noise", "None"),
 }
 # A building block whose argument is a word of its own error.
 OWN_WORDS = {("coefficients.rising_speed", "name"), ("modes.rotor_terms", "number")}

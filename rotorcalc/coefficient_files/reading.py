@@ -15,6 +15,7 @@ from typing import TypeAlias, cast
 
 import numpy as np
 
+from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, IntArray, shown
 from rotorcalc.batch.text import readable
 from rotorcalc.coefficient_files import excel, texts
@@ -81,6 +82,7 @@ class ReadTable:
         )
 
 
+@checked
 def read_coefficients(  # noqa: PLR0913 - what a file cannot say of itself
     source: bytes | str | Path,
     *,
@@ -150,6 +152,8 @@ def _sheet(source: object, name: str) -> Sheet:
         if len(raw) > MOST_BYTES:
             raise ValueError(f"the file has more than {MOST_BYTES / 1e6:g} MB")
         return excel.sheet_of(raw, name)
+    if name:
+        raise ValueError(f"sheet = {name!r}: the file is a text, which has no sheets")
     return texts.sheet_of(readable(raw, most_bytes=MOST_BYTES))
 
 

@@ -54,7 +54,7 @@ def narrow_root(
         found = values(places)
         place = _root_of_series(found, noise)
         if place is not None:
-            return middle + half * place
+            return float(middle + half * place)
         changes = np.flatnonzero((found[1:] > 0.0) != (found[:-1] > 0.0))
         if len(changes) != 1:
             break

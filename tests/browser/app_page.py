@@ -29,6 +29,8 @@ PATHS = {
     name: "" if file == "app.py" else re.sub(r".*/\d+_(.*)\.py", r"\1", file)
     for file, name in PAGES.items()
 }
+# Those of the visitor's own machine; a lecture and exercises have machines of their own.
+MACHINE_PAGES = [name for name in PATHS if name not in ("Lecture", "Exercises")]
 
 TIMEOUT = int(os.environ.get("BROWSER_TIMEOUT", "60")) * 1000  # milliseconds
 

@@ -5,7 +5,7 @@ import math
 import pytest
 from playwright.sync_api import expect
 
-from tests.browser.app_page import PATHS, AppPage
+from tests.browser.app_page import MACHINE_PAGES, PATHS, AppPage
 from tests.browser.conftest import DESK
 from tests.browser.test_access import violations
 
@@ -14,7 +14,9 @@ WIDTHS = (800, 1024, 1152, 1280, 1440, 1680, 1920)
 ZOOMS = (1.0, 1.5, 2.0)
 HEIGHT = 900
 # Criteria has a table first, Your data the file.
-CHARTS = [name for name in PATHS if name not in ("Bearings", "Criteria", "Your data", "Notes")]
+CHARTS = [
+    name for name in MACHINE_PAGES if name not in ("Bearings", "Criteria", "Your data", "Notes")
+]
 
 # Texts of results, tabs, buttons and links that are wider than their box, and hidden there.
 _CUT = """() => {

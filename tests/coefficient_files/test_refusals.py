@@ -64,7 +64,7 @@ def _with(old, new, separator=","):
         (",".join("1" * 300) + "\n", "line 1: has more than 200 columns"),
         ("\n".join([",".join("1" * 190)] * 1100), "has more than 200000 cells"),
         ("\n\n" + "1" * 20_001, "line 3: has more than 20000 characters"),
-        (None, "source = None: must be bytes, a text or a path"),
+        (None, "source = None: must be bytes or a text or a Path"),
     ],
 )  # fmt: skip
 def test_a_refusal_names_the_place_and_what_is_wrong(source, words):
