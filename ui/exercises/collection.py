@@ -163,7 +163,7 @@ EXERCISES: tuple[Exercise, ...] = (
         "Ellipse of the disk",
         _ORBIT.replace("{where}", "disk of the rotor of the sheet, with a flexible shaft,"),
         _sheet(2000, 4500), _axes("disk_response"),
-        "As for the journal; where b is small the orbit is almost a line.",
+        "As for the journal; an orbit whose semi-axes are alike is almost a circle.",
         "pages/5_Response.py", _ELLIPSE, preset="sheet-1e7", known=_phasors("disk_response"),
     ),
     Exercise(
@@ -246,8 +246,8 @@ EXERCISES: tuple[Exercise, ...] = (
     Exercise(
         "A shaft that bends",
         "A rotor of {half} kg per bearing runs on films with $K_{{eq}}$ = {keq} MN/m and the whirl "
-        "ratio {ratio}. Each side of its shaft has the stiffness {k} N/m. At what speed is its "
-        "threshold in this equilibrium?",
+        "ratio {ratio}. Each side of its shaft has the stiffness {k} N/m. At what speed would it "
+        "begin to whirl, with these values?",
         lambda dice: dict(_short_bearing(dice)) | {"k": dice.choice((2e7, 3e7, 5e7))},
         (Ask("Threshold speed", "rpm", lambda c: float(c.point.flexible_threshold) / rpm),),
         "Shaft and film are springs in series.", "pages/3_Stability.py",

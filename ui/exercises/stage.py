@@ -49,11 +49,12 @@ def sidebar() -> None:
         step=1,
         help="Each number, such as that of a matriculation, has its own values. It is in the link.",
     )
+    seed = _seed()  # the file is made outside the session, when it is asked for
     for label, solved in (("Sheet for print", False), ("Sheet with solutions", True)):
         st.download_button(
-            label, lambda solved=solved: sheet(_seed(), solved=solved), f"exercises-{_seed()}"
-            f"{'-solutions' if solved else ''}.html", "text/html", on_click="ignore",
-            width="stretch",
+            label, lambda seed=seed, solved=solved: sheet(seed, solved=solved),
+            f"exercises-{seed}{'-solutions' if solved else ''}.html", "text/html",
+            on_click="ignore", width="stretch",
         )  # fmt: skip
     if st.button("Back to your machine", width="stretch", type="primary"):
         st.switch_page(HOME)

@@ -7,12 +7,14 @@ import segno
 import streamlit as st
 
 from ui.choices import choice
+from ui.computed import computed_from
 from ui.frame.page import HOME, Page
 from ui.inputs import inputs_of
 from ui.lecture.steps import MOST_BYTES, OWN, Step, own_steps, read
 from ui.lecture.views import VIEWS
 from ui.session import session
 from ui.widgets import show_inputs
+from ui.words import on_demand
 
 _STEP, _KEY = "lecture_step", "rotorcalc_lecture"
 _NAMES = frozenset(VIEWS)
@@ -65,7 +67,7 @@ def sliders() -> None:
         "Reset this step", on_click=_take, width="stretch",
         help="Its machine as it was at first, and the answer hidden.",
     )  # fmt: skip
-    with st.popover("Link for students", width="stretch"):
+    if st.button("Link for students", width="stretch"):
         _show_link()
     with st.popover("Steps from a file", width="stretch"):
         _show_file()
@@ -96,10 +98,13 @@ def heading() -> None:
 def content(page: Page) -> None:
     """Draw the step: its numbers, its view, its question and the answer."""
     step, mine = _step(), lecture()
-    with st.container(key="lecture_question", horizontal=True, vertical_alignment="center"):
-        st.markdown(f"**{step.question}**", width="stretch")
-        if not mine.answered:
-            st.button("Show", key="lecture_show", type="primary", shortcut="s", on_click=_show)
+    asked, button = st.columns([6, 1], vertical_alignment="center")
+    asked.markdown(f"**{step.question}**")
+    if not mine.answered:
+        button.button(
+            "Show", key="lecture_show", type="primary", shortcut="s", on_click=_show,
+            width="stretch",
+        )  # fmt: skip
     if mine.answered:
         st.success(step.answer)
     if mine.answered or not step.hide:
@@ -136,11 +141,15 @@ def _take() -> None:
 
 def _show() -> None:
     """Show the answer, and move what it moves."""
+    visitor = session()
     lecture().answered = True
     for key, value in _step().changed.items():
-        session().set_value(key, value)
+        visitor.set_value(key, value)
+    if _step().view == "limit cycles":  # a presenter's clicker presses no second button
+        on_demand.request_cycles(computed_from(visitor.values))
 
 
+@st.dialog("Link for students")
 def _show_link() -> None:
     if not lecture().is_own:
         st.markdown("A link cannot hold steps from a file: give your students the file.")
@@ -150,7 +159,8 @@ def _show_link() -> None:
     segno.make(address, error="m").save(
         drawn, kind="svg", scale=8, border=4, dark="#000000", light="#FFFFFF"
     )
-    st.image(drawn.getvalue().decode(), caption=address, width="stretch")
+    st.markdown(f"**{address}**")
+    st.image(drawn.getvalue().decode(), width="stretch")
 
 
 def _show_file() -> None:

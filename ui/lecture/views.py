@@ -145,8 +145,9 @@ def _response(page: Page) -> None:
 
 
 def _limit_cycles(page: Page) -> None:
-    bearing = page.computed.machine.bearing
-    if not on_demand.has_motion(bearing) or (branch := on_demand.ask_cycles(page)) is None:
+    if not on_demand.has_motion(page.computed.machine.bearing):
+        return
+    if (branch := on_demand.ask_cycles(page)) is None:
         return
     page.chart(
         lambda c: orbits.cycles(branch, on_demand.swept(branch), c.speed, page.units),

@@ -417,6 +417,7 @@ class View {
     const way = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 10, PageDown: -10 }[event.key];
     const end = { Home: low, End: high }[event.key];
     if (way === undefined && end === undefined) return;
+    if (event.key.startsWith("Page") && document.querySelector(".st-key-lecture_heading")) return; // to the next step
     event.preventDefault();
     event.stopPropagation();
     stop();

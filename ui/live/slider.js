@@ -165,7 +165,7 @@ class Slider {
     this.range.addEventListener("change", () => this.dropped());
     // The browser fires no change event for a slider that is released at its old value.
     for (const end of ["pointerup", "pointercancel"])
-      this.range.addEventListener(end, () => setTimeout(() => this.grasped && this.dropped()));
+      this.range.addEventListener(end, () => setTimeout(() => this.released()));
     this.field.addEventListener("change", () => this.typed());
     // While typing, Ctrl+Z takes back what was typed, not the machine's last change.
     this.field.addEventListener("keydown", (event) => event.key.toLowerCase() === "z" && event.stopPropagation());
@@ -218,6 +218,12 @@ class Slider {
     [...this.ends.children].forEach((end, i) => {
       end.textContent = typeof ends[i] === "string" ? ends[i] : textOf(Number(ends[i].toPrecision(3)));
     });
+  }
+
+  // In a lecture the keys, which a presenter's clicker sends, are the page's again.
+  released() {
+    if (this.grasped) this.dropped();
+    if (document.querySelector(".st-key-lecture_heading")) this.range.blur();
   }
 
   pressed(event) {

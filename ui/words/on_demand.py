@@ -79,7 +79,7 @@ def on_demand(
     """
     key = job.key
     visitor, done, place = session(), f"{key}_done", st.empty()
-    name = hashlib.sha256(repr(token).encode()).hexdigest()
+    name = _name(token)
     if visitor.asked.get(key) != name:
         with place.container():
             st.markdown(job.comes)
@@ -105,6 +105,17 @@ def on_demand(
     visitor.begun.remove(key)
     st.session_state[done] = name
     return result
+
+
+def _name(token: object) -> str:
+    return hashlib.sha256(repr(token).encode()).hexdigest()
+
+
+def request_cycles(computed: Computed) -> None:
+    """Ask for the limit cycles as their button does."""
+    key, name = "orbits_cycles", _name(("cycles", balanced(computed.machine)))
+    if session().asked.get(key) != name:
+        session().ask_for(key, name)
 
 
 def ask_cycles(page: Page) -> Bifurcation | None:

@@ -1,0 +1,33 @@
+"""A lecture by the keys that a presenter's clicker sends, and a student's sheet."""
+
+from playwright.sync_api import expect
+
+from tests.browser.app_page import AppPage
+
+
+def test_a_clicker_leads_on_after_a_slider_was_dragged(app: AppPage) -> None:
+    app.open("Lecture", step="2")
+    heading = app.page.get_by_test_id("stHeading").first
+    expect(heading).to_have_text("2 · Where the journal sits")
+    thumb = app.slider("Radial clearance").bounding_box()
+    assert thumb
+    app.page.mouse.move(thumb["x"] + thumb["width"] / 2, thumb["y"] + thumb["height"] / 2)
+    app.page.mouse.down()
+    app.page.mouse.move(thumb["x"] + 0.6 * thumb["width"], thumb["y"] + thumb["height"] / 2)
+    app.page.mouse.up()
+    app.rest()
+    app.page.keyboard.press("s")
+    expect(app.page.get_by_text("To one side, along a curve")).to_be_visible()
+    app.rest()
+    app.page.keyboard.press("PageDown")
+    expect(heading).to_have_text("3 · Why it moves sideways")
+
+
+def test_a_sheet_has_the_students_own_number(app: AppPage) -> None:
+    app.open("Exercises", exercise="3", seed="4711")
+    with app.page.expect_download() as came:
+        app.page.get_by_role("button", name="Sheet for print").click()
+    sheet = came.value.path().read_text(encoding="utf-8")
+    shown = app.page.get_by_text("A short bearing has the diameter").inner_text()
+    assert "number 4711" in sheet
+    assert shown.split("What are")[0].strip() in sheet
