@@ -1,5 +1,6 @@
 """The page Criteria in a browser: a grade sets the imbalance, undo takes it back, all follows."""
 
+import json
 import re
 
 from playwright.sync_api import expect
@@ -34,3 +35,9 @@ def test_a_grade_sets_the_imbalance_which_undo_takes_back(app: AppPage) -> None:
     expect(answer).to_contain_text("From 4000 to 6000 rpm")
     app.press("Running speed", "PageUp")
     expect(answer).not_to_contain_text("to 6000 rpm")
+    # What is handed in is what was asked.
+    app.open_popover("Share and keep")
+    with app.page.expect_download() as started:
+        app.page.get_by_role("button", name="Machine (JSON)").click()
+    kept = json.loads(started.value.path().read_text(encoding="utf-8"))
+    assert kept["app"]["criteria"]["grade"] == "G 2.5"

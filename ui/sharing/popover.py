@@ -44,11 +44,12 @@ def _downloads(
 ) -> None:
     from ui.sharing import export, report  # noqa: PLC0415
 
-    units = visitor.units
+    # A file is made when it is asked for, outside the session.
+    units, chosen = visitor.units, dict(choices().kept())
     files = (
         (
             "Machine (JSON)", "machine.json", "application/json",
-            lambda: machine_file.write(computed.machine, visitor, written, choices().kept()),
+            lambda: machine_file.write(computed.machine, visitor, written, chosen),
         ),
         (
             "Sweep over speed (CSV)", "sweep.csv", "text/csv",
@@ -68,9 +69,7 @@ def _downloads(
         ),
         (
             "Report (HTML)", "report.html", "text/html",
-            lambda: report.report(
-                computed, beside, units, address, written, choices().kept()
-            ),
+            lambda: report.report(computed, beside, units, address, written, chosen),
         ),
     )  # fmt: skip
     for label, name, mime, build in files:
