@@ -87,6 +87,7 @@ async def answer_health(_: Request) -> JSONResponse:
 async def life(_: st.App) -> AsyncIterator[None]:
     """Start where all is well, and look after it until the end; log the first line and the last."""
     log.begin()
+    settings.check()
     await asyncio.to_thread(_warm)
     if faults := await PULSE.look(pulse.AT_START):
         pulse.tell(f"STATUS=cannot start: {faults}")

@@ -98,6 +98,12 @@ def log() -> str:
     return _word("ROTORCALC_LOG", _LOG)
 
 
+def check() -> None:
+    """Read every setting, or raise ValueError with the name, the value and what it must be."""
+    for ask in (limits, live, heavy_jobs, replica, docs, log):
+        ask()
+
+
 def _word(name: str, words: tuple[str, ...]) -> str:
     """Return a variable's word, by default the first of the admitted ones."""
     word = os.environ.get(name, words[0])
