@@ -91,7 +91,7 @@ def threshold(over: Thresholds, here: Thresholds, crossing: Crossing, units: Uni
         mark=(onset, onset),
         here=(float(unit.of(here.speed)), now),
         shapes=_unstable_side(onset, x),
-        annotations=[_verdict(onset, x, unit)],
+        annotations=[_verdict(crossing.onset, x, unit)],
     )
     return cursor.over_speed(chart, here.speed, units)
 
@@ -102,7 +102,7 @@ def whirl_frequency(over: Thresholds, here: Thresholds, crossing: Crossing, unit
     speed, x = unit.of(over.speed), _speed_axis(over, units)
     top, now = _high(x), float(unit.of(here.flexible_frequency))
     y = style.axis(
-        titled("Whirl frequency at the threshold", "ω_s", unit.name),
+        titled("Whirl at the threshold", "ω_s", unit.name),
         0.0,
         style.ceiling([0.6 * top, *_shown([now, *unit.of(over.rigid_frequency[-1:])], 4.0 * top)]),
     )
@@ -260,7 +260,7 @@ def energy(energies: Energies, crossing: Crossing, units: Units) -> Chart:
         mark=(onset, met),
         here=(rpm, now),
         shapes=_unstable_side(onset, x),
-        annotations=[_verdict(onset, x, units.speed)],
+        annotations=[_verdict(crossing.onset, x, units.speed)],
     )
     return cursor.over_speed(chart, here.speed, units)
 
@@ -338,12 +338,15 @@ def _unstable_side(onset: float, x: Axis) -> list[Item]:
     return [_box(x0=onset, x1=_high(x), y0=0, y1=1, yref="paper")]
 
 
-def _verdict(onset: float, x: Axis, unit: Unit) -> Item:
+def _verdict(found: Onset, x: Axis, unit: Unit) -> Item:
     """Return a text that says which side of the chart is unstable."""
+    onset, last = float(unit.of(found.speed)), float(unit.of(found.searched_to))
     if onset == 0.0:
         words = "unstable at any speed"
     elif math.isinf(onset):
-        words = "stable at every speed"
+        # Where the search ends far beyond the chart, at what a film's tables know, it says enough.
+        known = last < 4.0 * _high(x)
+        words = f"stable up to {last:.0f} {unit.name}" if known else "stable at every speed"
     elif onset >= _high(x):
         words = f"stable: the onset lies beyond, at {onset:.0f} {unit.name}"
     else:
@@ -457,7 +460,7 @@ def _beyond(words: str, point: tuple[float, float], axes: tuple[Axis, Axis]) -> 
     share = min(max((along - first) / (last - first), 0.0), 1.0)
     # From the place into the chart, so that the words keep within it.
     side = {"xanchor": "left"} if share < 0.5 else {"xanchor": "right"}
-    place = f"{arrow} running speed: {number(value)}"
+    place = f"{arrow} {number(value)} at the running speed"
     return style.note(place, share, height, yanchor="top" if height > 0.5 else "bottom", **side)
 
 

@@ -9,9 +9,9 @@ from functools import cache
 import numpy as np
 import pytest
 
-from rotorcalc import PRESETS, CoefficientTable, Machine, Supply, analyse, read_coefficients
+from rotorcalc import PRESETS, CoefficientTable, Machine, Supply, analyse, read_coefficients, rpm
 from rotorcalc.units import SI
-from tests.app.session import HOME, OTHERS, faults, session_of, texts, tours, visit
+from tests.app.session import HOME, OTHERS, charts, faults, session_of, texts, tours, visit
 from ui import own
 from ui.computed import computed_from
 from ui.inputs import inputs_of, machine_of, values_of
@@ -124,6 +124,12 @@ def test_the_verdict_says_where_the_search_ended():
     assert "where its own coefficients begin" in said(late)
     assert not faults(at)
     assert not faults(late)
+
+
+def test_the_threshold_chart_says_no_more_than_the_verdict():
+    at = visit("pages/3_Stability.py", **link(first=200.0, last=420.0))
+    notes = [note["text"] for note in charts(at)["chart_threshold"]["layout"]["annotations"]]
+    assert f"stable up to {420.0 / rpm:.0f} rpm" in notes
 
 
 def test_link_and_file_give_the_machine_back_to_the_last_bit():

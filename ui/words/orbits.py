@@ -384,7 +384,7 @@ def _measured(computed: Computed, found: Release, units: Units) -> Text:
     ratio = "no whirl" if math.isnan(seen.whirl_ratio) else digits(seen.whirl_ratio)
     predicted = found.whirl.imag / computed.speed
     rows = {
-        "Whirl ratio, measured": ratio,
+        "Whirl ratio, simulated": ratio,
         "Whirl ratio, linear": "none" if math.isnan(predicted) else digits(predicted),
         "Whirl's circle": amount(units.amplitude, seen.whirl),
         "1× circle": amount(units.amplitude, seen.synchronous),
