@@ -42,8 +42,8 @@ async def act(visitor: Visitor, dice: random.Random) -> None:
     rows = visitor.tab_rows()
     if visitor.moved and is_refused(visitor):
         await visitor.slide(*visitor.moved.pop())
-    elif chance < SLIDES:
-        data = dice.choice(visitor.live_sliders())
+    elif chance < SLIDES and (sliders := visitor.live_sliders()):  # exercises have none
+        data = dice.choice(sliders)
         visitor.moved[:] = [(data["label"], data["value"])]
         await visitor.slide(data["label"], place(data, dice.random()))
     elif chance < SLIDES + TABS and rows:
