@@ -9,7 +9,17 @@ import numpy as np
 import pytest
 
 import rotorcalc as rc
-from tests.app.session import HOME, LECTURE, charts, faults, move, session_of, texts, visit
+from tests.app.session import (
+    EXERCISES_PAGE,
+    HOME,
+    LECTURE,
+    charts,
+    faults,
+    move,
+    session_of,
+    texts,
+    visit,
+)
 from ui.computed import Computed, computed_from
 from ui.lecture.steps import MOST_BYTES, OWN, Step, own_steps, read
 from ui.lecture.views import VIEWS
@@ -178,6 +188,15 @@ def test_a_visitors_machine_is_there_again_after_the_lecture() -> None:
     assert at.query_params["C"] == "75"
     session_of(at).undo()
     assert session_of(at).values["C"] == 60.0
+
+
+def test_a_step_has_its_own_machine_after_an_exercise() -> None:
+    at = visit(EXERCISES_PAGE)
+    for _ in range(2):
+        at.switch_page(LECTURE).run()
+        assert session_of(at).values == STEPS[0].values
+        at.switch_page(EXERCISES_PAGE).run()
+        assert session_of(at).values != STEPS[0].values
 
 
 def test_a_steps_machine_can_be_taken_along_and_undone() -> None:

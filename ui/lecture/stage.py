@@ -46,11 +46,11 @@ def arrive() -> None:
     first = choice(_STEP, 1, lambda at: 1 <= at <= len(mine.steps))
     if first is not None:
         st.session_state[_STEP] = first
-    moved = visitor.frame == 1 and "step" in st.query_params and bool(visitor.changed())
-    if moved or (visitor.borrowed and not mine.taken):  # by its link, or by a server before
+    moved = "step" in st.query_params and bool(visitor.changed())
+    if visitor.frame == 1 and (moved or visitor.borrowed):  # by its link, or by a server before
         visitor.lend(dict(visitor.values), visitor.preset)
         mine.taken = _at()
-    elif not visitor.borrowed or mine.taken != _at():
+    elif visitor.arriving or mine.taken != _at():  # exercises have lent another machine
         _take()
 
 
