@@ -70,7 +70,7 @@ def content(page: Page) -> None:
     exercise, name = _exercise(), f"{_at()}_{_seed()}"
     st.markdown(exercise.told(page.computed, exercise.values(_seed())))
     given = [
-        st.text_input(_label(ask), key=f"answer_{name}_{i}", width=280)
+        st.text_input(f"{ask.words}{_in(ask)}", key=f"answer_{name}_{i}", width=280)
         for i, ask in enumerate(exercise.asks)
     ]
     st.caption(f"An answer is right within {100 * TOLERANCE:g} %.")
@@ -82,7 +82,7 @@ def content(page: Page) -> None:
             st.switch_page(exercise.page)
     if all(right) or st.toggle("Show the solution", key=f"exercises_solved_{name}"):
         st.markdown(f"**Solution.** {exercise.solution}")
-        st.markdown(_solved(exercise, exercise.answers(page.computed)))
+        st.markdown(_solved(exercise, page))
 
 
 def sheet(seed: int, *, solved: bool) -> str:
@@ -133,10 +133,6 @@ def _in(ask: Ask) -> str:
     return "" if ask.unit == "-" else f" [{ask.unit}]"
 
 
-def _label(ask: Ask) -> str:
-    return f"{ask.words}{_in(ask)}"
-
-
 def _judge(ask: Ask, word: str, page: Page) -> bool:
     """Say whether an answer is right; return it."""
     if not word.strip():
@@ -152,8 +148,7 @@ def _judge(ask: Ask, word: str, page: Page) -> bool:
     return right
 
 
-def _solved(exercise: Exercise, answers: tuple[float, ...]) -> str:
+def _solved(exercise: Exercise, page: Page) -> str:
     return "\n".join(
-        f"- {ask.words}: **{digits(value)}{'' if ask.unit == '-' else f' {ask.unit}'}**"
-        for ask, value in zip(exercise.asks, answers, strict=True)
+        f"- {ask.words}{_in(ask)}: **{digits(ask.value(page.computed))}**" for ask in exercise.asks
     )

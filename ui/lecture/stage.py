@@ -10,7 +10,7 @@ from ui.choices import choice
 from ui.computed import computed_from
 from ui.frame.page import HOME, Page
 from ui.inputs import inputs_of
-from ui.lecture.steps import MOST_BYTES, OWN, Step, own_steps, read
+from ui.lecture.steps import OWN, Step, own_steps, read
 from ui.lecture.views import VIEWS
 from ui.session import session
 from ui.widgets import show_inputs
@@ -185,8 +185,6 @@ def _load() -> None:
     if given is None:
         return
     try:
-        if given.size > MOST_BYTES:
-            raise ValueError(f"the file has {given.size} bytes: at most {MOST_BYTES} are read")
         steps = read(given.getvalue(), _NAMES)
     except ValueError as error:
         mine.refused = f"{given.name}: {error}."
