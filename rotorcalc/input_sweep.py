@@ -18,11 +18,12 @@ from rotorcalc.comparison import log_decrement
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine
 from rotorcalc.numerics.parts import in_parts
+from rotorcalc.onset.closed_form import covers
 from rotorcalc.onset.many import onset_speeds
 from rotorcalc.variation import address, changed
 
-# Values that are solved together, so that progress can be told.
-_TOGETHER = 8
+# Values that are solved together, so that progress can be told; in closed form they are quick.
+_TOGETHER, _CLOSED = 8, 64
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,7 +102,8 @@ def input_sweep(  # noqa: PLR0913 - an input with its values, and where to compu
     if given.ndim != 1 or not given.size:
         raise ValueError(f"values: must be a list, (n,), has the shape {given.shape}")
     solved = partial(_solved, machine, address(machine, vary), running)
-    parts = [given[first : first + _TOGETHER] for first in range(0, len(given), _TOGETHER)]
+    size = _CLOSED if covers(machine) and machine.supply is None else _TOGETHER
+    parts = [given[first : first + size] for first in range(0, len(given), size)]
     found = np.concatenate(list(in_parts(solved, parts, executor=executor, progress=progress)))
     onset, decrement, film = found.T
     return InputSweep(
@@ -113,12 +115,32 @@ def input_sweep(  # noqa: PLR0913 - an input with its values, and where to compu
 def _solved(machine: Machine, path: tuple[str, ...], speed: float, values: Array) -> Array:
     """Return onset, log decrement and smallest film for each value, (n, 3)."""
     found = np.full((len(values), 3), np.nan)
+    answered: list[int] = []
+    machines: list[Machine] = []
     for i, value in enumerate(values.tolist()):
         try:
             one = changed(machine, {path: value})
             point = analyse(one, speed)
-            found[i, 0] = onset_speeds([one])[0]
         except ValueError:
             continue
         found[i, 1:] = log_decrement(point), point.minimum_film_thickness
+        answered.append(i)
+        machines.append(one)
+    found[answered, 0] = _onsets(machines)
+    found[np.isnan(found[:, 0])] = np.nan  # no number where the onset has none
     return found
+
+
+def _onsets(machines: list[Machine]) -> Array:
+    """Return onsets, all together where each has one; NaN where a film has no answer."""
+    try:
+        return onset_speeds(machines)
+    except ValueError:
+        return np.concatenate([_onset(one) for one in machines])
+
+
+def _onset(machine: Machine) -> Array:
+    try:
+        return onset_speeds([machine])
+    except ValueError:
+        return np.array([np.nan])

@@ -122,9 +122,9 @@ class Oil(Lubricant):
         0.02
         """
         T = real_array("temperature", temperature)
-        if not np.all(np.isfinite(T)):
+        if not np.isfinite(T).all():
             raise ValueError(f"temperature = {shown(temperature)} °C: must be finite")
-        if np.any(-zero_Celsius > T):
+        if (-zero_Celsius > T).any():
             raise ValueError(
                 f"temperature = {shown(temperature)} °C: below absolute zero, {-zero_Celsius} °C"
             )

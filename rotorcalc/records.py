@@ -39,6 +39,9 @@ class Bound:
 
     def check(self, name: str, value: object) -> float:
         """Return `value` as a float, or raise ValueError naming field, value and bound."""
+        # Nearly every value is a float well inside, which needs no words.
+        if type(value) is float and self._holds(value):
+            return value
         # True is a number to Python, but never meant as one.
         if isinstance(value, bool) or not isinstance(value, numbers.Real):
             raise ValueError(f"{name} = {shown(value)}: must be a number in {self.unit}")
@@ -51,6 +54,10 @@ class Bound:
         if problem := self._problem(number):
             raise ValueError(f"{name} = {shown(value)} {self.unit}: must be {problem}")
         return number
+
+    def _holds(self, number: float) -> bool:
+        """Return whether a number is finite and surely within the bounds: NaN and ∞ are not."""
+        return self.above < number < self.below and number >= self.at_least and not self.whole
 
     def _problem(self, number: float) -> str:
         """Return in words which bound a number breaks, or nothing."""

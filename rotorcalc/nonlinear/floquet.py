@@ -30,8 +30,7 @@ def multiplier(balance: Balance, cycle: Cycle) -> float:
     Returns
     -------
     float
-        Growth of a small motion over one period [-], the slowest to decay; below 1 the cycle is
-        stable.
+        Growth of the least damped small motion over one period [-]; below 1 the cycle is stable.
     """
     fine, coarse = (
         _monodromy(balance, cycle.resampled(points * len(cycle.path))) for points in (2, 1)

@@ -28,8 +28,9 @@ from rotorcalc.variation import address, changed
 # Machines of a part. In closed form thousands are solved at once; of any other film each may need a
 # table of its own, and a part of many would keep the others waiting.
 _CLOSED, _OTHERS = 10_000, 250
-# Parts at least, so that several processes have something to do.
-_PARTS = 16
+# Parts at least, so that several processes have something to do; in closed form none of fewer than
+# so many, which take a few hundredths of a second.
+_PARTS, _FEWEST = 16, 1000
 # Ten million samples of ten inputs are a gigabyte.
 MOST_SAMPLES = 10_000_000
 # What a film that has no answer raises.
@@ -284,7 +285,9 @@ def _parts(
     machine: Machine, paths: tuple[tuple[str, ...], ...], values: Array, speed: float
 ) -> Iterator[Part]:
     damped = ("rotor", "disk_damping") in paths
-    largest = _CLOSED if _in_closed_form(machine) and not damped else _OTHERS
-    size = min(largest, math.ceil(len(values) / _PARTS))
+    closed = _in_closed_form(machine) and not damped
+    size = min(_CLOSED if closed else _OTHERS, math.ceil(len(values) / _PARTS))
+    if closed:
+        size = max(size, _FEWEST)
     for first in range(0, len(values), size):
         yield Part(machine, paths, values[first : first + size], speed, first)

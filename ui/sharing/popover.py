@@ -11,7 +11,6 @@ from ui.cases import Shown
 from ui.choices import choices
 from ui.computed import Computed, computed_from
 from ui.format import literal
-from ui.serving.downloads import offer
 from ui.session import Session, session
 from ui.sharing import labels, machine_file
 from ui.sharing.labels import Labels
@@ -45,7 +44,7 @@ def _downloads(
 ) -> None:
     from ui.sharing import export, report  # noqa: PLC0415
 
-    # No file may read the session: it is made outside.
+    # A file is made when it is asked for, outside the session.
     units, chosen = visitor.units, dict(choices().kept())
     files = (
         (
@@ -74,7 +73,9 @@ def _downloads(
         ),
     )  # fmt: skip
     for label, name, mime, build in files:
-        offer(label, build, name, mime, key=f"save_{name}", width="stretch")
+        st.download_button(
+            label, build, name, mime, key=f"save_{name}", on_click="ignore", width="stretch"
+        )
     st.caption(export.ROSS_NOTE)
 
 

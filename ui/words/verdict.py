@@ -8,7 +8,7 @@ from rotorcalc.units import Units
 from ui.computed import Computed
 from ui.format import above, amount, digits, lower
 from ui.preview import Kind, Text
-from ui.results.stability import fastest_growing
+from ui.results.stability import leading
 from ui.ring import has_ring
 from ui.words import validity
 from ui.words.citation import without_load
@@ -26,30 +26,17 @@ class Verdict:
 
 _SHOWN_AS: dict[str, Kind] = {"stable": "success", "unstable": "error", "outside": "warning"}
 
-_COARSE = "Coarse mesh: K and C to some 4 %"
+_COARSE = ":orange-badge[Coarse mesh: K and C to some 4 %]"
 
 
 def text(computed: Computed, units: Units) -> Text:
     """Return the verdict as a page shows it, with the headline of the model's assumptions."""
     judged = verdict(computed, units)
-    draft = f" :orange-badge[{_COARSE}]" if _is_coarse(computed) else ""
-    words = f"{judged.sentence}{_marked(computed)} {validity.badge(computed)}{draft}"
-    return Text(words, _SHOWN_AS[judged.level])
-
-
-def beside(computed: Computed) -> str:
-    """Return in plain words what the page says beside its verdict, for the report."""
-    draft = f" {_COARSE}." if _is_coarse(computed) else ""
-    return f"{validity.headline(computed)}.{_marked(computed)}{draft}"
-
-
-def _marked(computed: Computed) -> str:
     marked = computed.is_outside or computed.onset_is_outside
-    return " Numbers in brackets lie outside the model's range." if marked else ""
-
-
-def _is_coarse(computed: Computed) -> bool:
-    return computed.machine.bearing.model == "coarse"
+    note = " Numbers in brackets lie outside the model's range." if marked else ""
+    draft = f" {_COARSE}" if computed.machine.bearing.model == "coarse" else ""
+    words = f"{judged.sentence}{note} {validity.badge(computed)}{draft}"
+    return Text(words, _SHOWN_AS[judged.level])
 
 
 def verdict(computed: Computed, units: Units) -> Verdict:
@@ -105,7 +92,7 @@ def _never(computed: Computed, units: Units) -> str:
 
 
 def _past(computed: Computed, units: Units) -> str:
-    onset, growing = computed.onset, fastest_growing(computed)
+    onset, growing = computed.onset, leading(computed)
     now = f"{_growing(computed, growing, units)}; " if growing.real > 0.0 else ""
     if math.isinf(onset.speed):
         return f"{now}no onset was found."
