@@ -1,7 +1,8 @@
 """What moves in a mode: the rotor, or the parts of the bearing that its film carries.
 
 A film with inner coordinates adds modes of its own: pads that tilt, a ring that floats. Which these
-are, the share of the parts in the motion tells.
+are, the share of the parts in the motion tells. A mode in which the disk moves far on a bending
+shaft is the rotor's, whatever the parts do beside a journal that hardly moves.
 """
 
 import numpy as np
@@ -14,6 +15,9 @@ from rotorcalc.modes import ModeShapes
 
 # The parts' share from which on a mode is theirs: they move twice as far as the journal.
 _THEIRS = 0.8
+# By how many times the disk moves further than a ring where a mode is the rotor's, and parts further
+# than the disk where it is theirs.
+_FAR = 2.0
 # Beside how much of the ring's motion the journal's in the ring counts as none.
 _LITTLE = 0.5
 _PARTS = {"floating-ring": "ring", "tilting-pads": "pads", "foil": "foil"}
@@ -33,13 +37,17 @@ def mode_names(bearing: Bearing, shapes: ModeShapes) -> tuple[str, ...]:
     Returns
     -------
     tuple of str
-        n words: "ring", "pads" or another part that moves at least twice as far as the journal;
-        "ring in the outer film" where the journal moves with the ring; else "".
+        n words: "ring", "pads" or another part that moves at least twice as far as the journal and
+        the disk; "ring in the outer film" where the journal moves with the ring, and the disk at
+        most twice as far; else "".
     """
     kind = bearing.geometry.kind
     part = _PARTS.get(kind, "bearing's parts")
-    theirs = modes.inner_share(shapes) > _THEIRS
-    outer = moves_with_ring(shapes) if kind == "floating-ring" else np.zeros_like(theirs)
+    disk, parts = (np.sum(np.abs(one) ** 2, axis=-1) for one in (shapes.disk, shapes.inner))
+    theirs = (modes.inner_share(shapes) > _THEIRS) & (parts > _FAR**2 * disk)
+    outer = np.zeros_like(theirs)
+    if kind == "floating-ring":
+        outer = moves_with_ring(shapes) & (disk <= _FAR**2 * parts)
     return tuple(
         "ring in the outer film" if of_outer else part if of_part else ""
         for of_outer, of_part in zip(outer, theirs, strict=True)

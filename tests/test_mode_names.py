@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorcalc import analyse, mode_onsets, ring_whirl
+from rotorcalc import TiltingPads, analyse, mode_onsets, ring_whirl
 from rotorcalc.mode_names import mode_names
 from rotorcalc.modes import ModeShapes
 from rotorcalc.units import SI
@@ -23,11 +23,12 @@ def named(machine, speed):
     return shapes.eigenvalues / speed, mode_names(machine.bearing, shapes)
 
 
-def shapes_with(journal, inner):
-    """Return one mode in which the journal and the bearing's parts move so far."""
+def shapes_with(journal, inner, disk=None):
+    """Return one mode in which journal and parts move so far, the disk as far as the journal."""
     one = np.array([[1.0 + 0j, 1j]])
     return ModeShapes(
-        eigenvalues=np.array([1j]), vectors=np.eye(1, dtype=complex), disk=journal * one,
+        eigenvalues=np.array([1j]), vectors=np.eye(1, dtype=complex),
+        disk=(journal if disk is None else disk) * one,
         journal=journal * one, inner=inner * one,
     )  # fmt: skip
 
@@ -40,6 +41,24 @@ def test_a_mode_is_named_by_what_moves_in_it(journal, ring, name):
     assert mode_names(RINGS["floating ring"], shapes_with(journal, ring)) == (name,)
     other = "" if name != "ring" else "bearing's parts"
     assert mode_names(BEARINGS["ringed"], shapes_with(journal, ring)) == (other,)
+
+
+@pytest.mark.parametrize(
+    ("kind", "journal", "parts", "disk"),
+    [("floating ring", 0.2, 1.0, 2.1), ("floating ring", 0.9, 1.0, 2.1), ("ringed", 0.2, 1.0, 0.6)],
+)
+def test_a_mode_in_which_the_disk_moves_far_is_the_rotors(kind, journal, parts, disk):
+    bearing = (RINGS | BEARINGS)[kind]
+    assert mode_names(bearing, shapes_with(journal, parts, disk)) == ("",)
+    assert mode_names(bearing, shapes_with(journal, parts, 0.4)) != ("",)
+
+
+def test_pads_beside_a_journal_at_rest_do_not_name_the_bending_shaft():
+    machine = replace(SHEET, bearing=replace(SHEET.bearing, geometry=TiltingPads()))
+    values, names = named(machine, 600.0)
+    bending = [name for value, name in zip(values, names, strict=True) if value.imag > 1.0]
+    assert set(bending) == {""}
+    assert set(names) == {"", "pads"}
 
 
 @pytest.mark.parametrize("speed", [500.0, 2000.0])
