@@ -106,18 +106,20 @@ def film_and_pressure(page: Page) -> None:
         page.chart(
             lambda c: film.film_around(c.film, c.point, units), "film", at_one_speed=True,
             alt="Thickness and pressure of the film once around the journal, and the load.",
-            caption=cited(
-                "Film and pressure above ambient at mid-length; θ in the sense of rotation.",
-                page.computed, "thickness", "pressure",
+            caption=lambda c: cited(
+                "Film and pressure above ambient at mid-length; θ in the sense of rotation."
+                f"{words.cavitated(c)}",
+                c, "thickness", "pressure",
             ),
         )  # fmt: skip
     with right:
         page.chart(
             lambda c: film.pressure_map(c.film, c.point, units), "pressure", at_one_speed=True,
             alt="Contour map of the film's pressure over angle and axial position.",
-            caption=cited(
-                remark(page.computed, "pressure", "The film unwrapped: {}.", "The film unwrapped."),
-                page.computed, "pressure",
+            caption=lambda c: cited(
+                remark(c, "pressure", "The film unwrapped: {}.", "The film unwrapped.")
+                + words.cavitated(c),
+                c, "pressure",
             ),
         )  # fmt: skip
 

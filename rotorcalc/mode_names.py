@@ -15,8 +15,8 @@ from rotorcalc.modes import ModeShapes
 
 # The parts' share from which on a mode is theirs: they move twice as far as the journal.
 _THEIRS = 0.8
-# By how many times the disk moves further than a ring where a mode is the rotor's, and parts further
-# than the disk where it is theirs.
+# How many times as far the disk moves as a ring where a mode is the rotor's, and parts as the disk
+# where it is theirs.
 _FAR = 2.0
 # Beside how much of the ring's motion the journal's in the ring counts as none.
 _LITTLE = 0.5

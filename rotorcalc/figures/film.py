@@ -21,6 +21,8 @@ _LOAD = style.symbols("F_o")
 _SOFT = "rgba(127,127,127,0.8)"
 _CAVITATED = "rgba(127,127,127,0.12)"
 _UP_TO_THE_TOP = "up to the top speed"
+# The narrowest cavitated film [°] that its words fit in; those of several would overlap.
+_ROOM = 100.0
 
 
 def film_around(field: PressureField, point: Sweep, units: Units) -> Chart:
@@ -184,16 +186,29 @@ def _over_theta(field: PressureField, point: Sweep, units: Units, *, level: floa
     if not _has_shape(field, point):
         words = "no load: uniform film, no pressure"
         return {"annotations": [text.remark(words, 0.5, level, xanchor="center")]}
-    theta = units.angle.of(field.theta)
     notes, shapes = _load_line(field, point, units)
-    for first, last in _runs(field.cavitated):
-        a, b = float(theta[max(first - 1, 0)]), float(theta[min(last + 1, len(theta) - 1)])
+    for a, b in _cavitated(field):
         shapes.append(
             _upright(a, b, type="rect", fillcolor=_CAVITATED, line={"width": 0}, layer="below")
         )
-        words = "cavitated:<br>ambient pressure"
-        notes.append(style.note(words, (a + b) / 2, level, xref="x", font={"size": 12}))
+        if b - a >= _ROOM:
+            words = "cavitated:<br>ambient pressure"
+            notes.append(style.note(words, (a + b) / 2, level, xref="x", font={"size": 12}))
     return {"annotations": notes, "shapes": shapes}
+
+
+def has_narrow_cavitation(field: PressureField) -> bool:
+    """Return whether the film's cavitated parts are all too narrow for words."""
+    return 0.0 < max((b - a for a, b in _cavitated(field)), default=0.0) < _ROOM
+
+
+def _cavitated(field: PressureField) -> list[tuple[float, float]]:
+    """Return between which angles [°] the film is cavitated."""
+    theta, last = np.degrees(field.theta), len(field.theta) - 1
+    return [
+        (float(theta[max(first - 1, 0)]), float(theta[min(end + 1, last)]))
+        for first, end in _runs(field.cavitated)
+    ]
 
 
 def _has_shape(field: PressureField, point: Sweep) -> bool:

@@ -32,6 +32,8 @@ _HEIGHT = 500
 _PLAYED, _ROOM = 560, {"l": 64, "r": 28, "t": 44, "b": ROW}
 # Axis over the highest peak, which leaves room for the peak's label.
 _HEADROOM = 1.12
+# The lowest peak that has a label, over the chart's height: those at the axis would overlap.
+_LABELLED = 0.03
 # Two entries per row, so that charts side by side have plots of equal height.
 _TWO_COLUMNS = {
     "orientation": "h", "x": 0, "y": 1.01, "yanchor": "bottom",
@@ -60,7 +62,7 @@ def amplitude(curves: ResponseCurves, shown: Literal["axes", "XY"], units: Units
                         _names(name, shown), colour, units)  # fmt: skip
         if shown == "axes":
             traces += _peak_marks(found, name, colour, units)
-            notes += _peak_labels(found, name, units, x)
+            notes += _peak_labels(found, name, units, (x, y))
         else:
             shapes += [_guide(float(units.speed.of(speed)), colour) for speed in found.speed]
     here = [unit.of(part) for _, body in _bodies_here(curves) for part in _parts(body, shown)]
@@ -265,12 +267,16 @@ def _peak_marks(peaks: ResponsePeaks, body: str, colour: str, units: Units) -> l
     return [style.mark(at, size, f"peak of the {body}", marker=shape, showlegend=False)]
 
 
-def _peak_labels(peaks: ResponsePeaks, body: str, units: Units, x: Axis) -> list[dict[str, Any]]:
+def _peak_labels(
+    peaks: ResponsePeaks, body: str, units: Units, axes: tuple[Axis, Axis]
+) -> list[dict[str, Any]]:
     """Return labels with amplitude and speed of each peak, on the side with more room."""
-    right = max(x["range"])
+    right, top = (max(axis["range"]) for axis in axes)
     labels: list[dict[str, Any]] = []
     sizes = units.amplitude.of(peaks.amplitude)
     for speed, size in zip(units.speed.of(peaks.speed), sizes, strict=True):
+        if size < _LABELLED * top:
+            continue
         to_left = speed > (0.3 if body == "disk" else 0.7) * right
         number = f"{size:.3g}" if size < 1e3 else f"{size:.0f}"
         text = f"{number} {units.amplitude.name}, {speed:.0f} {units.speed.name}"

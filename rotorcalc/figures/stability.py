@@ -96,6 +96,17 @@ def threshold(over: Thresholds, here: Thresholds, crossing: Crossing, units: Uni
     return cursor.over_speed(chart, here.speed, units)
 
 
+def threshold_at_a_glance(
+    over: Thresholds, here: Thresholds, crossing: Crossing, units: Units
+) -> Chart:
+    """Return that chart small; where no speed is unstable it says so, for its lines may be out."""
+    chart = style.small(threshold(over, here, crossing, units))
+    if math.isinf(crossing.onset.speed):
+        words = _verdict(crossing.onset, chart["layout"]["xaxis"], units.speed)
+        chart["layout"]["annotations"] = [words | {"font": {"size": 12}}]
+    return chart
+
+
 def whirl_frequency(over: Thresholds, here: Thresholds, crossing: Crossing, units: Units) -> Chart:
     """Return the whirl frequency at the threshold over running speed, beside half the speed."""
     unit = units.speed

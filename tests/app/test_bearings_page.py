@@ -58,6 +58,9 @@ def test_the_table_has_every_kind_in_the_units_shown(units: str, system: object)
         (column,) = (key for key in shown if key.startswith(label))
         assert unit.name == "-" or f"[{unit.name}]" in column
         values = [float(unit.of(getattr(one, name))) for one in expected]
+        if label == "Whirl":
+            assert 0.0 in values  # as of tilting pads, whose film feeds no whirl
+            values = [value or math.nan for value in values]
         for cell, value in zip(shown[column][1:], values, strict=True):
             assert cell == (pytest.approx(value, rel=1e-12) if math.isfinite(value) else None)
     assert faults(at) == []

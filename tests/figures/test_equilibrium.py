@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rotorcalc import PRESETS, Machine, analyse, film_curves
+from rotorcalc import PRESETS, Machine, TiltingPads, analyse, film_curves
 from rotorcalc.coefficients import equilibrium, film_field, film_forces
 from rotorcalc.figures import SI, US, Chart, Units, film, plane
 from rotorcalc.figures import equilibrium as place
@@ -196,6 +196,17 @@ def test_pressure_map_leaves_the_cavitated_half_empty(case: str) -> None:
     assert contour["zmax"] == chart["data"][0]["contours"]["end"]
     assert float(SI.pressure.of(r.point.peak_pressure)) <= contour["zmax"]
     assert _mark(chart, "highest pressure")[1] == 0.0
+
+
+def test_words_on_cavitated_film_stand_where_there_is_room_for_them() -> None:
+    bearing = dataclasses.replace(_SHEET.machine.bearing, geometry=TiltingPads())
+    pads, wide = dataclasses.replace(_SHEET.machine, bearing=bearing), CASES["sheet-1e8"]
+    narrow = film_field(pads, _SHEET.speed, theta=np.linspace(0.0, math.tau, 181))
+    assert narrow.cavitated.any()
+    for field, machine, has_room in ((narrow, pads, False), (wide.field, _SHEET.machine, True)):
+        chart = film.film_around(field, analyse(machine, _SHEET.speed), SI)
+        assert ("cavitated:<br>ambient pressure" in notes(chart)) == has_room
+        assert film.has_narrow_cavitation(field) != has_room
 
 
 @pytest.mark.parametrize("units", UNITS)

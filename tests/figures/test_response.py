@@ -190,6 +190,20 @@ def test_curves_reach_their_peaks_however_narrow(C: float) -> None:
     assert set(SPEEDS) <= set(family.speed)
 
 
+def test_a_peak_at_the_axis_has_a_mark_but_no_label() -> None:
+    curves = _curves(SHEET)
+    small = replace(
+        curves.journal_peaks,
+        speed=np.array([60.0]), amplitude=np.array([1e-3 * curves.disk_peaks.amplitude.max()]),
+    )  # fmt: skip
+    for peaks, labels in ((small, 1), (curves.journal_peaks, 2)):
+        chart = response.amplitude(replace(curves, journal_peaks=peaks), "axes", SI)
+        assert (
+            len([one for one in chart["layout"]["annotations"] if "0-p" in one["text"]]) == labels
+        )
+        assert any(trace["name"] == "peak of the journal" for trace in chart["data"])
+
+
 def test_peaks_do_not_depend_on_how_dense_the_sweep_is() -> None:
     dense = response_peaks(SHEET, np.linspace(5.0, 1250.0, 1000))
     coarse = response_peaks(SHEET, np.linspace(5.0, 1250.0, 60))

@@ -17,6 +17,7 @@ from tests.figures.charts import (
     check_case_is_behind,
     check_plotly_takes_it,
     curves_in_window,
+    notes,
 )
 from ui.computed import Computed, computed_from
 from ui.inputs import GAS, INPUTS, PRESET_VALUES, Values
@@ -175,6 +176,14 @@ def test_the_crossing_lies_on_the_line_of_equal_speeds(key: str) -> None:
     assert mark["x"] == pytest.approx([rpm])
     assert mark["y"] == pytest.approx([rpm])
     assert chart["layout"]["shapes"][0]["x0"] == pytest.approx(rpm)
+
+
+def test_a_glance_says_that_no_speed_is_unstable_and_else_leaves_words_out() -> None:
+    steady = SHEET | {"bearing": "elliptical", "preload": 0.9, "groove_width": 10.0}
+    for values, words in ((steady, ["stable at every speed"]), (SHEET, [])):
+        computed = computed_from(values)
+        assert math.isinf(computed.onset.speed) == bool(words)
+        assert notes(_over_speed(figures.threshold_at_a_glance, computed, SI)) == words
 
 
 def test_with_damping_the_onset_is_a_line_of_its_own() -> None:

@@ -265,7 +265,8 @@ _COLUMNS = (
     _Column("Onset", "onset", "speed", 0, 88, "Speed at which the rotor begins to whirl; "
             "without a number, no speed does.", bars=True),
     _Column("Margin", "margin", "percent", 0, 70, "Onset over running speed, less one."),
-    _Column("Whirl", "whirl_ratio", "number", 3, 54, "Whirl ratio at the running speed."),
+    _Column("Whirl", "whirl_ratio", "number", 3, 54, "Whirl ratio at the running speed; without a "
+            "number, the film feeds no whirl there."),
     _Column("Log dec.", "log_decrement", "number", 3, 62,
             "Logarithmic decrement of the least damped mode at the running speed."),
     _Column("h min", "minimum_film_thickness", "film", 1, 78, "Smallest film.", bars=True),
@@ -327,6 +328,8 @@ def _numbers(
     """Return head, values in the units shown, and display of a column."""
     unit = getattr(units, column.kind)
     values = [getattr(one, column.attribute) for one in found]
+    if column.attribute == "whirl_ratio":  # zero where there is none
+        values = [value or math.nan for value in values]
     shown = [float(unit.of(value)) if math.isfinite(value) else None for value in values]
     head = column.head + ("" if unit.name == "-" else f" [{unit.name}]")
     number = f"%.{column.decimals}f"

@@ -181,7 +181,8 @@ def knows_added_mass(computed: Computed) -> bool:
     try:
         computed.added_mass_here(LAMINAR)
     except ValueError as error:
-        st.info(f"No added mass can be shown. {error}.")
+        # Without the field's name in front.
+        st.info(f"No added mass can be shown: {f'{error}'.partition(': ')[2]}.")
         return False
     return True
 

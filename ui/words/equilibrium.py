@@ -4,6 +4,7 @@ import numpy as np
 import streamlit as st
 
 from rotorcalc.arrays import Array
+from rotorcalc.figures import film
 from rotorcalc.films import film_of
 from ui.computed import Computed
 from ui.words.citation import at_one_speed, cited, remark
@@ -28,6 +29,12 @@ def of_position(computed: Computed, *, over_speed: bool) -> str:
     each = "At the equilibrium of each speed"
     words = each if over_speed or not at_one_speed(computed) else f"{each}; {dotted(computed)}"
     return remark(computed, "eccentricity", otherwise=f"{words}.")
+
+
+def cavitated(computed: Computed) -> str:
+    """Return what grey strips of the film are, where they are too narrow for words."""
+    narrow = film.has_narrow_cavitation(computed.film)
+    return " Grey: cavitated, at ambient pressure." if narrow else ""
 
 
 def known(words: str, values: Array) -> bool:

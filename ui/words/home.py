@@ -128,7 +128,7 @@ def _heading(computed: Computed) -> Text:
 def _threshold(page: Page) -> None:
     units = page.units
     page.chart(
-        lambda c: style.small(over_speed(stability.threshold, c, units)),
+        lambda c: over_speed(stability.threshold_at_a_glance, c, units),
         "home_threshold",
         alt="Threshold speed over running speed, and the line that it crosses at the onset",
         caption=meets(page.computed),

@@ -153,7 +153,7 @@ class FiniteFilm:
     def added_mass(self, points: OperatingPoints) -> Array:  # noqa: ARG002 - the seam's
         """Refuse: the added mass of a finite film is not computed."""
         raise ValueError(
-            "film = 'finite': its added mass is not computed; that of the short bearing is"
+            "film = 'finite': the added mass is not computed; that of a short plain bearing is"
         )
 
     def motion(self) -> FilmMotion:

@@ -213,7 +213,8 @@ class HydrostaticFilm:
     def added_mass(self, points: OperatingPoints) -> Array:  # noqa: ARG002 - the seam's
         """Refuse: the added mass of lands and recesses is not computed."""
         raise ValueError(
-            "bearing = hydrostatic: its added mass is not computed; that of the short bearing is"
+            "bearing: the added mass of lands and recesses is not computed; that of a short plain "
+            "bearing is"
         )
 
     def lowest_pressure(

@@ -216,9 +216,10 @@ class TiltingFilm:
         return Pressures.at_position(grid, position, np.ones(grid.shape, dtype=bool))
 
     def added_mass(self, points: OperatingPoints) -> Array:  # noqa: ARG002 - the seam's
-        """Refuse: the added mass of a finite film is not computed."""
+        """Refuse: the added mass of the pads' films is not computed."""
         raise ValueError(
-            "film = 'finite': its added mass is not computed; that of the short bearing is"
+            "bearing: the added mass of the pads' films is not computed; that of a short plain "
+            "bearing is"
         )
 
     def motion(self) -> InnerMotion:
