@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotorcalc.arguments import checked
-from rotorcalc.arrays import Array, ComplexArray, complex_array, real_array
-from rotorcalc.coefficients import equilibrium
+from rotorcalc.arrays import Array, ComplexArray, checked_speed, complex_array, real_array
+from rotorcalc.coefficients import stiffness_and_damping
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine, Rotor
 from rotorcalc.onset import Onset
@@ -163,9 +163,9 @@ def whirl_orbit(machine: Machine, onset: Onset) -> WhirlOrbit:
     if onset.speed == 0.0:
         circle = _CIRCLE / np.complex128(math.sqrt(np.pi))
         return WhirlOrbit(speed=0.0, frequency=0.0, journal=circle, disk=circle)
-    state = equilibrium(machine, onset.speed)
+    K, C = _film(machine, np.asarray(onset.speed), onset.whirl_frequency)
     lam = np.array(1j * onset.whirl_frequency)
-    disk, journal = _mode_shape(machine.rotor, state.stiffness, state.damping, lam)
+    disk, journal = _mode_shape(machine.rotor, K, C, lam)
     # A linear whirl has no size of its own: the journal's orbit gets the area 1.
     size = math.sqrt(abs(float(orbit_area(journal))))
     return WhirlOrbit(
@@ -180,8 +180,9 @@ def whirl_orbit(machine: Machine, onset: Onset) -> WhirlOrbit:
 def whirl_energy(machine: Machine, speed: ArrayLike, orbit: WhirlOrbit) -> WhirlEnergy:
     """Return the energy that a whirl orbit gains and loses in one turn at other speeds.
 
-    The orbit keeps its shape and frequency; the film is that of each speed's equilibrium. At the
-    orbit's own speed gain and loss are equal.
+    The orbit keeps its shape and frequency; the film is that of each speed's equilibrium, its
+    stiffness and damping those of a whirl at that frequency. At the orbit's own speed gain and loss
+    are equal.
 
     Parameters
     ----------
@@ -211,17 +212,28 @@ def whirl_energy(machine: Machine, speed: ArrayLike, orbit: WhirlOrbit) -> Whirl
 
     which vanishes with the growth Re λ.
     """
-    state = equilibrium(machine, speed)
+    omega = checked_speed(speed)
+    K, C = _film(machine, omega, orbit.frequency)
     disk_damping = machine.rotor.disk_damping * _I
     return WhirlEnergy(
-        speed=state.speed,
-        fed_in=stiffness_work(state.stiffness, orbit.journal),
-        film_loss=damping_work(state.damping, orbit.journal, orbit.frequency),
+        speed=omega,
+        fed_in=stiffness_work(K, orbit.journal),
+        film_loss=damping_work(C, orbit.journal, orbit.frequency),
         # The damper sees the same orbit at every speed, whatever the film.
         disk_loss=np.broadcast_to(
-            damping_work(disk_damping, orbit.disk, orbit.frequency), state.speed.shape
+            damping_work(disk_damping, orbit.disk, orbit.frequency), omega.shape
         ),
     )
+
+
+def _film(machine: Machine, speed: Array, frequency: float) -> tuple[Array, Array]:
+    """Return the film's K and C at speeds (...) for a whirl at a frequency, (..., 2, 2).
+
+    Pads, rings and gases answer each frequency in another way. An infinitely slow whirl, as
+    without load, has the coefficients of a synchronous one.
+    """
+    ratio = frequency / speed if frequency > 0.0 else 1.0
+    return stiffness_and_damping(machine, speed, whirl_ratio=ratio)
 
 
 def _mode_shape(

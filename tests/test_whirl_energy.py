@@ -17,6 +17,7 @@ from rotorcalc import (
 from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.onset import Onset
+from tests.films.models import RINGS
 from tests.machines import MACHINES, SHEET, with_rotor
 
 finite = st.floats(-10.0, 10.0)
@@ -76,6 +77,21 @@ def test_gain_and_loss_meet_at_the_onset(machine: Machine) -> None:
     assert energy.fed_in == pytest.approx(loss, rel=1e-9)
     assert energy.fed_in > 0.0
     assert (energy.disk_loss > 0.0) == (machine.rotor.disk_damping > 0.0)
+
+
+@pytest.mark.parametrize("name", ["floating ring", "floating ring, heavy"])
+def test_gain_and_loss_meet_at_the_onset_of_a_film_that_depends_on_the_whirl(name: str) -> None:
+    machine = replace(SHEET, bearing=RINGS[name])
+    onset = onset_speed(machine)
+    orbit = whirl_energy.whirl_orbit(machine, onset)
+    energy = whirl_energy.whirl_energy(machine, np.array([0.5, 1.0]) * onset.speed, orbit)
+    loss = energy.film_loss + energy.disk_loss
+    assert energy.fed_in[1] == pytest.approx(loss[1], rel=1e-7)
+    assert energy.fed_in[0] < loss[0]
+    # With the film's synchronous coefficients they do not meet.
+    state = equilibrium(machine, onset.speed)
+    other = whirl_energy.stiffness_work(state.stiffness, orbit.journal)
+    assert other != pytest.approx(float(energy.fed_in[1]), rel=0.1)
 
 
 @each_machine
