@@ -122,7 +122,8 @@ def over_whirl_ratio(
 def unloading(curve: Unloading, here: Unloading, centred: Unloading, units: Units) -> Chart:
     """Return K and (Ω/2)·C_XX at the running speed as the journal nears the centre (Eq. 5.37)."""
     unit = units.stiffness
-    x = style.axis(style.titled("Eccentricity ratio", "ε", "-"), 1e-2, 1.0, log=True)
+    high = style.ceiling(curve.eccentricity_ratio, 1.0)
+    x = style.axis(style.titled("Eccentricity ratio", "ε", "-"), 1e-2, high, log=True)
     cross = float(unit.of(centred.stiffness[0, 1]))
     title = style.titled("Stiffness", "K_ij", unit.name)
     middle = math.floor(math.log10(cross))
@@ -272,7 +273,7 @@ def _name(symbol: str, axes: str, place: tuple[int, int]) -> str:
 
 def _abscissa(places: Array, against: str) -> Axis:
     if against == "ε":
-        return style.axis(style.titled("Eccentricity ratio", "ε", "-"), 0.0, 1.0)
+        return style.eccentricity_axis(places)
     low, high = float(places.min()), float(places.max())
     return style.axis(style.titled("Modified Sommerfeld number", "σ", "-"), low, high, log=True)
 

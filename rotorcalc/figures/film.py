@@ -104,7 +104,7 @@ def forces(
     # The radial part vanishes with ε²: two decades below the load it may leave the chart.
     low_part = max(float(units.force.of(-at.radial)), load / 100)
     low, high = style.decades([within.min(), within.max(), load, low_part])
-    x = style.axis(style.titled("Eccentricity ratio", "ε", "-"), 0.0, 1.0, dtick=0.2)
+    x = style.eccentricity_axis(eps, dtick=0.2)
     y = style.axis(style.titled("Film force", "F", units.force.name), low, high, log=True)
     hover = text.hover("ε = %{x:.4f}", units.force)
     traces = [
@@ -121,7 +121,7 @@ def forces(
     e, parts = float(at.eccentricity_ratio), units.force.of(np.array([at.tangential, -at.radial]))
     marker = {"size": 9, "color": [_TANGENTIAL, _RADIAL], "line": {"color": style.HERE, "width": 2}}
     traces += [
-        style.line([0.0, 1.0], [load, load], f"load {_LOAD}", _SOFT, width=1.6, dash="dot"),
+        style.line(x["range"], [load, load], f"load {_LOAD}", _SOFT, width=1.6, dash="dot"),
         style.mark(
             [e, e], parts, "components", marker=marker, showlegend=False, hovertemplate=hover
         ),

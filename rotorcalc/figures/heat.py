@@ -121,7 +121,8 @@ def balance(curves: HeatCurves, point: Sweep, units: Units) -> Chart:
 
 def eccentricity(warmed: Warmed, point: Sweep, units: Units) -> Chart:
     """Return ε over running speed with the balance, and with the film at one temperature."""
-    y = style.axis(style.titled("Eccentricity ratio", "ε", "-"), 0.0, 1.0, dtick=0.25)
+    both = (warmed.balanced.eccentricity_ratio, warmed.fixed.eccentricity_ratio)
+    y = style.eccentricity_axis(np.concatenate(both), dtick=0.25)
     return _compared(warmed, "eccentricity_ratio", (units.number, y, style.JOURNAL), point, units)
 
 

@@ -34,6 +34,8 @@ _PLAYED, _ROOM = 560, {"l": 64, "r": 28, "t": 44, "b": ROW}
 _HEADROOM = 1.12
 # The lowest peak that has a label, over the chart's height: those at the axis would overlap.
 _LABELLED = 0.03
+# Width and height of a peak's label over those of the plot, where charts stand side by side.
+_LABEL = (0.34, 0.07)
 # Two entries per row, so that charts side by side have plots of equal height.
 _TWO_COLUMNS = {
     "orientation": "h", "x": 0, "y": 1.01, "yanchor": "bottom",
@@ -62,7 +64,7 @@ def amplitude(curves: ResponseCurves, shown: Literal["axes", "XY"], units: Units
                         _names(name, shown), colour, units)  # fmt: skip
         if shown == "axes":
             traces += _peak_marks(found, name, colour, units)
-            notes += _peak_labels(found, name, units, (x, y))
+            notes = _apart([*notes, *_peak_labels(found, name, units, (x, y))], (x, y))
         else:
             shapes += [_guide(float(units.speed.of(speed)), colour) for speed in found.speed]
     here = [unit.of(part) for _, body in _bodies_here(curves) for part in _parts(body, shown)]
@@ -286,6 +288,26 @@ def _peak_labels(
              "font": {"size": 13}}
         )  # fmt: skip
     return labels
+
+
+def _apart(labels: list[dict[str, Any]], axes: tuple[Axis, Axis]) -> list[dict[str, Any]]:
+    """Return labels of peaks, those below their peaks that would cover one before them."""
+    placed: list[dict[str, Any]] = []
+    for label in labels:
+        is_covering = any(_covers(label, other, axes) for other in placed if "yshift" in other)
+        below = {"yanchor": "top", "yshift": -7} if is_covering else {}
+        placed.append(label | below)
+    return placed
+
+
+def _covers(one: dict[str, Any], other: dict[str, Any], axes: tuple[Axis, Axis]) -> bool:
+    """Return whether labels overlap that stand above their peaks."""
+    (wide, high), (x, y) = _LABEL, axes
+    first, second = (
+        label["x"] / max(x["range"]) - wide * (label["xanchor"] == "right")
+        for label in (one, other)
+    )
+    return abs(first - second) < wide and abs(one["y"] - other["y"]) < high * max(y["range"])
 
 
 def _guide(speed: float, colour: str) -> dict[str, Any]:

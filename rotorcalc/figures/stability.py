@@ -59,7 +59,7 @@ class FilmFigure(Result):
     def axis(self) -> Axis:
         """Return the abscissa."""
         if self.over_eccentricity:
-            return style.axis(titled("Eccentricity ratio", "ε", "-"), 0.0, 1.0)
+            return style.eccentricity_axis(self.values(self.curves))
         return style.axis(titled("Modified Sommerfeld number", "σ", "-"), 1e-2, 1e2, log=True)
 
 

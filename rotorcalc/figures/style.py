@@ -80,6 +80,12 @@ def ceiling(
     return next(step * power for step in steps if step * power >= top * (1 - 1e-12))
 
 
+def eccentricity_axis(values: ArrayLike, **extra: Any) -> Axis:
+    """Return an axis of ε: to 1, or further for a journal in a ring, which moves in two films."""
+    high = ceiling(values, 1.0)
+    return axis(titled("Eccentricity ratio", "ε", "-"), 0.0, high, **(extra if high == 1.0 else {}))
+
+
 def decades(values: ArrayLike) -> tuple[float, float]:
     """Return the powers of ten at or around all positive finite values, for a logarithmic axis."""
     values = np.asarray(values, dtype=float)

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from rotorcalc import PRESETS, Machine, TiltingPads, analyse, film_curves
+from rotorcalc import PRESETS, FloatingRing, Machine, TiltingPads, analyse, film_curves
 from rotorcalc.coefficients import equilibrium, film_field, film_forces
 from rotorcalc.figures import SI, US, Chart, Units, film, plane
 from rotorcalc.figures import equilibrium as place
@@ -196,6 +196,22 @@ def test_pressure_map_leaves_the_cavitated_half_empty(case: str) -> None:
     assert contour["zmax"] == chart["data"][0]["contours"]["end"]
     assert float(SI.pressure.of(r.point.peak_pressure)) <= contour["zmax"]
     assert _mark(chart, "highest pressure")[1] == 0.0
+
+
+def test_a_journal_in_a_ring_meets_its_load_beyond_the_clearance() -> None:
+    ring = FloatingRing.around(0.15, 0.05, 60e-6)
+    bearing = dataclasses.replace(_SHEET.machine.bearing, geometry=ring)
+    machine, speed = dataclasses.replace(_SHEET.machine, bearing=bearing), _SHEET.speed
+    point, sweep = analyse(machine, speed), analyse(machine, np.array([0.5, 1.5]) * speed)
+    at, curves = (
+        film_forces(machine, speed, sommerfeld=sigma)
+        for sigma in (point.sommerfeld, np.geomspace(0.03, 30.0, 21))
+    )
+    place = float(point.eccentricity_ratio)
+    assert place > 1.0
+    chart = film.forces(curves, at, sweep, point, SI)
+    assert _mark(chart) == pytest.approx((place, float(SI.force.of(at.total))))
+    assert chart["layout"]["xaxis"]["range"][1] >= np.max(curves.eccentricity_ratio) > place
 
 
 def test_words_on_cavitated_film_stand_where_there_is_room_for_them() -> None:

@@ -204,6 +204,17 @@ def test_a_peak_at_the_axis_has_a_mark_but_no_label() -> None:
         assert any(trace["name"] == "peak of the journal" for trace in chart["data"])
 
 
+def test_labels_of_peaks_close_to_each_other_do_not_overlap() -> None:
+    curves = _curves(SHEET)
+    sizes = curves.disk_peaks.amplitude.max() * np.array([0.5, 0.48])
+    for shares, below in (([0.5, 0.6], 1), ([0.1, 0.6], 0)):
+        speeds = SPEEDS[-1] * np.array(shares)
+        close = replace(curves.journal_peaks, speed=speeds, amplitude=sizes)
+        chart = response.amplitude(replace(curves, journal_peaks=close), "axes", SI)
+        labels = chart["layout"]["annotations"]
+        assert sum(one["yanchor"] == "top" and "0-p" in one["text"] for one in labels) == below
+
+
 def test_peaks_do_not_depend_on_how_dense_the_sweep_is() -> None:
     dense = response_peaks(SHEET, np.linspace(5.0, 1250.0, 1000))
     coarse = response_peaks(SHEET, np.linspace(5.0, 1250.0, 60))
