@@ -16,6 +16,9 @@ _TO_COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(_NODES, _POINTS - 1))
 _NOTHING = 1e-13
 # Intervals at most in which a series is tried, each within the one before.
 _NARROWER = 3
+# Share of the function's whole change that a step beside its root takes at a jump alone, and the
+# width at which the places beside a jump are one.
+_JUMP, _ONE_PLACE = 0.5, 1e-14
 
 
 def narrow_root(
@@ -41,13 +44,15 @@ def narrow_root(
     -----
     The root of the Chebyshev series through the function's values at 18 places; where its last
     coefficients exceed rounding errors, as beside a kink, of that between the two places where the
-    sign changes, and after some of these Brent's method on the function itself.
+    sign changes, and after some of these Brent's method on the function itself. A jump has no
+    slope that would lead Brent's method to it; it is closed in by 18 places at a time.
 
     Examples
     --------
     >>> round(narrow_root(np.cos, 1.5, 1.6), 12)
     1.570796326795
     """
+    is_jump, beside = False, np.empty((2, 2))
     for _ in range(_NARROWER):
         middle, half = 0.5 * (low + high), 0.5 * (high - low)
         places = middle + half * _NODES
@@ -58,11 +63,32 @@ def narrow_root(
         changes = np.flatnonzero((found[1:] > 0.0) != (found[:-1] > 0.0))
         if len(changes) != 1:
             break
-        low, high = places[changes[0] : changes[0] + 2].tolist()
+        beside = np.stack([places, found])[:, changes[0] : changes[0] + 2]
+        low, high = beside[0].tolist()
+        is_jump = bool(np.ptp(beside[1]) > _JUMP * np.ptp(found))
+    if is_jump:
+        return _at_a_jump(values, beside)
     # xtol only guards against zero: the root may be of any size, so rtol decides.
     return float(
         brentq(lambda x: float(values(np.array([x]))[0]), low, high, xtol=1e-300, rtol=1e-14)
     )
+
+
+def _at_a_jump(values: Callable[[Array], Array], beside: Array) -> float:
+    """Return the place of a jump past zero between two places and their values, (2, 2)."""
+    while np.ptp(beside[0]) > _ONE_PLACE * np.abs(beside[0]).max():
+        beside = _closer(values, beside)
+    return float(beside[0, np.argmin(np.abs(beside[1]))])
+
+
+def _closer(values: Callable[[Array], Array], beside: Array) -> Array:
+    """Return two closer places with a change of sign between them, and the values there."""
+    low, high = float(beside[0, 0]), float(beside[0, 1])
+    places = np.linspace(low, high, _POINTS + 2)
+    # The ends keep the signs that they had: there rounding may give them others now.
+    found = np.concatenate([beside[1, :1], values(places[1:-1]), beside[1, 1:]])
+    first = int(np.argmax((found[1:] > 0.0) != (found[:-1] > 0.0)))
+    return np.stack([places, found])[:, first : first + 2]
 
 
 def _root_of_series(values: Array, noise: float) -> float | None:

@@ -55,5 +55,18 @@ def test_between_two_kinks_the_root_is_found_in_a_few_calls() -> None:
     assert len(looks) <= 4
 
 
+@pytest.mark.parametrize("at", [0.987, 1.0, 1.0497])
+def test_a_jump_is_found_in_a_few_calls_on_the_side_nearer_to_zero(at) -> None:
+    looks: list[int] = []
+
+    def values(x):
+        looks.append(len(x))
+        return np.where(x < at, -0.3 - x, 1e-3 * x)
+
+    root = narrow_root(values, 0.985, 1.05)
+    assert at <= root <= at * (1.0 + 1e-14)
+    assert len(looks) <= 14
+
+
 def test_a_root_at_an_end_is_found() -> None:
     assert narrow_root(lambda x: x - 1.0, 1.0, 1.1) == pytest.approx(1.0, rel=1e-14)
