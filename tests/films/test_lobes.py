@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
@@ -86,6 +86,10 @@ def test_the_force_is_the_integral_of_the_pressure(name, velocity):
 
 
 @given(st.floats(0.0, 1.3), st.floats(-3.0, 3.0), st.floats(0.01, 3.0))
+# On the far side of the pad, where little is left of the closed form's large terms.
+@example(0.96875, 2.0, 0.0625)
+@example(0.91, 1.56, 0.02)
+@example(0.989, 0.6, 3.0)
 def test_the_integrals_are_those_of_quadrature(e, low, width):
     high = low + width
     grid = np.linspace(low, high, 2001)

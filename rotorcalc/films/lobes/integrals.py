@@ -17,6 +17,9 @@ from rotorcalc.arrays import Array
 # Eccentricity from the pad's centre above which quadrature is used on pieces of the pad that stay
 # this angle [rad] away from the closest approach: 1/q⁷ would cancel digits there.
 _FAR, _AWAY = 0.99, 0.1
+# The cubes over h⁴ cancel digits from here on already. Pieces that stay away by this share of their
+# half width more have them by quadrature, which is exact there.
+_FAR_FOR_CUBES, _SHARE = 0.8, 0.3
 # Nearer to the pad than this the force is held: only trial steps of an integrator come there.
 _NEAREST = 1e-9
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(32)
@@ -96,7 +99,9 @@ def moments(e: Array, low: Array, high: Array) -> tuple[Array, Array, Array]:
     """
     high = np.maximum(high, low)
     middle = np.mod(0.5 * (low + high) + np.pi, 2.0 * np.pi) - np.pi
-    far = (e > _FAR) & (np.abs(middle) - 0.5 * (high - low) > _AWAY)
+    half = 0.5 * (high - low)
+    room = _AWAY + np.where(e > _FAR, 0.0, _SHARE * half)
+    far = (e > _FAR_FOR_CUBES) & (np.abs(middle) - half > room)
     found = _closed(np.where(far, 0.0, np.minimum(e, 1.0 - _NEAREST)), low, high)
     if far.any():
         found[:, far] = _by_quadrature(e[far], low[far], high[far])
