@@ -102,7 +102,7 @@ class SolvedPadsInMotion:
         weights = np.stack(place.weights)
         flat, wet, G = weights.reshape(2, -1), self._wet[0], place.films.conductance
         for _ in range(_FEW_SWEEPS):
-            still, *moved = banded(place.films, G, wet, np.stack([place.wedge, *weights]))
+            still, *moved = banded(place.films, G, wet, [place.wedge, *weights])
             C: Array = -SQUEEZE * np.stack(moved).reshape(2, -1) @ flat.T
             # Without a film that resists in all directions there is no one velocity.
             if not np.linalg.det(C) > _LEAST * np.trace(C) ** 2:
@@ -142,7 +142,7 @@ class SolvedPadsInMotion:
         wet = self._wet[0] if self._wet else right > 0.0
         G = place.films.conductance
         for _ in range(_MOST_SWEEPS):
-            pressure, *others = banded(place.films, G, wet, np.stack([right, *also]))
+            pressure, *others = banded(place.films, G, wet, [right, *also])
             after = refilled(place.films, wet, pressure, right)
             if np.array_equal(after, wet):
                 self._wet[:] = [wet]

@@ -67,7 +67,7 @@ def coefficients(found: Films, at: Solution) -> tuple[Array, Array]:
     G = found.conductance.copy()
     G[fronts.at] = fronts.conductance
     loads = _weights(found, fronts)
-    adjoint = banded(found, G, at.wet, np.stack(loads))
+    adjoint = banded(found, G, at.wet, loads)
     K = stiffness(found, replace(at, adjoint=adjoint)) + _correction(found, fronts, at, adjoint)
     C = np.empty_like(K)
     for i in (0, 1):

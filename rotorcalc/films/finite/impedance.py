@@ -249,7 +249,7 @@ def _settled(found: Films, rows: IntArray, right: Array, wet: BoolArray) -> tupl
     p, active = np.zeros_like(right), np.arange(len(rows))
     for _ in range(_MOST_SWEEPS):
         here = found.taken(rows[active])
-        now = banded(here, here.conductance, wet[active], right[None, active])[0]
+        now = banded(here, here.conductance, wet[active], [right[active]])[0]
         after = refilled(here, wet[active], now, right[active])
         p[active] = now
         changed = (after != wet[active]).any(axis=(1, 2, 3))

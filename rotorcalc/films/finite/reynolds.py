@@ -15,6 +15,7 @@ LAPACK. Pressures that must not be negative are an active set, corrected until n
 
 import functools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, cast
 
@@ -377,8 +378,7 @@ def solved(
         right = right + SQUEEZE * (
             squeeze[:, 0, None, None, None] * loads[0] + squeeze[:, 1, None, None, None] * loads[1]
         )
-    values = np.stack([right, *loads] if adjoint else [right])
-    p, *others = banded(found, G, wet, values)
+    p, *others = banded(found, G, wet, [right, *loads] if adjoint else [right])
     excess = right - flow_out(found, G, p)
     force = np.stack([np.einsum("pnsq,pnsq->p", p, load) for load in loads], axis=-1)
     return Solution(p, wet, excess, np.array(others), force)
@@ -438,38 +438,95 @@ def refilled(found: Films, wet: BoolArray, p: Array, right: Array) -> BoolArray:
     return np.where(wet, p > 0.0, right - flow_out(found, found.conductance, p) > 0.0)
 
 
-def banded(found: Films, G: Array, wet: BoolArray, values: Array) -> Array:
-    """Return solutions of the operator on the wet nodes for right sides (k, P, N, nodes, m).
+def banded(found: Films, G: Array, wet: BoolArray, values: Sequence[Array]) -> Array:
+    """Return solutions of the operator on the wet nodes for right sides.
 
-    The right sides are overwritten.
+    Parameters
+    ----------
+    found : Films
+        The films.
+    G : array, (P, N, links, m)
+        The conductance around the pads.
+    wet : boolean array, (P, N, nodes, m)
+        Where pressure is unknown; it is zero elsewhere.
+    values : k arrays, (P, N, nodes, m)
+        The right sides.
+
+    Returns
+    -------
+    array, (k, P, N, nodes, m)
+        Pressures.
     """
-    m = G.shape[-1]
-    # Pad by pad, as each has an axial term of its own; a node of which no pressure is wet has no
-    # part.
-    of_pads, wet = values.swapaxes(1, 2), wet.swapaxes(0, 1)
-    kept: BoolArray = np.any(wet, axis=-1)
-    if not kept.any():
-        return np.zeros_like(values)
-    cubes = found.cubes.transpose(1, 0, 3, 2)
-    each: list[Array] = [cubes[n][kept[n]] @ axial for n, axial in enumerate(found.mesh.bands)]
-    bands: Array = np.concatenate(each).reshape(-1, m, m + 1)
-    around = G.swapaxes(0, 1)
-    before, after = around[:, :, :-1][kept], around[:, :, 1:][kept]
-    bands[..., 0] += before + after
-    beside = np.zeros_like(kept)
-    beside[..., :-1] = kept[..., 1:]
-    np.negative(after, out=bands[..., m], where=beside[kept][:, None])
-    bands, right = bands.reshape(-1, m + 1), of_pads[:, kept].reshape(len(values), -1)
-    _cut_off(np.flatnonzero(~wet[kept].ravel()), bands, right)
+    x = np.zeros((len(values), *wet.shape))
+    nodes = _part(wet)
+    if not nodes.at.size:
+        return x
+    m = wet.shape[-1]
+    bands = _matrix(found, G, nodes).reshape(-1, m + 1)
+    right = np.stack([value.reshape(-1, m).take(nodes.at, axis=0) for value in values])
+    right = right.reshape(len(values), -1)
+    dry = ~wet.reshape(-1, m).take(nodes.at, axis=0)
+    _cut_off(np.flatnonzero(dry), bands, right)
     solve = cast("Any", lapack.dpbsv)
-    _, x, info = solve(bands.T, right.T, lower=1, overwrite_ab=1, overwrite_b=1)
+    _, solution, info = solve(bands.T, right.T, lower=1, overwrite_ab=1, overwrite_b=1)
     if info != 0:
         raise ValueError(
             "position: the journal must lie inside the bore, where every pad leaves it a film"
         )
-    values[...] = 0.0
-    of_pads[:, kept] = np.asarray(x).T.reshape(len(values), -1, m)
-    return values
+    x.reshape(len(values), -1, m)[:, nodes.at] = np.asarray(solution).T.reshape(len(x), -1, m)
+    return x
+
+
+@dataclass(frozen=True, eq=False)
+class _Nodes:
+    """The nodes that have a part in the matrix: those of which any pressure is wet.
+
+    Pad by pad, as each has an axial term of its own.
+
+    Attributes
+    ----------
+    kept : boolean array, (N, P, nodes)
+        Which they are.
+    at : array, (K,)
+        Their places among all nodes, (P, N, nodes).
+    before : array, (K,)
+        Places of the cells before them among all cells, (P, N, links); the next is after them.
+    linked : boolean array, (K,)
+        Whether the next one is next to it around its pad.
+    """
+
+    kept: BoolArray
+    at: IntArray
+    before: IntArray
+    linked: BoolArray
+
+
+def _part(wet: BoolArray) -> _Nodes:
+    _, N, nodes, _ = wet.shape
+    kept: BoolArray = np.any(wet.swapaxes(0, 1), axis=-1)
+    pad, position, node = kept.nonzero()
+    film = position * N + pad
+    at = film * nodes + node
+    beside = np.zeros_like(kept)
+    beside[..., :-1] = kept[..., 1:]
+    return _Nodes(kept, at, at + film, beside[kept])
+
+
+def _matrix(found: Films, G: Array, nodes: _Nodes) -> Array:
+    """Return the operator's lower diagonals, each pressure's in a row, (K, m, m + 1)."""
+    m = G.shape[-1]
+    rows = np.empty((nodes.at.size, m * (m + 1)))
+    first = 0
+    for n, of_pad in enumerate(found.mesh.bands):
+        cubes = found.cubes[:, n].swapaxes(1, 2)[nodes.kept[n]]
+        np.matmul(cubes, of_pad, out=rows[first : first + len(cubes)])
+        first += len(cubes)
+    bands = rows.reshape(-1, m, m + 1)
+    around = G.reshape(-1, m)
+    after = around.take(nodes.before + 1, axis=0)
+    bands[..., 0] += around.take(nodes.before, axis=0) + after
+    bands[..., m] = np.where(nodes.linked[:, None], -after, 0.0)
+    return bands
 
 
 def _cut_off(dry: IntArray, bands: Array, right: Array) -> None:

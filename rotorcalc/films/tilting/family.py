@@ -264,9 +264,9 @@ def _turning(rough: Mesh, e: Array, gamma: Array) -> tuple[Array, BoolArray]:
     """Return F_η of films at distances and directions (...), and their active sets."""
     position = np.stack([e * np.cos(gamma), e * np.sin(gamma)], axis=-1)
     found = films(rough, position.reshape(-1, 2))
-    at = solved(found, np.ones((e.size, *rough.shape), dtype=bool))
+    at = solved(found, np.ones((e.size, *rough.shape), dtype=bool), adjoint=False)
     for _ in range(_SCAN_SWEEPS):
-        at = solved(found, at.next_wet)
+        at = solved(found, at.next_wet, adjoint=False)
     return at.force[:, 1].reshape(e.shape), at.next_wet.reshape(*e.shape, *rough.shape)
 
 

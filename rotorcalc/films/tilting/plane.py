@@ -207,7 +207,7 @@ def _solved(shape: PadShape, s: Array, gamma: Array, resolution: tuple[int, int]
     ahead = np.sin(gamma[:, None, None, None] - over.beta[:, :, 1:-1, None])
     wet = _full(over, np.broadcast_to(ahead > _BROKEN, (len(s), *rough.shape)))
     over = films(fine, place)
-    at = solved(over, _full(over, carried(wet, fine)))
+    at = solved(over, _full(over, carried(wet, fine)), adjoint=False)
     found = columns(over, at)
     film = shape.slenderness / 4.0
     c_xx, c_xy, c_yy = found[:, 6:9].T
@@ -223,7 +223,7 @@ def _full(found: Films, guess: BoolArray) -> BoolArray:
     """Return where films are full, by corrections of those alone that still change."""
     wet, active = guess.copy(), np.arange(len(guess))
     for _ in range(_MOST_SWEEPS):
-        after = solved(found.taken(active), wet[active]).next_wet
+        after = solved(found.taken(active), wet[active], adjoint=False).next_wet
         changed = (after != wet[active]).any(axis=(1, 2, 3))
         wet[active] = after
         active = active[changed]
