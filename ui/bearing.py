@@ -114,7 +114,8 @@ class OwnField(Field):
 _OWN = {TABLE: OwnField(TABLE, TABLE, "Coefficients", Rule(Choice(()), True, None))}
 
 
-def kinds() -> dict[str, type[Geometry]]:
+@functools.cache
+def kinds() -> Mapping[str, type[Geometry]]:
     """Return the kinds of bearings by their words."""
     return Geometry.kinds() | {OWN: UnknownBore}
 

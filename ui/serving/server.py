@@ -17,7 +17,7 @@ from streamlit.url_util import make_url_path
 
 from rotorcalc import __version__
 from ui.jobs import queue
-from ui.serving import guard, log, pulse, settings, version
+from ui.serving import guard, log, pulse, settings, spare, version
 from ui.serving.own_origin import OwnOrigin
 from ui.serving.pulse import PULSE
 
@@ -88,6 +88,7 @@ async def life(_: st.App) -> AsyncIterator[None]:
     """Start where all is well, and look after it until the end; log the first line and the last."""
     log.begin()
     settings.check()
+    spare.begin()
     await asyncio.to_thread(_warm)
     if faults := await PULSE.look(pulse.AT_START):
         pulse.tell(f"STATUS=cannot start: {faults}")
