@@ -157,7 +157,7 @@ def losses(page: Page) -> None:
         (left, place.power_loss,
          cited("Drag torque times speed, all dissipated as heat.", computed, "drag")),
         (right, place.side_flow,
-         cited("Oil that leaves at both ends and must be replaced.", computed, "flow")),
+         cited(words.leaves(computed), computed, "flow")),
         (left, friction, "Drag torque/(R Fₒ); without load the drag torque itself."),
         (right, place.minimum_film_thickness, words.thinnest(computed)),
     ):  # fmt: skip

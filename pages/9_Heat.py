@@ -12,6 +12,10 @@ from ui.words.citation import cited
 def content(page: Page) -> None:
     if own.said(page.computed, own.HEAT):
         return
+    if words.says_gas(page.computed):
+        page.results("film_temperature", "viscosity", "power_loss")
+        loss(page)
+        return
     page.results("film_temperature", "outlet_temperature", "power_loss", "oil_rise", "flow_needed")
     if not film.known("Loss, flow and their heat", page.computed.point.power_loss):
         return
@@ -23,6 +27,17 @@ def content(page: Page) -> None:
     })  # fmt: skip
 
 
+def loss(page: Page) -> None:
+    page.chart(
+        lambda c: equilibrium.power_loss(c.sweep, c.point, page.units), "heat_loss",
+        alt="Power loss over running speed.", caption=_loss(page),
+    )  # fmt: skip
+
+
+def _loss(page: Page) -> str:
+    return cited("Drag torque times speed, all dissipated as heat.", page.computed, "drag")
+
+
 def over_speed(page: Page) -> None:
     units = page.units
     given = page.computed.machine.supply is None
@@ -31,8 +46,7 @@ def over_speed(page: Page) -> None:
         (heat.temperatures, "temperatures", "Given, the same at every speed."
          if given else "The film is at the mean of inlet and outlet. ISO 7902-1."),
         (heat.rise, "rise", side if given else "From inlet to outlet."),
-        (equilibrium.power_loss, "heat_loss",
-         cited("Drag torque times speed, all dissipated as heat.", page.computed, "drag")),
+        (equilibrium.power_loss, "heat_loss", _loss(page)),
         (heat.flows, "flows", cited("Oil that passes one bearing.", page.computed, "flow")),
     )  # fmt: skip
     for number, row in enumerate((charts[:2], charts[2:])):

@@ -140,6 +140,11 @@ class Computed:
         return isinstance(self.machine.bearing, CoefficientTable)
 
     @property
+    def has_gas(self) -> bool:
+        """Whether the film is a gas, which carries next to no heat away."""
+        return isinstance(self.machine.oil, Gas)
+
+    @property
     def sweep(self) -> Sweep:
         """The machine over speed, up to the top speed."""
         return _sweep(self.machine, self.top_speed)

@@ -3,9 +3,14 @@
 import pytest
 
 from rotorcalc import Gas, Oil
-from tests.app.session import BEARINGS_PAGE, HOME, faults, session_of, visit
+from rotorcalc.units import SI
+from tests.app.session import BEARINGS_PAGE, HOME, ORBITS, PAGES, faults, session_of, visit
+from ui.computed import computed_from
 from ui.inputs import GAS, inputs_of, law_of, machine_of, values_of
+from ui.results.table import RESULTS
 from ui.sharing import address
+from ui.sharing.labels import Labels
+from ui.sharing.report import report
 
 LIGHT = {
     "load": "20",
@@ -74,3 +79,31 @@ def test_beside_a_foil_the_other_bearings_run_on_the_oil() -> None:
     (table,) = at.dataframe
     assert len(table.value) > 10
     assert faults(at) == []
+
+
+@pytest.mark.parametrize("path", [path for path in PAGES if path != BEARINGS_PAGE])
+def test_every_page_of_a_foil_bearing_shows_what_it_has(path: str) -> None:
+    assert faults(visit(path, bearing="foil", **LIGHT)) == []
+
+
+def test_a_gas_has_no_balance_of_heat_but_a_loss() -> None:
+    at = visit("pages/9_Heat.py", bearing="foil", **LIGHT)
+    assert any("no balance of heat" in one.value for one in at.info)
+    assert {one.label for one in at.metric} == {"Film temperature T", "Viscosity μ", "Power loss"}
+    at = visit("pages/9_Heat.py")
+    assert "Rise of the oil ΔT" in {one.label for one in at.metric}
+
+
+def test_the_report_of_a_foil_bearing_leaves_out_what_is_oils() -> None:
+    shown = computed_from(address.read({"bearing": "foil", **LIGHT}).values)
+    page = report(shown, [], SI, "link", Labels()).decode()
+    assert "Sutherland" in RESULTS["viscosity"].cited(shown)
+    for words in ("Rise of the oil ΔT", "Groove flow needed"):
+        assert words not in page
+    assert "The film is a gas" in page
+
+
+def test_a_film_known_in_a_whirl_only_has_no_nonlinear_orbit() -> None:
+    at = visit(ORBITS, bearing="foil", **LIGHT)
+    (said,) = [one.value for one in at.info if "No nonlinear motion" in one.value]
+    assert "bearing =" not in said

@@ -2,7 +2,10 @@
 
 import math
 
+from scipy.constants import zero_Celsius
+
 from rotorcalc.films.model import Source
+from rotorcalc.gas import Gas
 from rotorcalc.machine import oil_of
 from ui.computed import Computed
 from ui.format import tex, tex_base
@@ -11,13 +14,29 @@ from ui.results.record import Result
 
 
 def _viscosity(computed: Computed) -> str:
-    oil, T = oil_of(computed.machine), float(computed.point.temperature)
+    T = float(computed.point.temperature)
+    if isinstance(gas := computed.machine.oil, Gas):
+        return _viscosity_of(gas, T, computed.viscosity)
+    oil = oil_of(computed.machine)
     power = rf"-{tex(oil.temperature_coefficient)}({tex(T)}-{tex(oil.reference_temperature)})"
     return rf"{tex(oil.reference_viscosity)}\,e^{{{power}}} = {tex(computed.viscosity, 'Pa s')}"
 
 
+def _viscosity_of(gas: Gas, T: float, viscosity: float) -> str:
+    """Return Sutherland's law with a gas's numbers, its temperatures absolute."""
+    warm, cold, S = (tex(one) for one in (
+        T + zero_Celsius, gas.reference_temperature + zero_Celsius, gas.sutherland_temperature
+    ))  # fmt: skip
+    return (
+        rf"{tex(gas.reference_viscosity)}\left(\frac{{{warm}}}{{{cold}}}\right)^{{1.5}}"
+        rf"\frac{{{cold}+{S}}}{{{warm}+{S}}} = {tex(viscosity, 'Pa s')}"
+    )
+
+
 def _law(computed: Computed) -> Source:
-    """Return the law of the oil's viscosity."""
+    """Return the law of the lubricant's viscosity."""
+    if computed.has_gas:
+        return Source("Sutherland's law", _SUTHERLAND)
     if oil_of(computed.machine).law == "exponential":
         return Source(_SHEET, _EXPONENTIAL)
     return Source("ASTM D341", r"\lg\lg(\nu + 0.7) = A - B\,\lg T,\quad \mu = \rho\nu")
@@ -83,6 +102,9 @@ def _flow(computed: Computed) -> str:
 
 _SHEET = "the notes' calculation sheet"
 _EXPONENTIAL = r"\mu = \mu_R\, e^{-\alpha(T-T_R)}"
+_SUTHERLAND = (
+    r"\mu = \mu_R \left(\tfrac{T}{T_R}\right)^{1.5} \frac{T_R+S}{T+S},\quad T, T_R\ \text{in K}"
+)
 EQUILIBRIUM: tuple[Result, ...] = (
     Result(
         "viscosity", "Viscosity μ", "viscosity", lambda c: c.viscosity, _SHEET, _EXPONENTIAL,

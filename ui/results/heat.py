@@ -73,6 +73,10 @@ def _needed_filled(computed: Computed) -> str:
     return rf"\frac{{{top}}}{{{below}}} - {tex(Q)} = {tex(computed.flow_needed)}"
 
 
+def _has_oil(computed: Computed) -> bool:
+    return not computed.has_gas
+
+
 HEAT: tuple[Result, ...] = (
     Result(
         "film_temperature", "Film temperature T", "temperature",
@@ -84,16 +88,16 @@ HEAT: tuple[Result, ...] = (
         "outlet_temperature", "Outlet temperature", "temperature",
         lambda c: float(c.point.outlet_temperature), _ISO,
         _OUTLET, _outlet, "Of the oil that leaves.",
-        unknown="not known", modelled=False, solved=_outlet_solved,
+        unknown="not known", modelled=False, solved=_outlet_solved, belongs=_has_oil,
     ),
     Result(
         "oil_rise", "Rise of the oil ΔT", "rise", _rise, _ISO, _RISE, _rise_filled,
         "With the share s of the loss, side flow Q and groove flow q.",
-        unknown="not known", modelled=False, solved=_rise_solved,
+        unknown="not known", modelled=False, solved=_rise_solved, belongs=_has_oil,
     ),
     Result(
         "flow_needed", "Groove flow needed", "flow", lambda c: c.flow_needed, _ISO, _NEEDED,
         _needed_filled, "Besides the side flow Q, so that the oil warms by ΔT = 20 K, or 36 °F.",
-        nought=lambda _: "none", unknown="not known", modelled=False,
+        nought=lambda _: "none", unknown="not known", modelled=False, belongs=_has_oil,
     ),
 )  # fmt: skip

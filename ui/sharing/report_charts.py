@@ -78,6 +78,10 @@ def _given_temperature(computed: Computed) -> str:
     return "The film's temperature is given." if computed.machine.supply is None else ""
 
 
+def _gas(computed: Computed) -> str:
+    return "The film is a gas, which carries next to no heat away." if computed.has_gas else ""
+
+
 def _unknown_film(computed: Computed) -> str:
     return _NOT_GIVEN if np.isnan(computed.film.pressure).any() else ""
 
@@ -207,23 +211,24 @@ SECTIONS: dict[str, tuple[Figure, ...]] = {
         Figure(
             "temperatures", "Temperatures", _of_sweep(heat.temperatures),
             "The film is at the mean of inlet and outlet. ISO 7902-1.",
-            missing=lambda c: _unknown("power_loss")(c) or _given_temperature(c),
+            missing=lambda c: _unknown("power_loss")(c) or _gas(c) or _given_temperature(c),
         ),
         Figure(
             "rise", "Rise of the oil", _of_sweep(heat.rise),
             "From inlet to outlet; with a given film temperature, of the side flow alone.",
-            titles={"yaxis": "ΔT [{units.rise.name}]"}, missing=_unknown("power_loss"),
+            titles={"yaxis": "ΔT [{units.rise.name}]"},
+            missing=lambda c: _unknown("power_loss")(c) or _gas(c),
         ),
         Figure(
             "balance", "Balance of heat",
             lambda c, u: heat.balance(c.heat_curves, c.point, u),
             "At the running speed; they cross at the film's temperature. ISO 7902-1.",
-            missing=lambda c: _unknown("power_loss")(c) or _given_temperature(c),
+            missing=lambda c: _unknown("power_loss")(c) or _gas(c) or _given_temperature(c),
         ),
         Figure(
             "viscosity", "Viscosity of the oil",
             lambda c, u: heat.viscosity(c.sweep, c.point, c.other_oil, u),
-            "Shaded: the film up to the top speed.",
+            "Shaded: the film up to the top speed, where its temperature changes.", missing=_gas,
         ),
     ),
     "Force coefficients": (

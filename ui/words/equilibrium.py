@@ -31,6 +31,13 @@ def of_position(computed: Computed, *, over_speed: bool) -> str:
     return remark(computed, "eccentricity", otherwise=f"{words}.")
 
 
+def leaves(computed: Computed) -> str:
+    """Return what the side flow is."""
+    if computed.has_gas:
+        return "Gas that leaves at both ends."
+    return "Oil that leaves at both ends and must be replaced."
+
+
 def cavitated(computed: Computed) -> str:
     """Return what grey strips of the film are, where they are too narrow for words."""
     narrow = film.has_narrow_cavitation(computed.film)

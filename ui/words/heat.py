@@ -2,6 +2,8 @@
 
 import math
 
+import streamlit as st
+
 from rotorcalc import Supply
 from rotorcalc.figures.heat import Warmed, oil_rise
 from rotorcalc.heat import USUAL_RISE
@@ -12,6 +14,19 @@ from ui.computed import Computed
 from ui.format import amount, digits, minus
 from ui.preview import Text
 from ui.results.table import RESULTS
+
+_GAS = (
+    "A gas carries next to no heat away: its film takes the temperature of the walls around it, "
+    "which is given, and there is no balance of heat. A gas grows more viscous as it warms, so a "
+    "warmer film carries more and loses more."
+)
+
+
+def says_gas(computed: Computed) -> bool:
+    """Return whether the film is a gas; say then why there is no balance of heat."""
+    if computed.has_gas:
+        st.info(_GAS)
+    return computed.has_gas
 
 
 def carried(computed: Computed, units: Units) -> Text:
@@ -114,11 +129,15 @@ def law(computed: Computed, units: Units) -> str:
     low, high = (
         amount(units.temperature, end) for end in (sweep.temperature.min(), sweep.temperature.max())
     )
-    where = f"at {low}" if low == high else f"from {low} to {high}"
+    film = (
+        f"The film is at {low} at every speed."
+        if low == high
+        else f"Shaded: the film up to the top speed, from {low} to {high}."
+    )
     reference = amount(units.temperature, oil.reference_temperature)
     return (
-        f"Shaded: the film up to the top speed, {where}. Both laws have the same viscosity and "
-        f"slope at {reference}.{_difference(computed, units)}"
+        f"{film} Both laws have the same viscosity and slope at {reference}."
+        f"{_difference(computed, units)}"
     )
 
 

@@ -258,8 +258,17 @@ def slow_film(computed: Computed) -> FilmMotion | InnerMotion | None:
 
 
 def has_motion(bearing: Bearing) -> bool:
-    """Return whether a film gives a force in any motion; show why not where it gives none."""
-    return attempt(lambda: film_of(bearing).motion()) is not None
+    """Return whether a film gives a force in any motion; say why not where it gives none."""
+    try:
+        film_of(bearing).motion()
+    except ValueError as error:
+        # Without the field's name in front.
+        st.info(
+            f"No nonlinear motion can be computed: {f'{error}'.partition(': ')[2]}. The linear "
+            "orbits to imbalance are on the page Response."
+        )
+        return False
+    return True
 
 
 def attempt(work: Callable[[], T]) -> T | None:
