@@ -18,6 +18,9 @@ COLOURS = (
     "#8c0afa", "#aa503c", "#969678", "#c86ee6", "#825a6e", "#46a0b4", "#aa14d2", "#5a64a0",
 )  # fmt: skip
 
+# Height of a row of a legend [px].
+_ROW = 26
+
 # The notes' own bearing behind another.
 OF_THE_NOTES = "#9a7b62"
 
@@ -53,6 +56,8 @@ def with_cases(chart: Chart, cases: Sequence[Case]) -> Chart:
     ghosts = [trace for group in groups for trace in group]
     layout = _widened(chart["layout"], [case.chart["layout"] for case in cases])
     own, layout = _legend(chart["data"], layout)
+    if _is_narrow(layout["legend"]):
+        ghosts, layout = _with_own_legend(ghosts, layout)
     both = {**chart, "data": [*ghosts, *own], "layout": layout}
     if "frames" in chart:  # a frame refers to its traces by index, which those of cases shift
         both["frames"] = [
@@ -134,6 +139,19 @@ def _legend(traces: Sequence[Trace], layout: Chart) -> tuple[list[Trace], Chart]
     if layout.get("showlegend", True):
         return list(traces), layout
     return [{**trace, "showlegend": False} for trace in traces], {**layout, "showlegend": True}
+
+
+def _is_narrow(legend: dict[str, Any]) -> bool:
+    """Return whether a legend's entries have a width [px] of their own, which would cut names."""
+    return "entrywidth" in legend and legend.get("entrywidthmode") != "fraction"
+
+
+def _with_own_legend(ghosts: Sequence[Trace], layout: Chart) -> tuple[list[Trace], Chart]:
+    """Return traces and layout with the cases' names in a legend of their own below the chart."""
+    below = {"orientation": "h", "x": 0, "yref": "container", "y": 0, "yanchor": "bottom"}
+    margin = {**layout["margin"], "b": layout["margin"]["b"] + _ROW}
+    named = [{**one, "legend": "legend2"} if one.get("showlegend") else one for one in ghosts]
+    return named, {**layout, "legend2": below, "margin": margin}
 
 
 def _widened(layout: Chart, others: Sequence[Chart]) -> Chart:

@@ -28,6 +28,8 @@ _SEQUENCE = [
 _LADDER, _FEWEST = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0), 5
 # Words keep this share of the map's width or height from its marks and from each other.
 _APART = 0.13
+# Between which shares of the map's width and height words in a region have their middle.
+_WITHIN = (0.06, 0.94), (0.04, 0.96)
 _UNSTABLE = "rgba(209,84,31,0.45)"
 
 
@@ -104,7 +106,12 @@ class _Grid:
         depth = distance_transform_edt(np.pad(inside, 1))[1:-1, 1:-1]
         rows, columns = np.nonzero(depth >= 0.7 * max(depth.max(), 1.0))
         height, width = (size - 1 for size in inside.shape)
-        return self._freest([(c / width, r / height) for r, c in zip(rows, columns, strict=True)])
+        # A thin region may lie along an edge, where words would stand across it.
+        (left, right), (low, high) = _WITHIN
+        return self._freest([
+            (min(max(c / width, left), right), min(max(r / height, low), high))
+            for r, c in zip(rows, columns, strict=True)
+        ])  # fmt: skip
 
     def _freest(self, places: Sequence[Place], apart: float = 0.0) -> Place | None:
         if not places:

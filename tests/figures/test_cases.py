@@ -51,6 +51,17 @@ def test_a_chart_without_a_legend_names_the_cases_alone():
     assert [t["name"] for t in chart["data"] if t.get("showlegend", True)] == ["A"]
 
 
+def test_names_of_cases_are_not_cut_by_a_legend_of_narrow_entries():
+    narrow = {"orientation": "h", "entrywidth": 28}
+    for legend, place in ((narrow, "legend2"), (narrow | {"entrywidthmode": "fraction"}, None)):
+        chart = beside(drawn(1.0, legend=legend), drawn(2.0, legend=legend))
+        entry = chart["data"][0]
+        assert (entry["name"], entry.get("legend")) == ("A", place)
+        assert ("legend2" in chart["layout"]) == (place is not None)
+        assert all("legend" not in trace for trace in chart["data"][1:])
+        check_plotly_takes_it(chart)
+
+
 def test_bars_of_a_case_are_marks_at_their_ends():
     def bars(height):
         chart = drawn(1.0)
