@@ -5,7 +5,9 @@ equilibrium (x, x') = (x_0, 0), so they exist for every film model with a force 
 The admissible length of a line depends on its direction: the force is singular at the wall, and not
 smooth where squeeze and wedge cancel, as in a plain bearing at half-speed whirl. So each line is
 shortened step by step. On too long a line the polynomial does not converge, on too short a one
-rounding dominates: the length is taken at which the result changes least.
+rounding dominates: the length is taken at which the result changes least, and the polynomial's last
+coefficients vanish. For changes alone do not tell: from far away a force that turns round at the
+rest is odd, and its second derivative is zero on any line that is too long.
 """
 
 from typing import NamedTuple
@@ -53,6 +55,8 @@ class FilmExpansion:
         self.nodes = np.cos(np.pi * (np.arange(points) + 0.5) / points)
         fit = np.linalg.inv(chebyshev.chebvander(self.nodes, points - 1))
         self.slopes = np.stack([_at_middle(points, order) @ fit for order in (2, 3)])
+        # A polynomial's last coefficients, each as the derivatives at the middle that it may give.
+        self.tail = np.stack([points**order * fit[-2:] for order in (2, 3)])
 
     def along(self, direction: Array) -> Array:
         """Return the second and third derivatives of the force along a direction, (2, 2)."""
@@ -60,13 +64,13 @@ class FilmExpansion:
         unit = direction / size
         # A line mostly along velocity hardly approaches the wall: its length is bounded anyway.
         reach = _FARTHEST * self.gap / max(float(np.linalg.norm(unit[:2])), 0.1)
-        last = best = self._tried(unit, reach)
+        last = best = self._tried(unit, reach)[0]
         least = np.full(2, np.inf)
         for _ in range(_MOST_REACHES):
             reach *= _SHORTER
-            found = self._tried(unit, reach)
-            # Second and third derivative each take the length at which they change least.
-            change = np.abs(found - last).max(axis=1)
+            found, doubt = self._tried(unit, reach)
+            # Second and third derivative each take the length at which they are least in doubt.
+            change = np.maximum(np.abs(found - last).max(axis=1), doubt)
             best = np.where((change < least)[:, None], found, best)
             least, last = np.minimum(change, least), found
             if np.all(least < _RESOLVED * np.abs(best).max(axis=1)) and np.all(change > 10 * least):
@@ -105,11 +109,13 @@ class FilmExpansion:
     def _curvature(self, direction: Array) -> Array:
         return self.along(direction)[0] if np.any(direction) else np.zeros(2)
 
-    def _tried(self, unit: Array, reach: float) -> Array:
-        """Return both derivatives by a polynomial over a line of this reach."""
+    def _tried(self, unit: Array, reach: float) -> tuple[Array, Array]:
+        """Return both derivatives by a polynomial over a line of this reach, and what it omits."""
         states = self.rest + reach * self.nodes[:, None] * unit
         forces = np.array([self.force(*state) for state in states.tolist()])
-        return self.slopes @ forces / np.array([[reach**2], [reach**3]])
+        scale = np.array([reach**2, reach**3])
+        found, left = self.slopes @ forces, np.abs(self.tail @ forces).max(axis=(1, 2))
+        return found / scale[:, None], left / scale
 
 
 def _at_middle(points: int, order: int) -> Array:

@@ -35,6 +35,13 @@ NEARLY_CENTRAL = Machine(
     rotor=Rotor(mass=10.0, disk_damping=1.677e6),
     temperature=30.0,
 )
+# Its force bends within a distance of 4e-8 C, and from farther away is odd about the rest.
+AT_THE_CENTRE = Machine(
+    oil=Oil(reference_viscosity=0.146, reference_temperature=50, temperature_coefficient=0.03),
+    bearing=JournalBearing(diameter=0.3082, length=0.1932, radial_clearance=104.7e-6),
+    rotor=Rotor(mass=13.42, shaft_stiffness=143.6e6, disk_damping=186.6e3, journal_mass=2.202e-3),
+    temperature=93.3,
+)
 
 
 def stiff(k, **rotor):
@@ -95,6 +102,7 @@ def test_the_normal_form_grows_as_the_motion_does(kind):
 @example(machine=stiff(1e9))
 @example(machine=stiff(1e10))
 @example(machine=stiff(1e5))
+@example(machine=AT_THE_CENTRE)
 def test_the_coefficient_is_that_of_the_limit_cycles(machine):
     """The cycles know nothing of derivatives: ℓ is −C² d(Re λ)/dΩ over the slope of a² by Ω."""
     onset = found_of(machine)
@@ -144,6 +152,7 @@ def lyapunov_of_cycles(machine, onset):
 @settings(max_examples=40)
 @given(machine=any_machine)
 @example(machine=NEARLY_CENTRAL)
+@example(machine=AT_THE_CENTRE)
 def test_the_error_bounds_the_difference_from_extended_precision(machine):
     onset = found_of(machine)
     with pytest.MonkeyPatch.context() as patch:
