@@ -32,7 +32,7 @@ _HEAVY = 4.0 / _LIGHTEST
 # pressure along the axis counts for more than that around the pads.
 _SCAN, _COARSE = (16, 2), (24, 2)
 _SMOOTH, _MANY_PADS = {1: (160, 3, 26), 2: (96, 3, 26)}, (80, 3, 26)
-_DAM, _DAMS = (96, 3, 30), (56, 4, 24)
+_DAM, _DAMS = (96, 3, 24), (56, 4, 24)
 # While a bore changes: about a third of the time.
 _COARSE_ARC, _COARSE_SMOOTH = (96, 2, 16), (48, 2, 16)
 _COARSE_DAM, _COARSE_DAMS = (48, 2, 20), (32, 2, 16)
