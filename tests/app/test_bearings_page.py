@@ -112,7 +112,8 @@ def test_a_click_in_the_table_takes_its_bearing_over(monkeypatch: pytest.MonkeyP
 
 def judged(at: AppTest) -> list[str]:
     """Return what is said of the kinds and judged by this machine's numbers."""
-    return [one.value for one in at.markdown if "-badge[" in one.value and "against" in one.value]
+    lines = (line for one in at.markdown for line in one.value.split("\n\n"))
+    return [line for line in lines if "-badge[" in line and "against" in line]
 
 
 def test_what_is_said_of_a_kind_is_borne_out_by_the_numbers_or_not() -> None:

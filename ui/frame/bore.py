@@ -3,6 +3,7 @@
 import base64
 from collections.abc import Callable, Iterable
 from contextlib import suppress
+from functools import lru_cache
 from itertools import groupby
 
 import streamlit as st
@@ -75,6 +76,7 @@ def picture_tag(bearing: Bearing, size: int) -> str:
     return f'<img src="{address}" alt="" width="{size}" height="{size}">'
 
 
+@lru_cache(maxsize=256)
 def picture_address(bearing: Bearing) -> str:
     """Return the small picture of a bore as an address that holds it, empty where there is none."""
     try:

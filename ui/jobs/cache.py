@@ -27,6 +27,7 @@ class Cached(Generic[T]):
         self._work, self._turns = work, turns
         self._entries, self._bytes = entries, megabytes * 1e6
         self._found: OrderedDict[object, tuple[T, int]] = OrderedDict()
+        self._size = 0  # their sum: to go through all of them is to hash every machine anew
         self._under_way: set[object] = set()
         self._changed = threading.Condition()
 
@@ -70,8 +71,7 @@ class Cached(Generic[T]):
     @property
     def size(self) -> int:
         """Bytes of the cached results."""
-        with self._changed:
-            return sum(size for _, size in self._found.values())
+        return self._size
 
     def __len__(self) -> int:
         return len(self._found)
@@ -83,12 +83,14 @@ class Cached(Generic[T]):
             return self._found.get(key)
 
     def _keep(self, key: object, result: T) -> None:
+        size = size_of(result)
         with self._changed:
-            self._found[key] = result, size_of(result)
+            self._found[key] = result, size
+            self._size += size
             while len(self._found) > self._entries or (
-                len(self._found) > 1 and sum(size for _, size in self._found.values()) > self._bytes
+                len(self._found) > 1 and self._size > self._bytes
             ):
-                self._found.popitem(last=False)
+                self._size -= self._found.popitem(last=False)[1][1]
 
 
 def size_of(result: object) -> int:

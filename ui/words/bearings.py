@@ -374,10 +374,8 @@ def card(page: Page, one: BearingResult, found: Sequence[BearingResult]) -> None
     """Show a kind's picture, what is said of it, whether it holds here, and a button to take it."""
     kind = one.bearing.geometry.kind
     st.html(picture_tag(one.bearing, 96))
-    st.markdown(f"**{name_of(kind)}**")
-    st.markdown(_JUDGEMENTS[kind].words)
-    for line in here(one, found, page.units):
-        st.markdown(line)
+    words = (f"**{name_of(kind)}**", _JUDGEMENTS[kind].words, *here(one, found, page.units))
+    st.markdown("\n\n".join(words))
     st.button(
         "Use this bearing", key=f"use_{kind}", on_click=session().set_bearing, args=(one.bearing,),
         disabled=one.bearing == page.computed.machine.bearing, help=_USE,
