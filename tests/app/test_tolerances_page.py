@@ -22,6 +22,7 @@ from ui.frame.page import PAGES
 from ui.sharing.drawn import drawn_csv
 from ui.words import spreads, studies
 from ui.words.design import fields_of, quantity
+from ui.words.one_input import Varied
 from ui.words.tolerances import Study, quantity_of, said
 
 TOLERANCES = next(path for path, name in PAGES.items() if name == "Tolerances")
@@ -201,6 +202,26 @@ def test_every_input_of_every_bore_can_spread_and_be_swept_about_its_value(geome
         assert low * (1 - 1e-9) <= now <= high * (1 + 1e-9)
         axis = quantity(key, machine, SI)
         assert axis.low < axis.high
+
+
+@pytest.mark.parametrize(
+    ("geometry", "key", "last", "step"),
+    [
+        (rc.Elliptical(preload=0.5), "preload", 0.9, 0.05),
+        (rc.TiltingPads(), "preload", 0.9, 0.1),
+        (rc.PartialArc(arc=math.radians(150.0)), "centre", 45.0, 5.0),
+    ],
+    ids=["preload", "of pads", "angle"],
+)
+def test_shares_and_angles_are_swept_in_round_linear_steps(geometry, key, last, step) -> None:
+    machine = replace(SHEET, bearing=replace(SHEET.bearing, geometry=geometry, film=None))
+    axis = quantity(key, machine, SI)
+    assert not axis.log
+    varied = Varied(key, axis)
+    values = axis.unit.of(varied.values(machine, varied.points(machine)))
+    assert values[-1] == pytest.approx(last)
+    assert np.diff(values)[1:-1] == pytest.approx(step)
+    assert values / step == pytest.approx(np.round(values / step), abs=1e-9)
 
 
 def test_of_own_coefficients_the_rotor_spreads() -> None:

@@ -105,7 +105,9 @@ def _round(value: float) -> float:
 
 def _bore_quantity(key: str, machine: Machine, units: Units) -> Quantity:
     field, now = bore_field(machine, key), value_of(machine, key)
-    if now <= 0.0:
+    # A share or an angle has a linear slider; and what is zero has no ratios.
+    item = inputs_of(values_of(machine, _SPEED, _SPEED)).get(key)
+    if now <= 0.0 or (item is not None and item.step):
         return _over_its_slider(key, machine, units)
     ends = [
         next((end for factor in _FACTORS if _makes(machine, key, end := now * factor**sign)), now)
@@ -115,16 +117,20 @@ def _bore_quantity(key: str, machine: Machine, units: Units) -> Quantity:
 
 
 def _over_its_slider(key: str, machine: Machine, units: Units) -> Quantity:
-    """Return a bore's field that is zero or negative, which has no ratios, as an axis."""
-    field, now = bore_field(machine, key), value_of(machine, key)
+    """Return a bore's field as a linear axis: its slider's, as far as that makes bores."""
+    field = bore_field(machine, key)
     values = values_of(machine, _SPEED, _SPEED)
     item = inputs_of(values)[key]
     ends = (item.low, item.high) if item.step else (0.0, _REACH * usual(key, values))
-    low, high = (
-        next((end for part in (1.0, 0.5, 0.2) if _makes(machine, key, end := now + part * by)), now)
-        for by in (item.unit(SI).to_si(end) - now for end in ends)
-    )
+    low, high = (_farthest(machine, key, item.unit(SI).to_si(end)) for end in ends)
     return Quantity(field.label, "", field.unit(units), low, high)
+
+
+def _farthest(machine: Machine, key: str, end: float) -> float:
+    """Return an end of a field's slider, or how near to it a machine can be, in tenths."""
+    now = value_of(machine, key)
+    ways = (end + (now - end) * tenths / 10.0 for tenths in range(10))
+    return next((there for there in ways if _makes(machine, key, there)), now)
 
 
 def _makes(machine: Machine, key: str, value: float) -> bool:

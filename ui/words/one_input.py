@@ -37,10 +37,30 @@ class Varied:
 
     def values(self, machine: Machine, points: int) -> Array:
         """Return its values over the axis, a machine's own among them."""
-        space = np.geomspace if self.axis.log else np.linspace
+        space = np.geomspace if self.axis.log else self._round_steps
         own = value_of(machine, self.key)
-        inside = [own] if self.axis.low <= own <= self.axis.high else []
-        return np.union1d(space(self.axis.low, self.axis.high, points), inside)
+        values = space(self.axis.low, self.axis.high, points)
+        if not self.axis.low <= own <= self.axis.high:
+            return values
+        # A value that differs from the machine's own by rounding is its own.
+        return np.union1d(values[~np.isclose(values, own, rtol=1e-9, atol=0.0)], [own])
+
+    def _round_steps(self, low: float, high: float, points: int) -> Array:
+        """Return about so many values between two, in round steps of the unit shown, and both."""
+        unit = self.axis.unit
+        first, last = float(unit.of(low)), float(unit.of(high))
+        wanted = (last - first) / (points - 1)
+        if not wanted > 0.0:
+            return np.array([low])
+        power = 10.0 ** math.floor(math.log10(wanted))
+        step = min((one * power for one in (1.0, 2.0, 2.5, 5.0, 10.0)),
+                   key=lambda one: abs(math.log(one / wanted)))  # fmt: skip
+        counts = np.arange(math.ceil(first / step), math.floor(last / step) + 1)
+        inner = unit.to_si(counts * step)
+        # An end a rounding error away from a round value is that value.
+        near = 1e-6 * (high - low)
+        inner = inner[(inner - low > near) & (high - inner > near)]
+        return np.array([low, *inner, high])
 
     def seconds(self, machine: Machine) -> float:
         """Return about how long one of its values takes [s]."""
