@@ -32,14 +32,21 @@ def tolerances(page: Page) -> None:
             drawn = ask.drawn(page, asked)
         if drawn is None:
             return
-        study, found = drawn
-        with answer:
-            st.info(ask.said(found, page.units))
-        with right:
-            onsets(page.alone(), found)
-        what_matters(page.alone(), study, found)
-        margins(page.alone(), study, found)
-        machines(page, study, found)
+        if drawn.before:
+            answer.warning(drawn.before)
+        with answer, outcome(drawn, "answer"):
+            st.info(ask.said(drawn.found, page.units))
+        with right, outcome(drawn, "onsets"):
+            onsets(page.alone(), drawn.found)
+        with outcome(drawn, "rest"):
+            what_matters(page.alone(), drawn.study, drawn.found)
+            margins(page.alone(), drawn.study, drawn.found)
+            machines(page, drawn.study, drawn.found)
+
+
+def outcome(drawn: ask.Drawn, part: str):
+    """Return a container of a result, dimmed where it is an earlier one's."""
+    return st.container(key=f"{'former' if drawn.before else 'drawn'}_{part}")
 
 
 def onsets(page: Page, found: Tolerance) -> None:

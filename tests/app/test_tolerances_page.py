@@ -262,6 +262,37 @@ def test_a_slow_study_is_drawn_on_request_and_says_whose_it_is_when_the_machine_
     assert answer(at) == first
 
 
+def test_a_spread_that_is_none_is_named_beside_its_input_and_the_old_answer_is_dimmed() -> None:
+    at = study()
+    first = answer(at)
+    assert dimmed_texts(at) == []
+    field(at, "Low [µm]").set_value("abc").run()
+    assert faults(at) == []
+    reason = "Radial clearance C: low = `'abc'` is not a number"
+    beside, above = [box.value for box in at.warning if reason in box.value][::-1]
+    assert beside == f"{reason}."
+    assert above.startswith(f"Nothing was drawn: {reason}. This result is of an earlier machine")
+    assert first in dimmed_texts(at)
+    field(at, "Low [µm]").set_value("51").run()
+    assert answer(at) == first
+    assert dimmed_texts(at) == []
+    assert not at.warning
+
+
+def dimmed_texts(at: AppTest) -> list[str]:
+    """Return the texts in containers whose key says that they are of a former result."""
+
+    def texts(block, inside):
+        inside = inside or "former_" in getattr(block.proto, "id", "")
+        for child in block.children.values():
+            if hasattr(child, "children"):
+                yield from texts(child, inside)
+            elif inside and child.type in ("info", "alert"):
+                yield child.value
+
+    return list(texts(at.main, False))
+
+
 def test_a_slow_study_that_is_refused_keeps_its_reason_and_is_not_begun_again() -> None:
     at = study(**SLOW, spreads="C~normal~60~30")
     button(at, "tolerances_draw")

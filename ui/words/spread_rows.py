@@ -32,8 +32,14 @@ class Rows:
         """The inputs that spread, as the core names them."""
         return tuple(fields_of(self.machine)[one.key] for one in self.spreads)
 
+    @property
+    def problem(self) -> str:
+        """Why the first spread that cannot be used is none, or nothing."""
+        said = (spreads.problem(self.machine, one, self.units) for one in self.spreads)
+        return next(filter(None, said), "")
+
     def draw(self) -> None:
-        """Show a row for each spread."""
+        """Show a row for each spread, and below it why it cannot be used."""
         for place in range(len(self.spreads)):
             self._row(place)
 
@@ -59,6 +65,8 @@ class Rows:
                     "Remove", key=f"spread_{place}_remove", type="tertiary",
                     on_click=self._drop, args=(place,),
                 )  # fmt: skip
+        if problem := spreads.problem(self.machine, one, self.units):
+            st.warning(f"{problem}.")
 
     def _number(self, place: int, number: int) -> None:
         one, key = self.spreads[place], f"spread_{place}_{number}_{self.units.name}"

@@ -239,6 +239,15 @@ def given(machine: Machine, spreads: tuple[Spread, ...], units: Units) -> Spread
     return tuple((fields_of(machine)[one.key], _core(machine, one, units)) for one in spreads)
 
 
+def problem(machine: Machine, spread: Spread, units: Units) -> str:
+    """Return why the core cannot take a spread, or nothing."""
+    try:
+        _core(machine, spread, units)
+    except ValueError as error:
+        return f"{error}"
+    return ""
+
+
 def _core(machine: Machine, spread: Spread, units: Units) -> tuple[str | float, ...]:
     numbers: list[float] = []
     for place, (words, kind) in enumerate(spread.distribution.numbers):

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 import streamlit as st
@@ -36,8 +37,20 @@ _quick = cache.Cached(work.study, entries=64, megabytes=16, turns=SHORT)
 # --- What is asked -----------------------------------------------------------------------------
 
 
-def choose_study(page: Page) -> Study | None:
-    """Ask what spreads, how many machines are drawn and by which seed; show why none can be."""
+@dataclass(frozen=True)
+class Drawn:
+    """A study that was drawn, what came of it, and of an earlier one in what it differs."""
+
+    study: Study
+    found: Tolerance
+    before: str = ""
+
+
+def choose_study(page: Page) -> Study | str:
+    """Ask what spreads, how many machines are drawn and by which seed, or return why none can be.
+
+    The reason stands beside its input too.
+    """
     machine, units = page.computed.machine, page.units
     rows = choose_spreads(machine, units)
     most = most_samples(machine, rows.fields)
@@ -45,6 +58,8 @@ def choose_study(page: Page) -> Study | None:
     with st.container(horizontal=True, gap="xsmall", vertical_alignment="bottom"):
         samples = _text("Machines drawn", SAMPLES, f"{usual_samples(machine, rows.fields)}")
         seed = _text("Seed", SEED, "1")
+    if rows.problem:
+        return rows.problem
     try:
         return Study(
             machine, page.computed.speed, spreads.given(machine, rows.spreads, units),
@@ -53,7 +68,7 @@ def choose_study(page: Page) -> Study | None:
         )  # fmt: skip
     except ValueError as error:
         st.warning(f"{error}.")
-        return None
+        return f"{error}"
 
 
 def _text(label: str, key: str, usual: str) -> str:
@@ -88,19 +103,18 @@ def _more(most: int) -> str:
 # --- The study ---------------------------------------------------------------------------------
 
 
-def drawn(page: Page, asked: Study | None) -> tuple[Study, Tolerance] | None:
+def drawn(page: Page, asked: Study | str) -> Drawn | None:
     """Return the study asked for, once it is drawn; until then the one before, and whose it is."""
-    if asked is not None:
+    if not isinstance(asked, str):
         found = _found(page, asked)
         if found is not None:
             st.session_state[_HELD] = asked
-            return asked, found
+            return Drawn(asked, found)
     held = st.session_state.get(_HELD)
     known = None if held is None else _known(held)
     if held is None or known is None:
         return None
-    st.warning(_of_before(held, page, asked))
-    return held, known
+    return Drawn(held, known, _of_before(held, page, asked))
 
 
 def _found(page: Page, asked: Study) -> Tolerance | None:
@@ -152,15 +166,18 @@ def _time(seconds: float) -> str:
     return f"{max(math.ceil(seconds), 1)}\u00a0s"
 
 
-def _of_before(held: Study, page: Page, asked: Study | None) -> str:
+def _of_before(held: Study, page: Page, asked: Study | str) -> str:
     """Return that a result belongs to what was drawn before, and what has changed since."""
     changes = list(_changes(held, page, asked))
     listed = "; ".join(changes[:4]) + ("; and more" if len(changes) > 4 else "")
     words = f"This result is of an earlier machine or other spreads{f': {listed}' * bool(listed)}."
-    return words if asked is None else f"{words} **Draw** gives it for this machine."
+    if isinstance(asked, str):
+        return f"Nothing was drawn: {asked}. {words}"
+    refused, _ = st.session_state.get(_REFUSED, (None, ""))
+    return words if refused == asked else f"{words} **Draw** gives it for this machine."
 
 
-def _changes(held: Study, page: Page, asked: Study | None) -> Iterator[str]:
+def _changes(held: Study, page: Page, asked: Study | str) -> Iterator[str]:
     now, top = page.computed, page.computed.top_speed
     machines = [
         values_of(machine, speed, top)
@@ -168,7 +185,7 @@ def _changes(held: Study, page: Page, asked: Study | None) -> Iterator[str]:
     ]
     for row in comparison.inputs(machines, page.units):
         yield f"{row.label} was {row.texts[0]}, now {row.texts[1]}"
-    if asked is not None:
+    if not isinstance(asked, str):
         if held.spreads != asked.spreads:
             yield "other spreads"
         for words, was, is_now in (
