@@ -29,6 +29,8 @@ _NAMES = {"XY": ("X", "Y"), "rt": ("r", "t")}
 _LEGEND = {
     "orientation": "h", "x": 0, "y": 1.01, "yanchor": "bottom", "entrywidth": 28,
            "itemwidth": 30}  # fmt: skip
+# By so much a chart of a table's rows reaches beyond them.
+_ROOM = 1.04
 # Speeds below this share of the top speed do not set a linear axis: they diverge as Ω → 0.
 _SLOW = 0.1
 
@@ -79,9 +81,12 @@ def of_table(
     unit: Unit = units.stiffness if symbol == "K" else units.damping
     at, shown, here = units.speed.of(speed), unit.of(values), float(units.speed.of(now))
     x = style.axis(
-        style.titled("Running speed", "Ω", units.speed.name), 0.0, style.ceiling([*at, here])
+        style.titled("Running speed", "Ω", units.speed.name),
+        0.0,
+        style.ceiling(_ROOM * np.append(at, here)),
     )
-    low, high = _span(shown)
+    # Room for the marks, which at an end of the axis would be cut in half.
+    low, high = _span(_ROOM * shown)
     words = "Stiffness" if symbol == "K" else "Damping"
     y = style.axis(style.titled(words, f"{symbol}_ij", unit.name), low, high)
     traces = [

@@ -77,10 +77,11 @@ def threshold(over: Thresholds, here: Thresholds, crossing: Crossing, units: Uni
     unit = units.speed
     speed, x = unit.of(over.speed), _speed_axis(over, units)
     top, now = _high(x), float(unit.of(here.flexible))
+    wanted = [now, *_halves(unit, over.flexible, over.rigid)]
     y = style.axis(
         titled("Threshold speed", "Ω_s, Ω_sf", unit.name),
         0.0,
-        style.ceiling([1.2 * top, *_shown([now, *unit.of(over.rigid[-1:])], 4.0 * top)]),
+        style.ceiling([1.2 * top, *_shown(wanted, 4.0 * top)]),
     )
     line = style.line([0.0, top], [0.0, top], "Ω", style.GREY, dash="dot")
     onset = float(unit.of(crossing.onset.speed))
@@ -112,10 +113,11 @@ def whirl_frequency(over: Thresholds, here: Thresholds, crossing: Crossing, unit
     unit = units.speed
     speed, x = unit.of(over.speed), _speed_axis(over, units)
     top, now = _high(x), float(unit.of(here.flexible_frequency))
+    wanted = [now, *_halves(unit, over.flexible_frequency, over.rigid_frequency)]
     y = style.axis(
         titled("Whirl at the threshold", "ω_s", unit.name),
         0.0,
-        style.ceiling([0.6 * top, *_shown([now, *unit.of(over.rigid_frequency[-1:])], 4.0 * top)]),
+        style.ceiling([0.6 * top, *_shown(wanted, 4.0 * top)]),
     )
     half = style.line([0.0, top], [0.0, 0.5 * top], "½ Ω", style.GREY, dash="dot")
     rigid, flexible = unit.of(over.rigid_frequency), unit.of(over.flexible_frequency)
@@ -137,8 +139,10 @@ def critical_mass(over: Thresholds, here: Thresholds, crossing: Crossing, units:
     unit = units.speed
     speed, x = unit.of(over.speed), _speed_axis(over, units)
     now = float(here.flexible_mass_ratio)
-    low = 10.0 ** min(-1, math.floor(math.log10(now)) if 0.0 < now < math.inf else -1)
-    high = 10.0 ** max(2, math.ceil(math.log10(now)) if 0.0 < now < math.inf else 2)
+    # Both curves fall with the speed: each has at least its lower end on the chart.
+    low, high = style.decades([0.1, 100.0, now,
+                               *_lowest(units.number, over.flexible_mass_ratio,
+                                        over.rigid_mass_ratio)])  # fmt: skip
     y = style.axis(titled("Critical mass over rotor mass", "", "-"), low, high, log=True)
     one = style.line([0.0, _high(x)], [1.0, 1.0], "rotor mass", style.GREY, dash="dot")
     chart = _over_speed(
@@ -297,12 +301,26 @@ def _over_speed(
         traces.append(style.line([mark[0]] * 2, ends, name, style.UNSTABLE))
     elif _inside(mark, axes):
         traces.append(style.mark(*mark, name, style.UNSTABLE))
-    notes = list(layout.pop("annotations"))
+    notes = [*layout.pop("annotations"), *_off_the_chart(traces, y)]
     if _inside(here, axes):
         traces += style.here(*here, x, y)
     else:
         notes.append(_beyond("running speed: no whirl", here, axes))
     return style.chart(traces, x, y, annotations=notes, legend=LEGEND, margin=MARGIN, **layout)
+
+
+def _off_the_chart(traces: list[Trace], y: Axis) -> list[Item]:
+    """Return notes on thresholds of which no part lies within the chart."""
+    notes: list[Item] = []
+    for trace in traces:
+        values = np.asarray(trace["y"], dtype=float)
+        values = values[np.isfinite(values) & (values < _BEYOND)]
+        if not values.size or np.any((values >= _low(y)) & (values <= _high(y))):
+            continue
+        arrow, end = ("↑", values.min()) if values.min() > _high(y) else ("↓", values.max())
+        words = f"{arrow} {trace['name']}: {'from' if arrow == '↑' else 'up to'} {number(end)}"
+        notes.append(style.note(words, 0.02, 0.9 - 0.08 * len(notes), xanchor="left"))
+    return notes
 
 
 def _pair(speed: Array, rigid: Array, flexible: Array, crossing: Crossing) -> list[Trace]:
@@ -328,6 +346,20 @@ def near(axis: Axis) -> Axis:
 def _shown(values: ArrayLike, most: float) -> Array:
     """Return values that an axis must include, none above `most`, which would squeeze the rest."""
     return np.minimum(np.asarray(values, dtype=float), most)
+
+
+def _lowest(unit: Unit, *curves: Array) -> list[float]:
+    """Return the smallest value of each curve that has one, with some room above it."""
+    known = (curve[np.isfinite(curve)] for curve in curves)
+    return [1.05 * float(unit.of(curve.min())) for curve in known if curve.size]
+
+
+def _halves(unit: Unit, *curves: Array) -> list[float]:
+    """Return what an axis must include so that each curve has its lower half and its end on it."""
+    known = [curve[np.isfinite(curve)] for curve in curves]
+    ends = [float(unit.of(end)) for curve in known if curve.size
+            for end in (np.median(curve), curve[-1])]  # fmt: skip
+    return [*_lowest(unit, *curves), *ends]
 
 
 def _drawable(values: Array) -> Array:

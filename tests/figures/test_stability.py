@@ -3,14 +3,16 @@
 import json
 import math
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from rotorcalc import PRESETS, design, thresholds, variation
+from rotorcalc import PRESETS, CoefficientTable, TiltingPads, design, rpm, thresholds, variation
 from rotorcalc.figures import SI, US, Chart, Units
 from rotorcalc.figures import design as what_if
 from rotorcalc.figures import stability as figures
+from rotorcalc.figures.coefficients import of_table
 from rotorcalc.figures.onset_map import onset_map
 from rotorcalc.onset import Onset
 from tests.figures.charts import (
@@ -375,3 +377,62 @@ def test_every_input_can_be_varied_over_its_axis(key: str) -> None:
         field = moves.fields_of(computed.machine)[key]
         varied = variation.varied(computed.machine, {field: end})
         assert variation.value_of(varied, field) == end
+
+
+MACHINE = PRESETS["sheet-1e8"].machine
+
+
+@pytest.mark.parametrize("stiffness", [1e5, 1e6], ids=lambda k: f"{k:g} N·m/rad")
+def test_thresholds_of_pads_on_flexures_lie_on_the_chart(stiffness):
+    pads = TiltingPads(rotational_stiffness=stiffness)
+    computed = Computed(
+        replace(MACHINE, bearing=replace(MACHINE.bearing, geometry=pads, film=None)),
+        6000 * rpm, 12000 * rpm,
+    )  # fmt: skip
+    for draw in (figures.threshold, figures.whirl_frequency, figures.critical_mass):
+        assert_thresholds_are_on(ask.over_speed(draw, computed, SI), computed)
+
+
+def test_thresholds_of_an_own_table_lie_on_the_chart():
+    # Stiff, on a soft shaft: the critical mass falls far below the rotor's.
+    speed = np.array([2000.0, 9000.0]) * rpm
+    K = np.array([[[2e8, 2e8], [-1e8, 2e8]], [[2e8, 3e8], [-3e8, 4e8]]])
+    C = np.array([[[5e5, 0.0], [0.0, 5e5]], [[3e5, 0.0], [0.0, 3e5]]])
+    table = CoefficientTable(speed=speed, stiffness=K, damping=C)
+    soft = replace(MACHINE, rotor=replace(MACHINE.rotor, shaft_stiffness=1e7), bearing=table)
+    computed = Computed(soft, 6000 * rpm, 9000 * rpm)
+    for draw in (figures.threshold, figures.whirl_frequency, figures.critical_mass):
+        assert_thresholds_are_on(ask.over_speed(draw, computed, SI), computed)
+
+
+def assert_thresholds_are_on(chart, computed):
+    """Assert that half of each line lies on a chart, as far as it is below four times the speed."""
+    low, high = chart["layout"]["yaxis"]["range"]
+    if chart["layout"]["yaxis"]["type"] == "log":
+        low, high = 10.0**low, 10.0**high
+    lines = [one for one in chart["data"] if "shaft" in one["name"]]
+    assert lines
+    for line in lines:
+        y = np.asarray(line["y"], dtype=float)
+        y = y[np.isfinite(y)]
+        assert np.mean((y >= low) & (y <= high)) >= 0.5 or high >= 4.0 * computed.top_speed / rpm
+
+
+def test_a_threshold_beyond_the_chart_is_named():
+    weak = TiltingPads(rotational_stiffness=3e3)
+    machine = replace(MACHINE, bearing=replace(MACHINE.bearing, geometry=weak, film=None))
+    chart = ask.over_speed(figures.threshold, Computed(machine, 6000 * rpm, 12000 * rpm), SI)
+    high = chart["layout"]["yaxis"]["range"][1]
+    beyond = [one for one in chart["data"] if "shaft" in one["name"] and np.nanmin(one["y"]) > high]
+    assert beyond
+    for line in beyond:
+        assert any(text.startswith(f"↑ {line['name']}: from") for text in _texts(chart))
+
+
+def test_a_tables_rows_are_not_cut_at_the_ends_of_its_chart():
+    speed = np.array([100.0, 200.0])
+    values = np.array([[[1e8, -3e8], [0.0, 1e8]], [[4e8, 0.0], [0.0, 1e8]]])
+    chart = of_table(speed, values, "K", 150.0, SI)
+    low, high = chart["layout"]["yaxis"]["range"]
+    assert low < -300.0 * 1.02
+    assert high > 400.0 * 1.02
