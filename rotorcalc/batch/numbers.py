@@ -68,15 +68,15 @@ def number(cell: str, mark: Mark, *, infinite: bool) -> float:
         return math.inf
     shown = repr(text[:40])
     if text[:1] in ("=", "@"):
-        raise ValueError(f"{shown}: a formula, which is not run; write its value")
+        raise ValueError(f"{shown} is a formula, which is not run; write its value")
     if len(text) > LONGEST:
-        raise ValueError(f"{shown}: is no number, with {len(text)} characters")
+        raise ValueError(f"{shown} is no number, with {len(text)} characters")
     if "," in text and _COMMA.fullmatch(text):
         return _with_comma(text, mark)
     if not _POINT.fullmatch(text):
-        raise ValueError(f"{shown}: is no number")
+        raise ValueError(f"{shown} is no number")
     if "." in text and mark == ",":
-        raise ValueError(f"{shown}: has a point, where other numbers of the file have a comma")
+        raise ValueError(f"{shown} has a point, where other numbers of the file have a comma")
     return _finite(float(text), shown)
 
 
@@ -85,14 +85,14 @@ def _with_comma(text: str, mark: Mark) -> float:
     if mark == ",":
         return _finite(float(text.replace(",", ".")), shown)
     if mark == ".":
-        raise ValueError(f"{shown}: has a comma, where other numbers of the file have a point")
+        raise ValueError(f"{shown} has a comma, where other numbers of the file have a point")
     raise ValueError(
-        f"{shown}: may have a decimal comma or one of thousands; write {text.replace(',', '')} or "
+        f"{shown} may have a decimal comma or one of thousands; write {text.replace(',', '')} or "
         f"{text.replace(',', '.', 1)}"
     )
 
 
 def _finite(value: float, shown: str) -> float:
     if math.isinf(value):
-        raise ValueError(f"{shown}: too large for a number")
+        raise ValueError(f"{shown} is too large for a number")
     return value

@@ -163,7 +163,7 @@ def _unit(  # noqa: PLR0913, PLR0917 - all that may say a unit
             place = sheet.place(unit_row, heading.place)
             return _named(quantity, str(cell), place), f"{sheet.line(unit_row)}, below its header"
     if quantity in given:
-        return _named(quantity, given[quantity], "units"), "given with the file"
+        return _named(quantity, given[quantity], "units"), AS_GIVEN
     return _unsaid(quantity, heading, header, marks)
 
 
@@ -187,6 +187,8 @@ def _unsaid(
     return Unit(known.SI_NAMES[quantity]), "" if heading.key == "attitude" else _ASSUMED
 
 
+# Who says a unit that the reader's `units` names.
+AS_GIVEN = "given as `units`"
 _ASSUMED = "assumed: the file names none"
 
 

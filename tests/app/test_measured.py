@@ -123,7 +123,9 @@ def test_a_refused_file_is_named_with_its_line_and_the_page_asks_for_what_it_lac
     rows[9] = "=1+1,2,3"
     at = page_with({"orbit": "\n".join(rows)}, _PAGE, tab="Measured vibration")
     (error,) = (one.value for one in at.error)
-    assert "line 10, column time [s]: '=1+1': a formula, which is not run" in error.replace("`", "")
+    assert "line 10, column time [s]: '=1+1' is a formula, which is not run" in error.replace(
+        "`", ""
+    )
     at.button(key="measured_remove_orbit").click().run()
     assert not at.error
     assert at.session_state["rotorcalc_measured"].uploads == {}

@@ -11,7 +11,7 @@ from tests.app.session import YOUR_DATA, charts, faults, session_of, texts, visi
 from tests.app.test_words import _faults as of_words
 from tests.coefficient_files.tables import NAMES, ROWS, RPM, K, excel, text
 from tests.words import texts as every_text
-from ui.words.own_coefficients import _own
+from ui.words.own_coefficients import FORMATS, _own
 
 HANDBOOK = "\n".join([
     "S\tε\tφ\t" + "\t".join(NAMES),
@@ -50,6 +50,7 @@ def test_a_file_is_shown_before_it_is_used_and_reads_well(content: str | bytes, 
     [table] = at.dataframe
     assert len(table.value) == 3
     assert session_of(at).values == before
+    assert not at.button(key="use_own").disabled
 
 
 def test_axes_and_units_are_the_visitors() -> None:
@@ -57,6 +58,7 @@ def test_axes_and_units_are_the_visitors() -> None:
     at.segmented_control(key="data_load_axis").set_value("+x").run()
     at.selectbox(key="own_speed").set_value("rpm").run()
     at.selectbox(key="own_stiffness").set_value("kN/m").run()
+    assert any("chosen above, as the file names none" in words for words in texts(at))
     [table] = at.dataframe
     assert list(table.value["Speed [rpm]"]) == ["3000", "6000", "9000"]
     assert float(table.value["KXX [MN/m]"][0].replace("·10⁵", "e5")) == K[0, 0, 0] * 1e-3
@@ -111,10 +113,20 @@ def test_what_is_used_is_the_machines_bearing_until_it_is_undone() -> None:
     at = given(text(header=("rpm", *NAMES)))
     at.segmented_control(key="data_load_axis").set_value("+x").run()
     before = dict(session_of(at).values)
+    assert not any("In use" in words for words in shown(at))
     at.button(key="use_own").click().run()
     assert faults(at) == []
+    assert any("In use: they are this machine's bearing" in words for words in shown(at))
+    assert at.button(key="use_own").disabled
+    assert at.button(key="use_own").label == "In use"
     sweep = session_of(at).preview.computed.sweep
     np.testing.assert_allclose(sweep.stiffness[0], K[0], rtol=1e-9)
     assert sweep.speed[[0, -1]] == pytest.approx([ROWS[0][0] * RPM, ROWS[-1][0] * RPM])
     at.button(key="undo").click().run()
     assert session_of(at).values == before
+
+
+def test_formulas_of_what_is_read_are_whole() -> None:
+    # A tab or a line's end within would be half of \\text or \\right.
+    assert "\t" not in FORMATS
+    assert FORMATS.count(r"\left(") == FORMATS.count(r"\right)") == 4

@@ -192,8 +192,8 @@ def test_a_file_of_which_nothing_can_be_read_says_why(text: str | bytes, words: 
     ("old", "new", "column", "words"),
     [
         (",60,272", ",-60,272", "radial_clearance [µm]", "must be positive"),
-        (",60,272", ",x,272", "radial_clearance [µm]", "'x': is no number"),
-        (",60,272", ",nan,272", "radial_clearance [µm]", "'nan': is no number"),
+        (",60,272", ",x,272", "radial_clearance [µm]", "'x' is no number"),
+        (",60,272", ",nan,272", "radial_clearance [µm]", "'nan' is no number"),
         (",60,272", ",=30*2,272", "radial_clearance [µm]", "a formula, which is not run"),
         (",60,272", ',"60,5",272', "radial_clearance [µm]", "has a comma, where other"),
         (",60,272", ",1e999,272", "radial_clearance [µm]", "too large for a number"),

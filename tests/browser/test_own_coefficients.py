@@ -21,7 +21,7 @@ def test_a_workbook_is_shown_and_used_and_a_broken_one_changes_nothing(
     before = verdict.inner_text()
     with app.run():
         app.page.locator("input[type=file]").first.set_input_files(broken)
-    expect(app.page.get_by_text("line 3, column 2 (K_xx): 'many': is no number")).to_be_visible()
+    expect(app.page.get_by_text("line 3, column 2 (K_xx): 'many' is no number")).to_be_visible()
     with app.run():
         app.page.locator("input[type=file]").first.set_input_files(good)
     expect(app.page.get_by_text("Read: 3 speeds from 3000 rpm to 9000 rpm")).to_be_visible()
@@ -30,6 +30,11 @@ def test_a_workbook_is_shown_and_used_and_a_broken_one_changes_nothing(
         app.page.get_by_role("button", name="Use these coefficients").click()
     expect(verdict).not_to_have_text(before)
     expect(verdict).to_have_text(re.compile(r"rpm"))
+    expect(app.page.get_by_role("button", name="In use")).to_be_disabled()
+    expect(app.page.get_by_text("In use: they are this machine's bearing")).to_be_visible()
+    # The slider's track ends where the coefficients do, on this page too.
+    ends = app.page.locator(".live-slider", has=app.page.get_by_label("Running speed")).first
+    expect(ends.locator("div span").last).to_have_text("9000")
     app.go("Coefficients")
     expect(app.page.locator(".js-plotly-plot").first).to_be_visible()
     assert app.faults == []

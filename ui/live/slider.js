@@ -197,9 +197,20 @@ class Slider {
     const { value } = this;
     // A change of unit and back changes a number's last digits.
     const same = value === this.shown || Math.abs(value - this.shown) <= 1e-9 * Math.abs(value);
-    if (!same) this.track = new Track(this.data, value);
+    if (!same || !this.fits()) this.track = new Track(this.data, value);
     this.show(value);
     this.root.dataset.shown = textOf(value);
+  }
+
+  // Whether the window lies on the range as it is now, which another input may have changed.
+  fits() {
+    const { data, track } = this;
+    const start = data.least || data.low;
+    const isAlike = ["least", "beyond", "span"].every((key) => track.data[key] === data[key]);
+    const rounding = 1e-9 * (Math.abs(start) + Math.abs(data.high));
+    if (!isAlike || track.low < start - rounding || track.high > data.high + rounding) return false;
+    track.data = data;
+    return true;
   }
 
   show(value) {

@@ -12,6 +12,7 @@ from rotorcalc.arrays import Array
 from rotorcalc.coefficient_files import ReadTable, Scale, written
 from rotorcalc.coefficient_files.axes import LOAD_AXES, TURNS
 from rotorcalc.coefficient_files.handbooks import NORMALISATIONS, SOMMERFELDS
+from rotorcalc.coefficient_files.numbers import AS_GIVEN
 from rotorcalc.coefficient_files.units import Quantity, names
 from rotorcalc.figures.coefficients import of_table
 from rotorcalc.units import Unit, Units
@@ -32,18 +33,14 @@ FORMATS = r"""
 
 **Units** are those of a column's header, Kxx [MN/m], else of the row below it. Else a cell anywhere that names lb or inches makes all stiffness lbf/in and all damping lbf·s/in, and one that names rpm the speeds, as in ROSS. What no cell names is asked, at first rad/s, N/m and N·s/m; without a header speeds are in rpm.
 
-**Axes.** With $T$ the unit vectors of X and Y as its rows, $K_{XY	ext{-axes}} = T K_{xy	ext{-axes}} T^\mathsf{T}$, and damping likewise. $K_{ij} = -\partial F_i/\partial x_j$, F the film's force on the journal.
+**Axes.** With $T$ the unit vectors of X and Y as its rows, $K_{XY\text{-axes}} = T K_{xy\text{-axes}} T^\mathsf{T}$, and damping likewise. $K_{ij} = -\partial F_i/\partial x_j$, F the film's force on the journal.
 
 **Which S.** With N in revolutions a second, C the radial clearance, D = 2R and W the load:
 
 | S | Definition | Speed of a row |
 |---|---|---|
-| classical | $S = \dfrac{\mu N D L}{W}\left(\dfrac{R}{C}
-ight)^2$ | $\Omega = \dfrac{2\pi S W}{\mu D L}\left(\dfrac{C}{R}
-ight)^2$ |
-| modified | $\sigma = \dfrac{\mu\Omega L R}{4W}\left(\dfrac{L}{C}
-ight)^2$ | $\Omega = \dfrac{4\sigma W}{\mu L R}\left(\dfrac{C}{L}
-ight)^2$ |
+| classical | $S = \dfrac{\mu N D L}{W}\left(\dfrac{R}{C}\right)^2$ | $\Omega = \dfrac{2\pi S W}{\mu D L}\left(\dfrac{C}{R}\right)^2$ |
+| modified | $\sigma = \dfrac{\mu\Omega L R}{4W}\left(\dfrac{L}{C}\right)^2$ | $\Omega = \dfrac{4\sigma W}{\mu L R}\left(\dfrac{C}{L}\right)^2$ |
 | DIN 31652 | $So = \dfrac{W\psi^2}{D L \mu\Omega}$, $\psi = C/R$ | $\Omega = \dfrac{W\psi^2}{D L \mu\, So}$ |
 
 Stiffness and damping are $K C/W$ and $C\,C\Omega/W$, the second C the clearance; or $K (C/R)^3/(\mu\Omega L)$ and $C (C/R)^3/(\mu L)$.
@@ -69,6 +66,8 @@ _KINDS = {
 }  # fmt: skip
 _NORMS = {"load": "KC/W and CΩC/W", "viscosity": "K(C/R)³/(μΩL)"}
 _QUANTITIES: dict[str, Quantity] = {"s": "speed", "K": "stiffness", "C": "damping"}
+# Who says a unit that a visitor set.
+_CHOSEN = "chosen above, as the file names none"
 # Rows of the sample file.
 _SAMPLE = 24
 
@@ -194,11 +193,12 @@ def _show(
         st.error(f"{literal(found.problem)}. The machine is as it was.")
         return
     table = found.table
+    is_used = page.computed.machine.bearing == table.table
     with place:
-        _say(table)
+        _say(table, is_used=is_used)
         st.button(
-            "Use these coefficients", key="use_own", type="primary",
-            on_click=lambda: session().set_bearing(table.table),
+            "In use" if is_used else "Use these coefficients", key="use_own", type="primary",
+            on_click=lambda: session().set_bearing(table.table), disabled=is_used,
         )  # fmt: skip
     _doubt(table)
     _charts(
@@ -209,13 +209,14 @@ def _show(
     _numbers(table, page.units)
 
 
-def _say(table: ReadTable) -> None:
-    """Say what was read."""
+def _say(table: ReadTable, *, is_used: bool) -> None:
+    """Say what was read, and whether the machine has it."""
     low, high = table.speed[[0, -1]]
     rpm = session().units.speed
     st.success(
         f"Read: {len(table.speed)} speeds from {amount(rpm, low)} to {amount(rpm, high)}, in lines "
         f"{min(table.lines)} to {max(table.lines)}."
+        + (" In use: they are this machine's bearing. Undo takes them back." if is_used else "")
     )
 
 
@@ -230,9 +231,8 @@ def _columns(table: ReadTable) -> str:
     """Return in words each unit and who says it."""
     groups: dict[tuple[str, str], list[str]] = {}
     for column in sorted(table.columns, key=lambda column: column.key != "speed"):
-        groups.setdefault((column.unit, column.why), []).append(
-            column.key.replace("speed", "Speed")
-        )
+        why = _CHOSEN if column.why == AS_GIVEN else column.why
+        groups.setdefault((column.unit, why), []).append(column.key.replace("speed", "Speed"))
     for keys in groups.values():  # all four of a kind by their letter
         for letter in "KC":
             four = [key for key in keys if key[0] == letter]
