@@ -5,6 +5,12 @@ Streamlit imports this file once, for the server, and runs it for a visitor of t
 
 import streamlit as st
 
+from ui.serving import settings
+
+if __name__ != "__main__":
+    # Before what reads them: a wrong setting ends the start with one line.
+    settings.end_where_wrong()
+
 from ui.serving import log, server
 from ui.words import home
 

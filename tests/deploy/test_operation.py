@@ -1,9 +1,11 @@
 """What a server writes and answers: its first line, failures with their id, its health."""
 
 import json
+import os
 import re
 import shutil
 import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -98,6 +100,39 @@ def test_an_invalid_setting_is_refused_by_name(
     monkeypatch.setenv(name, word)
     with pytest.raises(ValueError, match=re.escape(f"{name} = {word!r}: must be")):
         read()
+
+
+@pytest.mark.parametrize(
+    ("name", "word", "said"),
+    [
+        ("ROTORCALC_DOC", "/docs", "ROTORCALC_DOC is no setting .* perhaps to ROTORCALC_DOCS"),
+        ("ROTORCALC_MAX_SOCKET", "9", "perhaps to ROTORCALC_MAX_SOCKETS, or unset it"),
+        ("rotorcalc_live", "off", "perhaps to ROTORCALC_LIVE"),
+        ("ROTORCALC_LIVE", "yes", "one of drag, release, off; unset it for drag"),
+        ("ROTORCALC_HEAVY_JOBS", "0", "whole number from 1 to 64; unset it for 1"),
+    ],
+)
+def test_a_wrong_setting_ends_the_start_with_a_line(
+    name: str, word: str, said: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ROTORCALC_SERVICE_HOST", "10.0.0.1")  # as Kubernetes sets it
+    settings.end_where_wrong()
+    monkeypatch.setenv(name, word)
+    with pytest.raises(SystemExit, match=said) as found:
+        settings.end_where_wrong()
+    assert "\n" not in str(found.value)
+
+
+def test_the_server_itself_ends_with_that_line() -> None:
+    words = [sys.executable, "-m", "streamlit", "run", "app.py", "--server.headless", "true"]
+    done = subprocess.run(
+        [*words, "--server.port", "0"], cwd=ROOT, capture_output=True, text=True, timeout=60,
+        env={**os.environ, "ROTORCALC_HEAVY_JOBS": "many"}, check=False,
+    )  # fmt: skip
+    assert done.returncode != 0
+    said = done.stdout + done.stderr
+    assert "The server does not start: ROTORCALC_HEAVY_JOBS = 'many': must be a whole" in said
+    assert "Traceback" not in said
 
 
 def test_a_host_names_the_commit_where_there_is_no_checkout(monkeypatch) -> None:

@@ -22,9 +22,15 @@ STREAMLIT_SERVER_DISCONNECTED_SESSION_TTL
     Seconds for which a replica keeps the session of a closed or lost tab.
 """
 
+import difflib
 import os
+import re
+import sys
 from dataclasses import asdict, dataclass
 
+_PREFIX = "ROTORCALC_"
+# What Kubernetes sets in every container beside a service of that name.
+_OF_A_SERVICE = re.compile(r"ROTORCALC_(SERVICE|PORT)(_|$)")
 _LIVE = ("drag", "release", "off")
 _LOG = ("text", "json")
 
@@ -76,7 +82,9 @@ def replica() -> str:
     """Return this process's name among others behind a proxy, ROTORCALC_REPLICA; "" alone."""
     name = os.environ.get("ROTORCALC_REPLICA", "")
     if name and not (name.isascii() and name.isalnum()):
-        raise ValueError(f"ROTORCALC_REPLICA = {name!r}: must be letters and digits")
+        raise ValueError(
+            f"ROTORCALC_REPLICA = {name!r}: must be letters and digits; unset it for one replica"
+        )
     return name
 
 
@@ -89,7 +97,10 @@ def docs() -> str:
     """Return the address of the documentation, ROTORCALC_DOCS, where it is served; or ""."""
     address = os.environ.get("ROTORCALC_DOCS", "")
     if address and not address.startswith(("/", "https://", "http://")):
-        raise ValueError(f"ROTORCALC_DOCS = {address!r}: must begin with /, https:// or http://")
+        raise ValueError(
+            f"ROTORCALC_DOCS = {address!r}: must begin with /, https:// or http://; unset it where "
+            "the documentation is not served"
+        )
     return address
 
 
@@ -99,16 +110,50 @@ def log() -> str:
 
 
 def check() -> None:
-    """Read every setting, or raise ValueError with the name, the value and what it must be."""
+    """Read every setting, or raise ValueError with the name, the value and what it must be.
+
+    A name that is none is refused too: its setting would be left out in silence.
+    """
+    _check_names()
     for ask in (limits, live, heavy_jobs, replica, docs, log):
         ask()
+
+
+def end_where_wrong() -> None:
+    """End the program with a line on the first wrong setting, and without a traceback."""
+    try:
+        check()
+    except ValueError as error:
+        sys.exit(f"The server does not start: {error}.")
+
+
+def names() -> tuple[str, ...]:
+    """Return the app's own settings, by the names of their variables."""
+    own = ("LIVE", "HEAVY_JOBS", "REPLICA", "COMMIT", "DOCS", "LOG")
+    most = (f"MAX_{name.upper()}" for name in asdict(Limits()))
+    return tuple(f"{_PREFIX}{name}" for name in (*own, *most))
+
+
+def _check_names() -> None:
+    known = names()
+    for name in sorted(os.environ):
+        is_ours = name.upper().startswith(_PREFIX) and not _OF_A_SERVICE.match(name)
+        if not is_ours or name in known:
+            continue
+        near = difflib.get_close_matches(name.upper(), known, n=1, cutoff=0.0)[0]
+        raise ValueError(
+            f"{name} is no setting of this app: rename it, perhaps to {near}, or unset it; the "
+            f"settings are {', '.join(known)}"
+        )
 
 
 def _word(name: str, words: tuple[str, ...]) -> str:
     """Return a variable's word, by default the first of the admitted ones."""
     word = os.environ.get(name, words[0])
     if word not in words:
-        raise ValueError(f"{name} = {word!r}: must be one of {', '.join(words)}")
+        raise ValueError(
+            f"{name} = {word!r}: must be one of {', '.join(words)}; unset it for {words[0]}"
+        )
     return word
 
 
@@ -116,5 +161,7 @@ def _number(name: str, default: int, most: int) -> int:
     """Return a variable's whole number, from 1 to the most that it may be."""
     text = os.environ.get(name, str(default))
     if not (text.isascii() and text.isdigit() and len(text) < 12 and 1 <= int(text) <= most):
-        raise ValueError(f"{name} = {text!r}: must be a number from 1 to {most}")
+        raise ValueError(
+            f"{name} = {text!r}: must be a whole number from 1 to {most}; unset it for {default}"
+        )
     return int(text)

@@ -56,7 +56,7 @@ class Varied:
         step = min((one * power for one in (1.0, 2.0, 2.5, 5.0, 10.0)),
                    key=lambda one: abs(math.log(one / wanted)))  # fmt: skip
         counts = np.arange(math.ceil(first / step), math.floor(last / step) + 1)
-        inner = unit.to_si(counts * step)
+        inner = np.array([unit.to_si(float(count * step)) for count in counts])
         # An end a rounding error away from a round value is that value.
         near = 1e-6 * (high - low)
         inner = inner[(inner - low > near) & (high - inner > near)]
