@@ -19,7 +19,8 @@ BROKEN := $(shell test -e $(RUNTIME) && $(VENV) -c 'import pip' 2>/dev/null || e
 run: $(RUNTIME)
 	$(VENV) -m streamlit run app.py
 
-test: $(RUNTIME)
+# With the tools: a page of the documentation is made and looked at in a browser.
+test: $(TOOLS)
 	$(VENV) -m pytest -n auto --dist worksteal
 
 lint: $(TOOLS)

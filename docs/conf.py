@@ -42,6 +42,7 @@ napoleon_use_ivar = True
 html_theme = "furo"
 html_title = f"rotorcalc {version}"
 html_theme_options = {"top_of_page_buttons": []}
+html_favicon = "../ui/frame/icon.svg"  # of a page that names none browsers ask the host
 html_show_sphinx = False
 exclude_patterns = ["_templates"]
 

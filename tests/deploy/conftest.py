@@ -152,6 +152,7 @@ def _configure(site: Site, nginx: Path) -> None:
     changes = {
         "listen 80": f"listen 127.0.0.1:{site.port}",
         "/srv/rotorcalc/www": f"{site.folder}/www",
+        "/srv/rotorcalc/docs": f"{site.folder}/docs",
         "/var/log/nginx/rotorcalc.log": f"{site.folder}/access.log",
         "/var/log/nginx/rotorcalc-error.log": f"{site.folder}/rotorcalc-error.log",
     }

@@ -12,7 +12,7 @@ from http.client import HTTPConnection
 from urllib.request import urlopen
 
 import pytest
-from playwright.sync_api import BrowserContext, BrowserType
+from playwright.sync_api import BrowserContext, BrowserType, expect
 from starlette.requests import Request
 from streamlit.web.server.starlette.starlette_routes import create_host_config_routes
 from websockets.asyncio.client import connect
@@ -263,6 +263,49 @@ def test_a_browser_finds_nothing_missing_under_the_policy(tab: AppPage) -> None:
     tab.go("Notes")
     ours = (f"request: http://{HOST}:", f"websocket: ws://{HOST}:")
     assert [fault for fault in tab.faults if not fault.startswith(ours)] == []
+
+
+# The documentation's own settings make it; all its pages take a minute, and one shows the same.
+_DOCUMENT = r"""
+# A page
+
+The stiffness $K_{XX}$, and the load
+
+$$\sigma = \frac{\mu \Omega L R}{4 W} \left( \frac{L}{C} \right)^2$$
+"""
+
+
+@pytest.fixture(scope="module")
+def documentation(site: Site, tmp_path_factory: pytest.TempPathFactory) -> str:
+    """Address of one page of documentation with mathematics, copied where a host serves it from."""
+    source = tmp_path_factory.mktemp("documentation")
+    (source / "index.md").write_text(_DOCUMENT)
+    command = [sys.executable, "-m", "sphinx", "-W", "-q", "-c", ROOT / "docs", source]
+    subprocess.run([*command, site.folder / "docs"], check=True)
+    return f"{site.address}/docs/"
+
+
+def test_the_documentations_mathematics_is_drawn_under_its_policy(
+    visiting: BrowserContext, documentation: str
+) -> None:
+    page, faults = visiting.new_page(), []
+    page.on("console", lambda said: faults.append(f"{said.text} {said.location}"))
+    page.on("pageerror", lambda error: faults.append(str(error)))
+    page.on("requestfailed", lambda request: faults.append(request.url))
+    page.goto(documentation, wait_until="networkidle")
+    formulas = page.locator("article mjx-container mjx-math")
+    expect(formulas).to_have_count(2)
+    small, large = (formula.bounding_box() for formula in formulas.all())
+    assert small
+    assert large
+    assert 10 < small["height"] < large["height"]
+    # Its letters come from MathJax's own fonts, and nothing is left of TeX.
+    assert page.evaluate(
+        "[...document.fonts].some(f => /MJX/.test(f.family) && f.status == 'loaded')"
+    )
+    assert "frac" not in page.locator("article").inner_text()
+    assert faults == []
+    page.close()
 
 
 def _replica(tab: AppPage) -> str:
