@@ -2,14 +2,17 @@
 
 Where no way leads out, Linux counts every packet for which there is none, whoever sends it, Python
 or not: a connection outside, a datagram, a question to a name server. `shut` says that it is run in
-such a place, where one packet is sent at last. What Python's own sockets ask is noted anywhere.
+such a place, where one packet is sent at last. What Python's own sockets ask is noted anywhere;
+there one more is asked too, of which no packet goes out.
 """
 
 import asyncio
 import fcntl
 import json
+import os
 import socket
 import struct
+import subprocess
 import sys
 import tempfile
 from contextlib import suppress
@@ -23,6 +26,8 @@ from tests.load.client import Visitor
 from tests.load.replicas import Replica
 
 _UP, _SET_FLAGS = 0x1, 0x8914  # IFF_UP, SIOCSIFFLAGS of <net/if.h> and <bits/ioctls.h>
+# A datagram's socket that is connected sends nothing yet.
+_ONE_MORE = "import socket; socket.socket(type=socket.SOCK_DGRAM).connect_ex(('198.51.100.7', 80))"
 FOREIGN = ("http://evil.example", "http://198.51.100.7", "http://localhost:1", "null")
 
 
@@ -63,13 +68,16 @@ def main(*, shut: bool) -> None:
     if shut:
         raise_loopback()
     with tempfile.TemporaryDirectory() as folder:
-        server = Replica(**audit.environment(Path(folder))).wait()
+        heard = audit.environment(Path(folder))
+        server = Replica(**heard).wait()
         try:
             asyncio.run(visit(server))
         finally:
             server.stop()
-        asked = audit.asked(Path(folder))
-    seen = {"asked": asked, "without a way": packets_without_a_way() if shut else 0}
+        seen = {"asked": audit.asked(Path(folder))}
+        seen["without a way"] = packets_without_a_way() if shut else 0
+        subprocess.run([sys.executable, "-c", _ONE_MORE], env=os.environ | heard, check=True)
+        seen["asked after one more"] = audit.asked(Path(folder))
     if shut:
         with suppress(OSError):
             socket.create_connection(("198.51.100.7", 80))

@@ -50,7 +50,9 @@ def test_a_server_starts_and_is_visited_and_asks_nobody_outside(visited: dict[st
     assert visited["without a way"] == 0
 
 
-def test_one_packet_outside_is_counted(shut: list[str], visited: dict[str, Any]) -> None:
-    if not shut:
-        pytest.skip("this machine lets nobody make a network namespace (unshare --net)")
-    assert visited["without a way after one more"] >= 1
+def test_one_question_and_one_packet_outside_are_counted(
+    shut: list[str], visited: dict[str, Any]
+) -> None:
+    assert visited["asked after one more"] == [["socket.connect", "198.51.100.7"]]
+    if shut:
+        assert visited["without a way after one more"] >= 1
