@@ -70,6 +70,11 @@ InnerRates: TypeAlias = Callable[
     [tuple[float, float, float, float], list[float], float, float],
     tuple[float, float, list[float]],
 ]
+# Places of journal and inner coordinates in C, their velocities in CΩ, viscosity [Pa·s] and speed
+# [rad/s] → the film's forces on all of them, in μΩRL³/C².
+AllForces: TypeAlias = Callable[[list[float], list[float], float, float], list[float]]
+# Places and velocities over time, (m, 2 + n) each, viscosity and speed → (m,).
+Smooth: TypeAlias = Callable[[Array, Array, float, float], Array]
 
 
 @dataclass(frozen=True)
@@ -99,6 +104,13 @@ class InnerMotion:
         the journal's place alone says it.
     share : callable or None
         The same over the clearance of the film that is thinnest in its own; None where all have C.
+    forces : callable or None
+        Forces on the journal and on the inner coordinates from the places and velocities of all,
+        with which limit cycles are found; None where a motion has none, as of pads that stand
+        still without pressure.
+    smooth : callable or None
+        How far, in C and CΩ, a place and velocity is from the nearest at which those forces have no
+        derivative; it comes with `forces`.
     thinnest : float
         Share below which the force is not known.
     tables, seconds, revolution, apart
@@ -113,6 +125,8 @@ class InnerMotion:
     beside: Callable[[OperatingPoints, Array], Array] | None = None
     gap: Callable[[Array, Array], Array] | None = None
     share: Callable[[Array, Array], Array] | None = None
+    forces: AllForces | None = None
+    smooth: Smooth | None = None
     thinnest: float = 0.0
     tables: Hashable | None = None
     seconds: float = 0.0

@@ -1,13 +1,13 @@
 """A limit cycle as a trigonometric polynomial, and the balance of forces that it satisfies.
 
-A cycle of frequency ω is sought as a trigonometric polynomial for the journal, x(τ), τ = ωt, that
-meets the balance of film and rotor at equally spaced τ (collocation, which converges faster than
-any power of their number):
+A cycle of frequency ω is sought as a trigonometric polynomial for the journal and the film's inner
+coordinates, x(τ), τ = ωt, that meets the balance of film and rotor at equally spaced τ
+(collocation, which converges faster than any power of their number):
 
-    F_film(x, ẋ) − Z_rotor x + F_o = 0.
+    F_film(x, ẋ) − Z x + F_o = 0.
 
-The rotor is linear, so Z_rotor is its impedance at each harmonic, exact for a rigid rotor, a
-flexible one, journal mass and midspan damping.
+The rotor is linear, so Z is its impedance at each harmonic, exact for a rigid rotor, a flexible
+one, journal mass and midspan damping. An inner coordinate has Z = −ω²m, its mass m zero or not.
 
 Source: Seydel, Practical Bifurcation and Stability Analysis, third edition, section 7.2.
 """
@@ -19,9 +19,15 @@ import numpy as np
 
 from rotorcalc import heat
 from rotorcalc.arrays import Array, ComplexArray
-from rotorcalc.films import FilmUnits, InnerMotion, film_of, journal_motion
-from rotorcalc.films.model import Force
+from rotorcalc.films import FilmUnits, InnerMotion, film_of
 from rotorcalc.machine import Machine
+from rotorcalc.nonlinear.equations import film_share
+from rotorcalc.nonlinear.film_forces import (
+    FilmForces,
+    film_forces,
+    inertia_of,
+    refuse_unknown,
+)
 from rotorcalc.nonlinear.rotor_impedance import impedance
 
 # Step of a difference of the film's force, as a share of the distance to kink or wall; its bounds.
@@ -31,7 +37,10 @@ _SPEED_STEP = 1e-4
 
 
 class Cycle(NamedTuple):
-    """A limit cycle: the journal's path in C, (m, 2), the whirl ratio ω/Ω, and Ω [rad/s]."""
+    """A limit cycle: its path in C, (m, d), the whirl ratio ω/Ω, and Ω [rad/s].
+
+    The path has the d coordinates of the journal, X and Y, and of the film.
+    """
 
     path: Array
     ratio: float
@@ -42,9 +51,9 @@ class Cycle(NamedTuple):
         return np.concatenate([self.path.T.ravel(), [math.log(self.ratio), math.log(self.speed)]])
 
     @classmethod
-    def of(cls, vector: Array) -> "Cycle":
+    def of(cls, vector: Array, coordinates: int) -> "Cycle":
         """Return the cycle that a vector holds."""
-        path = vector[:-2].reshape(2, -1).T
+        path = vector[:-2].reshape(coordinates, -1).T
         return cls(path, math.exp(vector[-2]), math.exp(vector[-1]))
 
     def resampled(self, points: int) -> "Cycle":
@@ -71,42 +80,41 @@ class Balance:
     def __init__(self, machine: Machine) -> None:
         bearing = machine.bearing
         self.machine, self.C = machine, bearing.radial_clearance
-        film = film_of(bearing)
+        refuse_unknown(bearing)
         # A film that depends on more than place and velocity in its units changes with the speed.
-        self.changes, self.wall = isinstance(film.motion(), InnerMotion), film.gap
-        journal_motion(bearing, viscosity=1.0, speed=1.0)  # refuses a film with inner states
+        self.changes = isinstance(film_of(bearing).motion(), InnerMotion)
+        self.inertia = inertia_of(bearing)
 
-    def force(self, speed: float) -> Force:
-        """Return the film's force on a moving journal at a speed."""
-        mu = float(heat.viscosity(self.machine, speed))
-        return journal_motion(self.machine.bearing, viscosity=mu, speed=speed).force
+    def force(self, speed: float) -> FilmForces:
+        """Return the film's forces in motion at a speed."""
+        return film_forces(self.machine, speed)
 
     def residual(self, cycle: Cycle) -> tuple[Array, Array]:
-        """Return the residual, (2m,), and its derivatives by `Cycle.vector()`, (2m, 2m + 2)."""
-        m, unit = len(cycle.path), self.unit(cycle.speed)
+        """Return the residual, (dm,), and its derivatives by `Cycle.vector()`, (dm, dm + 2)."""
+        (m, d), unit = cycle.path.shape, self.unit(cycle.speed)
         D = differentiation(m)
         velocity = cycle.ratio * (D @ cycle.path)
         film, by_place, by_velocity = self.film(cycle.path, velocity, cycle.speed)
         # The unknowns are ln ω̄ and ln Ω, so that both stay positive.
-        omega = cycle.ratio * cycle.speed
-        rotor, by_log = self.rotor(omega, m)
+        impedances = self.impedances(cycle.ratio * cycle.speed, m)
         scale, growth = self.C / unit, self._growth(cycle.speed)
-        load = np.array([self.machine.static_load / unit, 0.0])
+        # The load pulls along X.
+        load = np.append(self.machine.static_load / unit, np.zeros(d - 1))
         by_speed = self._by_speed(cycle.path, velocity, cycle.speed)
-        # The module's balance over the film's unit of force; the load pulls along X.
-        residual = film - scale * (rotor @ cycle.path) + load
-        jacobian = np.zeros((2 * m, 2 * m + 2))
-        for i in (0, 1):
-            rows = slice(i * m, (i + 1) * m)
-            for j in (0, 1):
+        # The module's balance over the film's unit of force.
+        residual = film + load
+        jacobian = np.zeros((d * m, d * m + 2))
+        for i, (own, by_log) in enumerate(impedances):
+            rows, inert = slice(i * m, (i + 1) * m), scale * (own @ cycle.path[:, i])
+            residual[:, i] -= inert
+            for j in range(d):
                 block = by_velocity[:, i, j, None] * (cycle.ratio * D)
                 block[np.diag_indices(m)] += by_place[:, i, j]
-                jacobian[rows, j * m : (j + 1) * m] = block - (scale * rotor if i == j else 0.0)
-            # By ln ω̄ velocity and rotor frequency grow; by ln Ω that frequency and the film's unit.
+                jacobian[rows, j * m : (j + 1) * m] = block - (scale * own if i == j else 0.0)
+            # By ln ω̄ velocity and frequency grow; by ln Ω that frequency and the film's unit.
             stiffer = scale * (by_log @ cycle.path[:, i])
             jacobian[rows, -2] = np.sum(by_velocity[:, i] * velocity, axis=-1) - stiffer
-            firmer = scale * (rotor @ cycle.path[:, i]) - load[i]
-            jacobian[rows, -1] = growth * firmer - stiffer + by_speed[:, i]
+            jacobian[rows, -1] = growth * (inert - load[i]) - stiffer + by_speed[:, i]
         return residual.T.ravel(), jacobian
 
     def unit(self, speed: float) -> float:
@@ -121,56 +129,45 @@ class Balance:
         low, high = (self.unit(speed * (1.0 + step)) for step in (-_SPEED_STEP, _SPEED_STEP))
         return math.log(high / low) / math.log((1.0 + _SPEED_STEP) / (1.0 - _SPEED_STEP))
 
-    def rotor(self, omega: float, m: int) -> tuple[Array, Array]:
-        """Return the rotor's impedance to the journal, and its derivative by ln ω, (m, m) [N/m]."""
+    def impedances(self, omega: float, m: int) -> list[tuple[Array, Array]]:
+        """Return each coordinate's impedance and its derivative by ln ω, (m, m) [N/m]."""
         k = harmonics(m)
         Z, slope = impedance(self.machine.rotor, k * omega)
-        return _circulant(Z), _circulant(slope * k * omega)
+        rotor = _circulant(Z), _circulant(slope * k * omega)
+        # −ω²m, which goes with ω².
+        unit = _circulant(-((k * omega) ** 2).astype(complex))
+        return [rotor, rotor, *((mass * unit, 2.0 * mass * unit) for mass in self.inertia.tolist())]
 
     def _by_speed(self, place: Array, velocity: Array, speed: float) -> Array:
-        """Return the derivative of the force in its own units by ln Ω, (m, 2)."""
+        """Return the derivative of the forces in their own units by ln Ω, (m, d)."""
         if not self.changes:
             return np.zeros_like(place)
         states = np.concatenate([place, velocity], axis=1)
         low, high = (
-            _forces(self.force(speed * math.exp(step)), states)
-            for step in (-_SPEED_STEP, _SPEED_STEP)
+            self.force(speed * math.exp(step)).at(states) for step in (-_SPEED_STEP, _SPEED_STEP)
         )
         return (high - low) / (2.0 * _SPEED_STEP)
 
     def film(self, place: Array, velocity: Array, speed: float) -> tuple[Array, Array, Array]:
-        """Return the film's force, (m, 2), and its derivatives by place and velocity, (m, 2, 2)."""
-        force_at = self.force(speed)
+        """Return the film's forces, (m, d), and their derivatives by place and velocity."""
+        forces, (m, d) = self.force(speed), place.shape
         states = np.concatenate([place, velocity], axis=1)
-        h = self._difference(place, velocity)
-        force = _forces(force_at, states)
-        slopes = np.empty((len(place), 2, 4))
-        for j in range(4):
-            # Central differences: a film model gives its force on a moving journal, not the slopes.
-            step = h * np.eye(4)[j]
-            ahead, behind = (_forces(force_at, states + sign * step) for sign in (1.0, -1.0))
+        # Where a force is not smooth, as at a plain bearing's half speed whirl, to which large
+        # whirl comes within a millionth, a step across the kink gives a slope of neither side, and
+        # with it Newton's method converges slowly.
+        share = _DIFFERENCE_SHARE * forces.smooth(place, velocity)[:, None]
+        h = np.clip(share, _SMALLEST_DIFFERENCE, _LARGEST_DIFFERENCE)
+        slopes = np.empty((m, d, 2 * d))
+        for j, unit in enumerate(np.eye(2 * d)):
+            # Central differences: a film model gives its forces in motion, not their slopes.
+            ahead, behind = (forces.at(states + sign * h * unit) for sign in (1.0, -1.0))
             slopes[:, :, j] = (ahead - behind) / (2.0 * h)
-        return force, slopes[:, :, :2], slopes[:, :, 2:]
+        return forces.at(states), slopes[:, :, :d], slopes[:, :, d:]
 
     def gap(self, path: Array) -> float:
-        """Return the minimum film thickness along a path of the journal, in C."""
-        return float(np.min(self.wall(path)))
-
-    def _difference(self, place: Array, velocity: Array) -> Array:
-        """Return the step of a difference of the force, (m, 1).
-
-        A plain bearing's force is not smooth where the velocity relative to half speed whirl
-        vanishes, and large whirl comes to within a millionth of it: a step across it gives a slope
-        of neither side, and with it Newton's method converges slowly.
-        """
-        relative = np.hypot(velocity[:, 0] + 0.5 * place[:, 1], velocity[:, 1] - 0.5 * place[:, 0])
-        room = np.minimum(relative, self.wall(place))
-        share = _DIFFERENCE_SHARE * room[:, None]
-        return np.clip(share, _SMALLEST_DIFFERENCE, _LARGEST_DIFFERENCE)
-
-
-def _forces(force: Force, states: Array) -> Array:
-    return np.array([force(*state) for state in states.tolist()])
+        """Return the thinnest film along a path over its own clearance."""
+        inner = path[:, 2:] if path.shape[1] > 2 else None
+        return float(np.min(film_share(self.machine.bearing, path[:, :2], inner)))
 
 
 def _circulant(spectrum: ComplexArray) -> Array:

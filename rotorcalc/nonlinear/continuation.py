@@ -13,9 +13,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from rotorcalc.arrays import Array
-from rotorcalc.coefficients import equilibrium
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.collocation import Balance, Cycle, differentiation
+from rotorcalc.nonlinear.film_forces import rest_of
 from rotorcalc.nonlinear.hopf import Hopf, whirl_shape
 
 # Points around a cycle at first and at most, always odd; doubled where the polynomial's last
@@ -29,6 +29,9 @@ _FIRST_SIZES, _AT_REST = (0.02, 0.005, 0.001), 1e-4
 # Lengths of a step along the branch; it grows after a step in which Newton's method was fast.
 _FIRST_STEP, _LONGEST_STEP, _SHORTEST_STEP = 0.02, 0.035, 1e-5
 _FEW, _LONGER, _SHORTER = 6, 1.5, 0.4
+# A step that leaves the tangent so far that it is longer than this share of it may have reached
+# another part of the branch; it is shortened, down to a length at which it cannot.
+_TURNS, _NO_JUMP = 1.1, 1e-3
 # Minimum film over clearance at which a branch ends: the limit that `validity` sets.
 _NEAREST_WALL = 0.03
 # Known branches have fewer cycles; the bound only stops a branch that never ends.
@@ -100,10 +103,10 @@ class Branch:
         last = last.resampled(len(cycle.path))
         # The secant through the last two cycles stands for the tangent.
         chord = cycle.vector() - last.vector()
-        tangent = chord / _length(chord, len(cycle.path))
+        tangent = chord / _length(chord, cycle.path.shape)
         while step >= _SHORTEST_STEP:
             found, steps = _corrected(self.balance, cycle, tangent, step)
-            if found is None:
+            if found is None or (step > _NO_JUMP and _length_between(cycle, found) > _TURNS * step):
                 step *= _SHORTER
             elif _through_rest(cycle, found):
                 self.ended = "shrank to rest at another onset"
@@ -132,11 +135,11 @@ def small_cycle(balance: Balance, onset: Hopf, size: float) -> Cycle | None:
         The cycle as far from rest, by the length of the branch; None where the search fails.
     """
     born = _born(balance.machine, onset)
-    journal = whirl_shape(balance.machine, onset.speed, onset.whirl_frequency)
+    shape = whirl_shape(balance.machine, onset.speed, onset.whirl_frequency)
     turn = np.exp(2j * np.pi * np.arange(_FEWEST_POINTS) / _FEWEST_POINTS)
-    guess = born._replace(path=born.path + size * np.real(turn[:, None] * journal))
+    guess = born._replace(path=born.path + size * np.real(turn[:, None] * shape))
     away = guess.vector() - born.vector()
-    length = _length(away, _FEWEST_POINTS)
+    length = _length(away, born.path.shape)
     cycle, _ = _corrected(balance, born, away / length, length)
     return cycle
 
@@ -151,19 +154,26 @@ def _around_mean(path: Array) -> Array:
     return path - path.mean(axis=0)
 
 
-def _weights(m: int) -> Array:
+def _weights(shape: tuple[int, ...]) -> Array:
     """Return the weights of the unknowns in a length: mean over the path, and ln ω̄, ln Ω."""
-    return np.concatenate([np.full(2 * m, 1.0 / m), [1.0, 1.0]])
+    m, d = shape
+    return np.concatenate([np.full(d * m, 1.0 / m), [1.0, 1.0]])
 
 
-def _length(vector: Array, m: int) -> float:
-    return math.sqrt(float(np.sum(_weights(m) * vector**2)))
+def _length(vector: Array, shape: tuple[int, ...]) -> float:
+    return math.sqrt(float(np.sum(_weights(shape) * vector**2)))
+
+
+def _length_between(cycle: Cycle, after: Cycle) -> float:
+    """Return the length of the branch between two cycles."""
+    m = max(len(cycle.path), len(after.path))
+    one, other = cycle.resampled(m), after.resampled(m)
+    return _length(other.vector() - one.vector(), other.path.shape)
 
 
 def _born(machine: Machine, onset: Hopf) -> Cycle:
     """Return the cycle of zero amplitude at the onset."""
-    place = equilibrium(machine, onset.speed).film.position
-    path = np.tile(place, (_FEWEST_POINTS, 1))
+    path = np.tile(rest_of(machine, onset.speed), (_FEWEST_POINTS, 1))
     return Cycle(path, onset.whirl_frequency / onset.speed, onset.speed)
 
 
@@ -174,22 +184,22 @@ def _corrected(
 
     With more points where the polynomial needs them.
     """
-    found, steps = _newton(balance, cycle, tangent, step, _weights(len(cycle.path)) * tangent)
+    found, steps = _newton(balance, cycle, tangent, step, _weights(cycle.path.shape) * tangent)
     while found is not None and found.tail() > _TAIL and len(found.path) < _MOST_POINTS:
         # Less one, so that the number stays odd.
         points = 2 * len(found.path) - 1
-        cycle, m = cycle.resampled(points), len(cycle.path)
-        fine = Cycle(tangent[:-2].reshape(2, m).T, 1.0, 1.0).resampled(points)
+        (m, d), cycle = cycle.path.shape, cycle.resampled(points)
+        fine = Cycle(tangent[:-2].reshape(d, m).T, 1.0, 1.0).resampled(points)
         tangent = np.concatenate([fine.path.T.ravel(), tangent[-2:]])
-        found, steps = _newton(balance, cycle, tangent, step, _weights(len(cycle.path)) * tangent)
+        found, steps = _newton(balance, cycle, tangent, step, _weights(cycle.path.shape) * tangent)
     return found, steps
 
 
 def _at_speed(balance: Balance, before: Cycle, after: Cycle, speed: float) -> Cycle | None:
     """Return the cycle at a speed between two others; None where it is not found."""
-    m = len(after.path)
-    start, chord = before.resampled(m), after.vector() - before.resampled(m).vector()
-    along = np.zeros(2 * m + 2)
+    start = before.resampled(len(after.path))
+    chord = after.vector() - start.vector()
+    along = np.zeros_like(chord)
     along[-1] = 1.0
     found, _ = _newton(balance, start, chord / chord[-1], math.log(speed / start.speed), along)
     # The speed exactly as given, without the logarithm's rounding.
@@ -203,23 +213,23 @@ def _newton(
 
     The step is measured by the unknowns' weights `along`.
     """
-    m, start = len(cycle.path), cycle.vector()
+    (m, d), start = cycle.path.shape, cycle.vector()
     unknown: Array = start + step * tangent
     # A shift of the phase moves the path by dx/dτ; the guess has the phase of the solution.
-    shift = (differentiation(m) @ Cycle.of(unknown).path).T.ravel()
+    shift = (differentiation(m) @ Cycle.of(unknown, d).path).T.ravel()
     for count in range(1, _ITERATIONS + 1):
-        now = Cycle.of(unknown)
+        now = Cycle.of(unknown, d)
         if balance.gap(now.path) <= 0.0:
             return None, count
         residual, jacobian = balance.residual(now)
         moved: Array = unknown - start
         rest = [float(shift @ (moved - step * tangent)[:-2]), float(along @ moved) - step]
-        # 2m equations of balance, one for the phase and one for the step, in 2m + 2 unknowns.
+        # dm equations of balance, one for the phase and one for the step, in dm + 2 unknowns.
         rows = np.vstack([jacobian, np.append(shift, [0.0, 0.0]), along])
         change: Array = np.linalg.solve(rows, -np.append(residual, rest))
         unknown = unknown + change
         if np.abs(change).max() < _SETTLED:
-            return Cycle.of(unknown), count
+            return Cycle.of(unknown, d), count
         if np.abs(change).max() > 0.5:  # half a clearance, or half of ω̄ or Ω: it diverges
             break
     return None, _ITERATIONS

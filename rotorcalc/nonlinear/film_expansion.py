@@ -16,7 +16,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from rotorcalc.arrays import Array, ComplexArray
-from rotorcalc.films.model import Force
+from rotorcalc.nonlinear.film_forces import Forces
 
 # The first length over the distance to the wall, the ratio of successive lengths, their number.
 _FARTHEST, _SHORTER, _MOST_REACHES = 0.9, 0.6, 40
@@ -27,7 +27,7 @@ _PHASES = np.pi * np.arange(4) / 4.0
 
 
 class WhirlDerivatives(NamedTuple):
-    """Derivatives along a whirl Q: D²F(Q, Q), D²F(Q, Q̄) and D³F(Q, Q, Q̄), each (2,)."""
+    """Derivatives along a whirl Q: D²F(Q, Q), D²F(Q, Q̄) and D³F(Q, Q, Q̄), each (d,)."""
 
     QQ: ComplexArray
     QQ_: Array
@@ -35,23 +35,24 @@ class WhirlDerivatives(NamedTuple):
 
 
 class FilmExpansion:
-    """The film's force about a journal at rest, position in C and velocity in CΩ.
+    """The film's forces about d coordinates at rest, positions in C and velocities in CΩ.
 
     Parameters
     ----------
     force : callable
-        (f_x, f_y) from (x, y, x', y'), in the film's unit.
-    place : array, (2,)
-        Equilibrium position of the journal, in C.
+        The d forces from d places and d velocities, as (f_x, f_y) from (x, y, x', y'), in the
+        film's unit.
+    place : array, (d,)
+        Equilibrium of the journal, and of the film's inner coordinates, in C.
     gap : float
         Minimum film thickness there, in C: the distance to the wall.
     points : int
         Points on a line.
     """
 
-    def __init__(self, force: Force, place: Array, gap: float, points: int) -> None:
+    def __init__(self, force: Forces, place: Array, gap: float, points: int) -> None:
         self.force, self.gap = force, gap
-        self.rest = np.concatenate([place, [0.0, 0.0]])
+        self.rest = np.concatenate([place, np.zeros_like(place)])
         self.nodes = np.cos(np.pi * (np.arange(points) + 0.5) / points)
         fit = np.linalg.inv(chebyshev.chebvander(self.nodes, points - 1))
         self.slopes = np.stack([_at_middle(points, order) @ fit for order in (2, 3)])
@@ -59,11 +60,11 @@ class FilmExpansion:
         self.tail = np.stack([points**order * fit[-2:] for order in (2, 3)])
 
     def along(self, direction: Array) -> Array:
-        """Return the second and third derivatives of the force along a direction, (2, 2)."""
+        """Return the second and third derivatives of the forces along a direction, (2, d)."""
         size = float(np.linalg.norm(direction))
         unit = direction / size
         # A line mostly along velocity hardly approaches the wall: its length is bounded anyway.
-        reach = _FARTHEST * self.gap / max(float(np.linalg.norm(unit[:2])), 0.1)
+        reach = _FARTHEST * self.gap / max(float(np.linalg.norm(unit[: len(unit) // 2])), 0.1)
         last = best = self._tried(unit, reach)[0]
         least = np.full(2, np.inf)
         for _ in range(_MOST_REACHES):
@@ -78,7 +79,7 @@ class FilmExpansion:
         return best * np.array([[size**2], [size**3]])
 
     def second(self, u: ComplexArray, v: ComplexArray) -> ComplexArray:
-        """Return the second derivative D²F(u, v), complex (2,)."""
+        """Return the second derivative D²F(u, v), complex (d,)."""
         return (
             self._second(u.real, v.real)
             - self._second(u.imag, v.imag)
@@ -101,13 +102,15 @@ class FilmExpansion:
     def _second(self, u: Array, v: Array) -> Array:
         sizes = float(np.linalg.norm(u)), float(np.linalg.norm(v))
         if 0.0 in sizes:
-            return np.zeros(2)
+            return np.zeros(len(self.rest) // 2)
         u, v = u / sizes[0], v / sizes[1]
         total, difference = self._curvature(u + v), self._curvature(u - v)
         return sizes[0] * sizes[1] * (total - difference) / 4.0
 
     def _curvature(self, direction: Array) -> Array:
-        return self.along(direction)[0] if np.any(direction) else np.zeros(2)
+        if not np.any(direction):
+            return np.zeros(len(self.rest) // 2)
+        return self.along(direction)[0]
 
     def _tried(self, unit: Array, reach: float) -> tuple[Array, Array]:
         """Return both derivatives by a polynomial over a line of this reach, and what it omits."""

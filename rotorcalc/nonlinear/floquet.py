@@ -14,8 +14,8 @@ from rotorcalc.arrays import Array
 from rotorcalc.nonlinear.collocation import Balance, Cycle, differentiation
 
 
-def multiplier(balance: Balance, cycle: Cycle) -> float:
-    """Return the largest modulus of the Floquet multipliers except the one that is always 1.
+def multiplier(balance: Balance, cycle: Cycle) -> complex:
+    """Return the Floquet multiplier of largest modulus except the one that is always 1.
 
     The state matrix A(τ) of small motions about the cycle is integrated over its period by
     exponentials of its values in the middle of many steps (Magnus, second order, extrapolated).
@@ -29,8 +29,9 @@ def multiplier(balance: Balance, cycle: Cycle) -> float:
 
     Returns
     -------
-    float
-        Growth of the least damped small motion over one period [-]; below 1 the cycle is stable.
+    complex
+        Growth of the least damped small motion over one period [-], its imaginary part not
+        negative; of modulus below 1 the cycle is stable.
     """
     fine, coarse = (
         _monodromy(balance, cycle.resampled(points * len(cycle.path))) for points in (2, 1)
@@ -39,7 +40,8 @@ def multiplier(balance: Balance, cycle: Cycle) -> float:
     values = np.linalg.eigvals(fine + (fine - coarse) / 3.0)
     # A shift along the cycle neither grows nor decays: its multiplier, 1 up to errors, is left out.
     rest = np.delete(values, np.argmin(np.abs(values - 1.0)))
-    return float(np.abs(rest).max())
+    least = complex(rest[np.argmax(np.abs(rest))])
+    return complex(least.real, abs(least.imag))
 
 
 def _monodromy(balance: Balance, cycle: Cycle) -> Array:
@@ -50,7 +52,8 @@ def _monodromy(balance: Balance, cycle: Cycle) -> Array:
     stiffness = balance.unit(cycle.speed) / balance.C
     balanced = replace(balance.machine.rotor, imbalance=0.0)
     # K_ij = −∂F_i/∂X_j and C_ij = −∂F_i/∂Ẋ_j (Eq. 5.14), here at each point of the cycle.
-    A = modes.state_matrix(balanced, -stiffness * by_place, -stiffness / cycle.speed * by_velocity)
+    K, C = -stiffness * by_place, -stiffness / cycle.speed * by_velocity
+    A = modes.state_matrix(balanced, K, C, inertia=balance.inertia)
     # Each step has A in its middle; the first is cut in two, so that the period begins at τ = 0.
     step = 2.0 * np.pi / (cycle.ratio * cycle.speed * m)
     half = cast("Array", expm(A[0] * (0.5 * step)))

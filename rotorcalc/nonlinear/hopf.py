@@ -20,7 +20,8 @@ and the terms at ω, projected on the left null vector p of L(jω), change A:
     pᵀL'q Ȧ = pᵀ{D²F(Q, H_0) + D²F(Q̄, H_2) + ½D³F(Q, Q, Q̄)} |A|²A.
 
 Only the film's force is expanded; the rotor is linear and enters L exactly. So this holds with
-massless journals too, where velocity as a function of position is singular close to rest.
+massless journals too, where velocity as a function of position is singular close to rest. A film's
+inner coordinates belong to x, with −ω²m in L in place of the rotor's impedance.
 
 Source: Kuznetsov, Elements of Applied Bifurcation Theory, third edition, section 5.4 (projection
 onto the whirl's plane, here for a balance of forces in place of a system of first order).
@@ -35,12 +36,14 @@ import numpy as np
 from rotorcalc import heat
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, ComplexArray
-from rotorcalc.coefficients import equilibrium
-from rotorcalc.films import FilmUnits, film_of, journal_motion
+from rotorcalc.coefficients import dynamics, equilibrium
+from rotorcalc.films import FilmUnits
 from rotorcalc.machine import Machine
+from rotorcalc.nonlinear.equations import film_gap
 from rotorcalc.nonlinear.film_expansion import FilmExpansion
+from rotorcalc.nonlinear.film_forces import film_forces, refuse_unknown, rest_of
 from rotorcalc.nonlinear.rotor_impedance import impedance
-from rotorcalc.onset import onset_speed
+from rotorcalc.onset import ModeOnset, Onset, onset_speed
 
 # ℓ is computed twice, by polynomials with this many points, the second time at a speed beside the
 # onset by as much as the onset may be in error. Its error is bounded by a multiple of their
@@ -108,27 +111,30 @@ class Hopf:
 
 
 @checked
-def hopf(machine: Machine) -> Hopf:
+def hopf(machine: Machine, *, onset: Onset | ModeOnset | None = None) -> Hopf:
     """Return the Hopf bifurcation of a machine without its imbalance: onset and direction.
 
     Parameters
     ----------
     machine : Machine
         The machine, with any rotor.
+    onset : Onset, ModeOnset or None
+        Where the whirl sets in, on a floating ring one of `mode_onsets`; None for the lowest.
 
     Returns
     -------
     Hopf
-        At the lowest onset.
+        There.
 
     Raises
     ------
     ValueError
         Where the machine has no onset, or whirls at any speed, as a plain bearing without load
-        does; where the film gives no force for a moving journal, or has inner coordinates.
+        does; where the film gives no force for a moving journal, or has parts that move on their
+        own and not the forces on them.
     """
-    journal_motion(machine.bearing, viscosity=1.0, speed=1.0)  # refuses a film it cannot expand
-    onset = onset_speed(machine)
+    refuse_unknown(machine.bearing)
+    onset = onset_speed(machine) if onset is None else onset
     if not 0.0 < onset.speed < math.inf:
         why = "whirls at any speed" if onset.speed == 0.0 else "has no onset"
         raise ValueError(f"machine: {why}, so there is no Hopf bifurcation")
@@ -139,7 +145,7 @@ def hopf(machine: Machine) -> Hopf:
     return Hopf(
         speed=onset.speed,
         whirl_frequency=onset.whirl_frequency,
-        eccentricity_ratio=onset.eccentricity_ratio,
+        eccentricity_ratio=float(equilibrium(machine, onset.speed).film.eccentricity_ratio),
         lyapunov=float(np.sum(terms)),
         lyapunov_error=_WIDER * difference + _ROUNDING * float(np.sum(np.abs(terms))),
         # With ℓ it gives the amplitude at a speed beside the onset.
@@ -161,8 +167,9 @@ def whirl_shape(machine: Machine, speed: float, frequency: float) -> ComplexArra
 
     Returns
     -------
-    complex array, (2,)
-        Phasors q of the journal's X and Y [-], the largest displacement 1, reached at the phase 0.
+    complex array, (d,)
+        Phasors q of the journal's X and Y and of the film's inner coordinates [-], the journal's
+        largest displacement 1, reached at the phase 0.
 
     Raises
     ------
@@ -184,21 +191,24 @@ class _Whirl(NamedTuple):
 def _whirl(machine: Machine, speed: float, frequency: float) -> _Whirl:
     left, _, right = np.linalg.svd(_balance(machine, speed, frequency))
     q: ComplexArray = right[-1].conj()
-    # Turned to the phase at which the displacement is largest: q·q real and positive.
-    turned = q * np.exp(-0.5j * np.angle(np.sum(q**2)))
-    q = turned / float(np.linalg.norm(turned.real))
+    # Turned to the phase at which the journal's displacement is largest: q·q real and positive.
+    turned = q * np.exp(-0.5j * np.angle(np.sum(q[:2] ** 2)))
+    q = turned / float(np.linalg.norm(turned[:2].real))
     p: ComplexArray = left[:, -1].conj()
+    film = dynamics(machine, speed)
     _, by_frequency = impedance(machine.rotor, np.array([frequency]))
-    damping = equilibrium(machine, speed).damping
-    slope = damping - 1j * by_frequency[0] * np.eye(2)
+    # d(−ω²m)/dω = −2ωm.
+    by_frequency = np.append(np.repeat(by_frequency, 2), -2.0 * frequency * film.inertia)
+    slope = film.damping - 1j * np.diag(by_frequency)
     return _Whirl(q, p / (p @ slope @ q))
 
 
 def _balance(machine: Machine, speed: float, frequency: float) -> ComplexArray:
-    """Return L(jω) = K + jωC + Z_rotor(ω) [N/m]."""
-    film = equilibrium(machine, speed)
+    """Return L(jω) = K + jωC + Z(ω) [N/m]."""
+    film = dynamics(machine, speed)
     Z, _ = impedance(machine.rotor, np.array([frequency]))
-    return film.stiffness + 1j * frequency * film.damping + Z[0] * np.eye(2)
+    each = np.append(np.repeat(Z, 2), -(frequency**2) * film.inertia)
+    return film.stiffness + 1j * frequency * film.damping + np.diag(each)
 
 
 def _growth_slope(machine: Machine, speed: float, frequency: float) -> float:
@@ -211,17 +221,16 @@ def _growth_slope(machine: Machine, speed: float, frequency: float) -> float:
 
 def _lyapunov_terms(machine: Machine, speed: float, frequency: float, points: int) -> Array:
     """Return the three terms of ℓ [1/s]: by the mean shift, the second harmonic and the cubic."""
-    bearing, film = machine.bearing, equilibrium(machine, speed).film
-    gap = float(film_of(bearing).gap(film.position))
-    mu = float(heat.viscosity(machine, speed))
-    motion = journal_motion(bearing, viscosity=mu, speed=speed)
-    expansion = FilmExpansion(motion.force, film.position, gap, points)
+    place, mu = rest_of(machine, speed), float(heat.viscosity(machine, speed))
+    inner = place[2:] if len(place) > 2 else None
+    gap = float(film_gap(machine.bearing, place[:2], inner))
+    expansion = FilmExpansion(film_forces(machine, speed).of, place, gap, points)
     q, p = _whirl(machine, speed, frequency)
     swing = 1j * frequency / speed
     Q = np.concatenate([q, swing * q])
     along = expansion.whirl(Q)
     # From the film's unit of force and clearances to N and m.
-    unit = float(FilmUnits(bearing, mu, speed).stiffness)
+    unit = float(FilmUnits(machine.bearing, mu, speed).stiffness)
     steady, double = (_balance(machine, speed, harmonic * frequency) for harmonic in (0.0, 2.0))
     # Mean shift and second harmonic, the two equations of the module's docstring.
     h_0 = unit * cast("ComplexArray", np.linalg.solve(steady, along.QQ_))

@@ -14,15 +14,20 @@ from numpy.typing import ArrayLike
 
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, ComplexArray
-from rotorcalc.coefficients import equilibrium, rising_speed
+from rotorcalc.coefficients import rising_speed
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.collocation import Balance, Cycle, harmonics
 from rotorcalc.nonlinear.continuation import BifurcationError, Branch
 from rotorcalc.nonlinear.equations import Start
+from rotorcalc.nonlinear.film_forces import inertia_of, rest_of
 from rotorcalc.nonlinear.floquet import multiplier
 from rotorcalc.nonlinear.hopf import Hopf, hopf
 from rotorcalc.nonlinear.rotor_impedance import disk_impedance
+from rotorcalc.onset import ModeOnset, Onset
+
+# A multiplier's imaginary part that is rounding, over its modulus.
+_REAL = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,6 +54,17 @@ class Bifurcation(Result):
         Whether motions near the cycle approach it.
     paths : tuple of arrays, (m, 2)
         The journal's positions in X, Y around each cycle, from the bearing's centre [m].
+    beats : boolean array, (n,)
+        Whether the least damped small motion about the cycle has a frequency of its own. An
+        unstable cycle at which it has one is left for a motion of two whirls at once; at others the
+        size of the whirl changes.
+    inner_amplitude : array, (n,)
+        Largest distance of a floating ring from its equilibrium [m]; of another film's inner
+        coordinates together. 0 where it has none.
+    thinnest : array, (n,)
+        Thinnest film in each cycle over its own clearance [-].
+    inner_paths : tuple of arrays, (m, i)
+        Positions of the i inner coordinates around each cycle [m], of a floating ring its X and Y.
     """
 
     hopf: Hopf
@@ -60,6 +76,10 @@ class Bifurcation(Result):
     multiplier: Array
     stable: BoolArray
     paths: tuple[Array, ...]
+    beats: BoolArray
+    inner_amplitude: Array
+    thinnest: Array
+    inner_paths: tuple[Array, ...]
 
     @property
     def zero_to_peak(self) -> Array:
@@ -120,6 +140,7 @@ def bifurcation(
     *,
     lowest: float = 0.5,
     highest: float = 1.5,
+    onset: Onset | ModeOnset | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> Bifurcation:
     """Return the limit cycles of a machine without its imbalance, followed from its onset.
@@ -130,6 +151,8 @@ def bifurcation(
         The machine, with any rotor.
     lowest, highest : float
         Between which speeds, over the onset's [-]; the onset lies between them.
+    onset : Onset, ModeOnset or None
+        Where the whirl sets in, on a floating ring one of `mode_onsets`; None for the lowest.
     progress : callable or None
         Called after each cycle with the share of the work done, 0 to 1. An exception that it
         raises ends the work.
@@ -149,16 +172,15 @@ def bifurcation(
     """
     if not 0.0 < lowest < 1.0 < highest < math.inf:
         raise ValueError(f"lowest = {lowest}, highest = {highest}: must lie on either side of 1")
-    onset = hopf(machine)
-    balance = Balance(machine)
-    branch = Branch(balance, onset, lowest * onset.speed, highest * onset.speed)
+    balance, born = Balance(machine), hopf(machine, onset=onset)
+    branch = Branch(balance, born, lowest * born.speed, highest * born.speed)
     found: list[_Found] = []
     share = 0.0
     for cycle in branch:
         found.append(_measured(balance, cycle))
         if progress is not None:
             # A branch ends at the wall or at the highest speed, whichever is nearer.
-            ratio = cycle.speed / onset.speed
+            ratio = cycle.speed / born.speed
             # The amplitude grows as √(Ω − Ω_s) at first: its square keeps pace with the speed.
             nearest_wall = (1.0 - found[-1].gap) ** 2
             share = min(max(share, nearest_wall, (ratio - 1.0) / (highest - 1.0)), 1.0)
@@ -167,16 +189,21 @@ def bifurcation(
         raise BifurcationError("no limit cycle found next to the onset")
     if progress is not None:
         progress(1.0)
+    multipliers: ComplexArray = np.array([one.multiplier for one in found])
     return Bifurcation(
-        hopf=onset,
+        hopf=born,
         ended=branch.ended,
         speed=np.array([one.cycle.speed for one in found]),
         whirl_frequency=np.array([one.cycle.speed * one.cycle.ratio for one in found]),
         amplitude=np.array([one.amplitude for one in found]),
         eccentricity_ratio=np.array([one.eccentricity_ratio for one in found]),
-        multiplier=np.array([one.multiplier for one in found]),
-        stable=np.array([one.multiplier < 1.0 for one in found]),
-        paths=tuple(one.cycle.path * machine.bearing.radial_clearance for one in found),
+        multiplier=np.abs(multipliers),
+        stable=np.abs(multipliers) < 1.0,
+        paths=tuple(one.cycle.path[:, :2] * balance.C for one in found),
+        beats=multipliers.imag > _REAL * np.abs(multipliers),
+        inner_amplitude=np.array([one.inner_amplitude for one in found]),
+        thinnest=np.array([one.gap for one in found]),
+        inner_paths=tuple(one.cycle.path[:, 2:] * balance.C for one in found),
     )
 
 
@@ -246,22 +273,28 @@ def start_on_cycle(machine: Machine, branch: Bifurcation, place: int) -> Start:
     """
     if not 0 <= place < len(branch.paths):
         raise ValueError(f"place = {place}: must be 0 to {len(branch.paths) - 1}")
-    path, omega = branch.paths[place], float(branch.whirl_frequency[place])
-    m = len(path)
-    frequency = omega * harmonics(m)
-    journal: ComplexArray = np.fft.fft(path, axis=0) / m
+    path, inner = branch.paths[place], branch.inner_paths[place]
+    frequency = float(branch.whirl_frequency[place]) * harmonics(len(path))
+    journal, parts = _series(path), _series(inner)
     # The disk follows the journal by the shaft, j = (1 + s z) d, and hangs by its static sag.
     s = 1.0 / machine.rotor.shaft_stiffness
-    series = 1.0 + s * disk_impedance(machine.rotor, frequency)
-    disk = journal / series[:, None]
+    disk = journal / (1.0 + s * disk_impedance(machine.rotor, frequency))[:, None]
     disk[0, 0] += machine.static_sag
     swing = 1j * frequency[:, None]
+    # Of the inner coordinates those with a mass have a velocity among their states.
+    velocities = np.sum(swing * parts, axis=0).real[inertia_of(machine.bearing) > 0.0]
     return Start(
         journal=path[0],
         disk=np.sum(disk, axis=0).real,
         journal_velocity=np.sum(swing * journal, axis=0).real,
         disk_velocity=np.sum(swing * disk, axis=0).real,
+        inner=np.concatenate([inner[0], velocities]) if inner.shape[1] else None,
     )
+
+
+def _series(path: Array) -> ComplexArray:
+    """Return the phasors of a path's harmonics, in the order of `harmonics`."""
+    return np.fft.fft(path, axis=0) / len(path)
 
 
 def _dense(path: Array) -> Array:
@@ -275,19 +308,25 @@ class _Found(NamedTuple):
     amplitude: float
     eccentricity_ratio: float
     gap: float
-    multiplier: float
+    multiplier: complex
+    inner_amplitude: float
 
 
 def _measured(balance: Balance, cycle: Cycle) -> _Found:
     """Return a cycle with its amplitude and its stability."""
-    rest = equilibrium(balance.machine, cycle.speed).film.position
+    rest = rest_of(balance.machine, cycle.speed)
     # Denser, as largest distance and thinnest film may lie between two points.
     dense = cycle.resampled(4 * len(cycle.path) + 1).path
     return _Found(
         cycle=cycle,
         # From the equilibrium, not from the orbit's mean, as in the normal form of `hopf`.
-        amplitude=float(np.hypot(*(dense - rest).T).max()) * balance.C,
-        eccentricity_ratio=float(np.hypot(*dense.T).max()),
+        amplitude=_farthest((dense - rest)[:, :2]) * balance.C,
+        eccentricity_ratio=_farthest(dense[:, :2]),
         gap=balance.gap(dense),
         multiplier=multiplier(balance, cycle),
+        inner_amplitude=_farthest((dense - rest)[:, 2:]) * balance.C,
     )
+
+
+def _farthest(path: Array) -> float:
+    return float(np.linalg.norm(path, axis=1).max())

@@ -10,9 +10,7 @@ from rotorcalc import (
     Rotor,
     TransientError,
     analyse,
-    bifurcation,
     energy_balance,
-    hopf,
     mode_onsets,
     ring_equilibrium,
     simulate,
@@ -88,6 +86,8 @@ def test_a_massless_ring_moves_so_that_both_films_load_it_alike(bearing):
         size = np.hypot(f_x, f_y)
         assert inside == pytest.approx([f_x, f_y], abs=1e-12 * size)
         assert outside == pytest.approx(inside, abs=1e-8 * size)
+        at = ([*place, *ring_place], [*velocity, *found], MU, SPEED)
+        assert motion.forces(*at) == pytest.approx([f_x, f_y, 0.0, 0.0], abs=1e-8 * size)
         dx, dy, again = motion.velocity((*place, f_x, f_y), ring_place, MU, SPEED)
         assert [dx, dy] == pytest.approx(velocity, abs=1e-7)
         assert again == pytest.approx(found, abs=1e-7)
@@ -106,6 +106,8 @@ def test_a_ring_with_a_mass_is_pushed_by_both_films(bearing):
         assert rates[:2] == list(spin)
         pushed = unit * (outside - inside) / (mass * C * SPEED**2)
         assert rates[2:] == pytest.approx(pushed, rel=1e-9)
+        at = ([*place, *ring_place], [*velocity, *spin], MU, SPEED)
+        assert motion.forces(*at) == pytest.approx([f_x, f_y, *(outside - inside)], rel=1e-9)
         dx, dy, same = motion.velocity((*place, f_x, f_y), [*ring_place, *spin], MU, SPEED)
         assert [dx, dy] == pytest.approx(velocity, abs=1e-9)
         assert same == pytest.approx(rates, rel=1e-9)
@@ -285,9 +287,3 @@ def test_a_motion_on_films_of_finite_length_ends_where_either_is_thinner_than_co
         thin = replace(start, journal=journal, disk=journal, inner=ring_place)
         with pytest.raises(TransientError, match=r"thinner than 0\.02 of its clearance"):
             simulate(machine, SPEED, revolutions=1, start=thin)
-
-
-@pytest.mark.parametrize("computation", [bifurcation, hopf])
-def test_limit_cycles_are_refused_in_words(computation):
-    with pytest.raises(ValueError, match="inner coordinates"):
-        computation(MACHINE)

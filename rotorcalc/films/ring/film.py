@@ -232,6 +232,8 @@ class RingFilm:
             beside=starts.beside,
             gap=starts.gap,
             share=starts.share,
+            forces=moving.forces,
+            smooth=moving.smooth,
             thinnest=0.0 if closed_form else THINNEST,
             tables=moving.shapes or None,
             seconds=CIRCLE_SECONDS * len(moving.shapes),

@@ -20,6 +20,7 @@ from typing import Protocol, TypeAlias
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from rotorcalc.arrays import Array
 from rotorcalc.films import convex
 from rotorcalc.films.convex import Answer
 from rotorcalc.films.finite import CircleInMotion, Shape
@@ -181,6 +182,30 @@ class RingInMotion:
             rates = [u, v]
         return u + one * a, v + one * b, rates
 
+    def forces(
+        self, places: list[float], velocities: list[float], viscosity: float, speed: float
+    ) -> list[float]:
+        """Return the forces of the films on journal and ring, each in any motion.
+
+        As `InnerMotion.forces`: the inner film pushes the ring against the journal.
+        """
+        x, y, p, q = places
+        dx, dy, u, v = velocities
+        r = self._ratio(viscosity, speed)
+        f_x, f_y = self._inside((x - p, y - q), (dx - u, dy - v), r)
+        g_x, g_y = self._outside((p, q), (u, v), r)
+        return [f_x, f_y, g_x - f_x, g_y - f_y]
+
+    def smooth(self, places: Array, velocities: Array, viscosity: float, speed: float) -> Array:
+        """Return how far both films are from a wall and from their half speed whirl, (m,).
+
+        There a film's force has no derivative; as `InnerMotion.smooth`.
+        """
+        r, wide = self._ratio(viscosity, speed), self.pair.wider
+        place, velocity = places[:, 2:], velocities[:, 2:]
+        slip = places[:, :2] - place, velocities[:, :2] - velocity
+        return np.minimum(_smooth(*slip, 1.0, 1.0 + r), _smooth(place, velocity, wide, r))
+
     def _inside(self, place: _Vector, velocity: _Vector, r: float) -> _Vector:
         """Return the force of the inner film on the journal, which moves so in the ring."""
         one = 1.0 + r
@@ -232,3 +257,9 @@ class RingInMotion:
         f = self._inside(inside, velocity, r)
         scale = _NOTHING + math.hypot(*f)
         return convex.velocity(both, 0.0, 0.0, self._held, scale=scale)
+
+
+def _smooth(place: Array, velocity: Array, clearance: float, speed: float) -> Array:
+    """Return the distance of one film from its wall and from half its speed of whirl, (m,)."""
+    (x, y), (dx, dy), half = place.T, velocity.T, 0.5 * speed
+    return np.minimum(np.hypot(dx + half * y, dy - half * x), clearance - np.hypot(x, y))
