@@ -231,6 +231,53 @@ def test_the_next_request_takes_over_a_failed_computation() -> None:
     assert asked == [21, 21]
 
 
+def doubled(asked: list[tuple[int]], most: int) -> list[int]:
+    return [2 * number for (number,) in asked[:most]]
+
+
+def test_one_order_gives_the_first_of_several_requests() -> None:
+    cached = Cached(lambda number: 2 * number, entries=9, megabytes=1, turns=Turns(1, hire=Here))
+    asked = [(1,), (2,), (3,), (4,)]
+    assert cached.first(asked, doubled, 2) == [2, 4]
+    assert [cached.known(*one) for one in asked] == [2, 4, None, None]
+    assert cached.first(asked, doubled, 4) == [2]  # known: nothing is ordered
+    assert cached.first(asked[2:], doubled, 4) == [6, 8]  # what was asked and not given is free
+    assert not cached._under_way
+
+
+def test_an_order_leaves_to_another_visitor_what_he_has_begun() -> None:
+    begun, go_on, orders = threading.Event(), threading.Event(), list[object]()
+
+    def work(number: int) -> int:
+        begun.set()
+        take(go_on)
+        return 2 * number
+
+    def together(asked: list[tuple[int]], most: int) -> list[int]:
+        orders.append(asked)
+        return doubled(asked, most)
+
+    cached = Cached(work, entries=9, megabytes=1, turns=Turns(2, hire=Here))
+    with ThreadPoolExecutor(2) as pool:
+        his = pool.submit(cached, 2)
+        take(begun)
+        assert cached.first([(1,), (2,), (3,)], together, 9) == [2]
+        waits = pool.submit(cached.first, [(2,), (3,)], together, 9)
+        go_on.set()
+        assert (his.result(PATIENCE), waits.result(PATIENCE)) == (4, [4])
+    assert orders == [((1,),)]
+
+
+def test_a_failed_order_is_free_for_others() -> None:
+    def together(*_: object) -> list[int]:
+        raise RuntimeError
+
+    cached = Cached(lambda number: 2 * number, entries=9, megabytes=1, turns=Turns(1, hire=Here))
+    with pytest.raises(RuntimeError):
+        cached.first([(1,), (2,)], together)
+    assert [cached(1), cached(2)] == [2, 4]
+
+
 def test_results_are_kept_up_to_a_number_and_a_size() -> None:
     few = Cached(np.zeros, entries=3, megabytes=100, turns=Turns(1, hire=Here))
     for n in range(1, 10):

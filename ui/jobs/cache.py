@@ -2,9 +2,10 @@
 
 import threading
 from collections import OrderedDict
-from collections.abc import Callable, Hashable, Mapping
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from functools import partial
+from itertools import takewhile
 from typing import Generic, TypeVar, cast
 
 import numpy as np
@@ -49,6 +50,27 @@ class Cached(Generic[T]):
         found = self._look(args)
         return None if found is None else found[0]
 
+    def first(
+        self, asked: Sequence[tuple[Hashable, ...]], together: Callable[..., Sequence[T]],
+        *more: Hashable,
+    ) -> Sequence[T]:  # fmt: skip
+        """Return the results of the first of some requests, as many as one order gives.
+
+        `together` takes the requests and `more`, and returns results in their order, one at least.
+        One by one each answer would wait for this process, which other pages keep busy.
+        """
+        begun = tuple(takewhile(self._begin, asked))
+        if not begun:  # known, or under way for another visitor
+            return [self(*asked[0])]
+        try:
+            with one_at_a_time.PAGES.aside():
+                found = self._turns.run(together, (begun, *more), None)
+            for key, result in zip(begun, found, strict=False):
+                self._keep(key, result)
+            return found
+        finally:
+            self._end(*begun)
+
     def _begin(self, key: object) -> bool:
         """Start a computation, unless another has started or finished it meanwhile."""
         with self._changed:
@@ -64,9 +86,12 @@ class Cached(Generic[T]):
             self._keep(args, result)
             return result
         finally:
-            with self._changed:
-                self._under_way.remove(args)
-                self._changed.notify_all()
+            self._end(args)
+
+    def _end(self, *keys: object) -> None:
+        with self._changed:
+            self._under_way.difference_update(keys)
+            self._changed.notify_all()
 
     @property
     def size(self) -> int:

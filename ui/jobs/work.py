@@ -3,7 +3,8 @@
 Nothing of Streamlit is imported here: that process is small, and soon begun.
 """
 
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -82,6 +83,19 @@ def bearing(machine: Machine, speed: float, geometry: Geometry | None) -> Bearin
     if geometry is None:
         return bearing_result(machine, speed)
     return compare_bearings(machine, (geometry,), speed=speed)[0]
+
+
+def bearings(
+    asked: Sequence[tuple[Machine, float, Geometry | None]], patience: float
+) -> list[BearingResult]:
+    """Return the first of what `bearing` gives for each, as many as begin within some seconds."""
+    until = time.monotonic() + patience
+    found: list[BearingResult] = []
+    for one in asked:
+        if found and time.monotonic() >= until:
+            break
+        found.append(bearing(*one))
+    return found
 
 
 def study(  # noqa: PLR0913, PLR0917 - what is drawn, which is also what its result is kept by

@@ -8,6 +8,7 @@ import math
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import takewhile
 from typing import Any, NamedTuple, TypeAlias
 
 import streamlit as st
@@ -184,19 +185,24 @@ def _next(asked: Sequence[_Asked]) -> list[BearingResult]:
 
     Other pages run meanwhile, and are not asked for a turn between two results.
     """
-    found: list[BearingResult] = []
-    while len(found) < len(asked) and (known := _results.known(*asked[len(found)])) is not None:
-        found.append(known)
+    found = _known(asked)
     if len(found) == len(asked):
         return found
-    begun = time.monotonic()
+    until = time.monotonic() + _PATIENCE
     with one_at_a_time.PAGES.aside():
-        for one in asked[len(found) :]:
-            late = time.monotonic() - begun >= _PATIENCE
-            if found and late and _results.known(*one) is None:
+        while len(found) < len(asked):
+            left = until - time.monotonic()
+            if found and left <= 0.0:
                 break
-            found.append(_results(*one))
+            found += _results.first(asked[len(found) :], work.bearings, left)
+            found += _known(asked[len(found) :])
     return found
+
+
+def _known(asked: Sequence[_Asked]) -> list[BearingResult]:
+    """Return the results that are known before the first one that is not."""
+    known = (_results.known(*one) for one in asked)
+    return [one for one in takewhile(lambda one: one is not None, known) if one is not None]
 
 
 class _SoFar(NamedTuple):
