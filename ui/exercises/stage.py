@@ -19,6 +19,7 @@ from ui.exercises.collection import (
 )
 from ui.format import digits, typed_number
 from ui.frame.page import HOME, PAGES, Page
+from ui.serving.downloads import offer
 from ui.session import session
 
 _NUMBER, _SEED = "exercises_exercise", "exercises_seed"
@@ -51,10 +52,10 @@ def sidebar() -> None:
     )
     seed = _seed()  # the file is made outside the session, when it is asked for
     for label, solved in (("Sheet for print", False), ("Sheet with solutions", True)):
-        st.download_button(
+        offer(
             label, lambda seed=seed, solved=solved: sheet(seed, solved=solved),
             f"exercises-{seed}{'-solutions' if solved else ''}.html", "text/html",
-            on_click="ignore", width="stretch",
+            width="stretch",
         )  # fmt: skip
     if st.button("Back to your machine", width="stretch", type="primary"):
         st.switch_page(HOME)

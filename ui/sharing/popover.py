@@ -11,6 +11,7 @@ from ui.cases import Shown
 from ui.choices import choices
 from ui.computed import Computed, computed_from
 from ui.format import literal
+from ui.serving.downloads import offer
 from ui.session import Session, session
 from ui.sharing import labels, machine_file
 from ui.sharing.labels import Labels
@@ -44,7 +45,7 @@ def _downloads(
 ) -> None:
     from ui.sharing import export, report  # noqa: PLC0415
 
-    # A file is made when it is asked for, outside the session.
+    # No file may read the session: it is made outside.
     units, chosen = visitor.units, dict(choices().kept())
     files = (
         (
@@ -73,9 +74,7 @@ def _downloads(
         ),
     )  # fmt: skip
     for label, name, mime, build in files:
-        st.download_button(
-            label, build, name, mime, key=f"save_{name}", on_click="ignore", width="stretch"
-        )
+        offer(label, build, name, mime, key=f"save_{name}", width="stretch")
     st.caption(export.ROSS_NOTE)
 
 

@@ -18,6 +18,7 @@ from ui.computed import Computed
 from ui.format import amount, digits, literal, minus
 from ui.frame.page import Page
 from ui.measured import Kind, Measured, Orbit, Upload, measured, picture
+from ui.serving.downloads import offer
 from ui.words.on_demand import slow_film
 
 _PRIVATE = (
@@ -235,9 +236,9 @@ def _offer_sample(page: Page, kind: Kind) -> None:
         return
     else:
         build = partial(_sample_response, c, angles)
-    st.download_button(
+    offer(
         f"Sample {kind}, simulated", build, f"simulated-{kind}.csv", "text/csv",
-        key=f"measured_sample_{kind}", on_click="ignore",
+        key=f"measured_sample_{kind}",
         help="A file computed from this machine as it is now, to try the page with.",
     )  # fmt: skip
 

@@ -17,6 +17,7 @@ from ui.frame.page import Page
 from ui.inputs import INPUTS, as_shown, in_units, values_of
 from ui.jobs import cache, work
 from ui.jobs.queue import SHORT
+from ui.serving.downloads import offer
 from ui.session import session
 from ui.words import spreads
 from ui.words.design import fields_of, name
@@ -297,11 +298,10 @@ def table(study: Study, found: Tolerance, units: Units) -> None:
     number = len(found.onset)
     among = f"The first {_ROWS} of {number}" if number > _ROWS else f"All {number}"
     st.caption(f"{among}; without a number where no speed makes a machine whirl.")
-    st.download_button(
+    offer(
         "All machines drawn (CSV)",
         lambda: files.drawn_csv(found, study.spreads, quantities, units),
         "tolerances.csv",
         "text/csv",
         key="save_tolerances.csv",
-        on_click="ignore",
     )
