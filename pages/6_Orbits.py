@@ -177,7 +177,7 @@ def run_up_charts(page: Page, asked: run_ups.AskRun, run: RunUp) -> None:
         while_dragging=not_at_once,
         alt="Spectra over running speed: imbalance at 1×, whirl near ½× past the onset.",
         caption="The journal's forward circles, each spectrum of 64 revolutions; dashed: Im λ/Ω of "
-        "the least damped whirl. Colours are logarithmic.",
+        "the whirl that decays slowest. Colours are logarithmic.",
     )  # fmt: skip
 
 

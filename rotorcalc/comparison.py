@@ -276,9 +276,8 @@ def _refused(machine: Machine, reason: str) -> BearingResult:
 
 def log_decrement(sweep: Sweep) -> float:
     """Return the smallest decrement of an oscillating mode, infinite where there is none."""
-    values = sweep.flexible_eigenvalues
-    swings = values[values.imag > 0.0]
-    return float(modes.logarithmic_decrement(swings).min()) if swings.size else math.inf
+    value = complex(modes.least_damped(sweep.flexible_eigenvalues))
+    return math.inf if math.isnan(value.real) else float(modes.logarithmic_decrement(value))
 
 
 def _largest_peak(machine: Machine, speed: float) -> tuple[float, float]:

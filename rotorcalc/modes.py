@@ -299,7 +299,10 @@ def rotor_terms(
 
 
 def leading(eigenvalues: ArrayLike) -> ComplexArray:
-    """Return the eigenvalue of the least damped oscillating mode, the whirl.
+    """Return the eigenvalue of the oscillating mode that decays slowest in time, the whirl.
+
+    Its growth rate decides on stability. The least damped mode, which loses the smallest share of
+    its amplitude in a period, may be another one while all decay: `least_damped`.
 
     Parameters
     ----------
@@ -323,6 +326,37 @@ def leading_place(eigenvalues: ComplexArray) -> IntArray:
     waves = eigenvalues.imag > 0.0
     counts = waves | ~np.any(waves, axis=-1, keepdims=True)
     return np.argmax(np.where(counts, eigenvalues.real, -np.inf), axis=-1)
+
+
+def least_damped(eigenvalues: ArrayLike) -> ComplexArray:
+    """Return the eigenvalue of the oscillating mode with the smallest logarithmic decrement.
+
+    That is the one with the smallest damping ratio too. It is below zero where a mode grows, so
+    that it says the same of stability as the largest growth rate.
+
+    Parameters
+    ----------
+    eigenvalues : array_like, (..., n)
+        λ of all modes [1/s].
+
+    Returns
+    -------
+    complex array, (...)
+        The one with Im λ > 0 of the smallest −Re λ/|Im λ|; NaN where none oscillates.
+    """
+    values = complex_array("eigenvalues", eigenvalues)
+    place = least_damped_place(values)[..., None]
+    value: ComplexArray = np.take_along_axis(values, place, axis=-1)[..., 0]
+    return np.where(value.imag > 0.0, value, complex(np.nan, np.nan))
+
+
+@checked
+def least_damped_place(eigenvalues: ComplexArray) -> IntArray:
+    """Return the index of `least_damped`, (...); of the largest real part where none oscillates."""
+    waves = eigenvalues.imag > 0.0
+    decrement = logarithmic_decrement(np.where(waves, eigenvalues, 1j))
+    place = np.argmin(np.where(waves, decrement, np.inf), axis=-1)
+    return np.where(np.any(waves, axis=-1), place, leading_place(eigenvalues))
 
 
 def damped_frequency(eigenvalue: ArrayLike) -> Array:

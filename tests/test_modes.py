@@ -318,3 +318,13 @@ def test_short_sweeps_are_followed(n):
 def test_the_first_row_runs_from_the_highest_frequency_down():
     first = modes.follow_branches(eigenvalues(SHEET, np.array(SPEEDS)))[0]
     assert np.all(np.diff(first.imag) <= 0)
+
+
+def test_the_least_damped_mode_has_the_smallest_decrement_not_the_slowest_decay():
+    slow, ringing, real = -30.0 + 319.0j, -40.0 + 854.0j, -1.0 + 0.0j
+    values = np.array([[slow, ringing, real, slow.conjugate()], [real] * 4])
+    assert modes.leading(values)[0] == slow
+    assert modes.least_damped(values)[0] == ringing
+    assert np.isnan(modes.least_damped(values)[1])
+    # Where one grows, both rules say so.
+    assert modes.least_damped([slow, 1.0 + 100.0j]) == modes.leading([slow, 1.0 + 100.0j])

@@ -227,7 +227,7 @@ def stability(computed: Computed, asked: Asked) -> Stability:
             cross_coupling=here.cross_coupling[0],
             log_decrement=here.log_decrement[0],
             whirl_frequency=here.whirl_frequency[0],
-            forward=here.forward[0],
+            backward_decrement=here.backward_decrement[0],
             zero_decrement=Q_0,
         ),
         is_known=Q_A is not None,

@@ -12,6 +12,7 @@ import numpy as np
 from rotorcalc.analysis import analyse
 from rotorcalc.arguments import checked
 from rotorcalc.batch.reading import Case, Problem
+from rotorcalc.comparison import log_decrement
 from rotorcalc.criteria import amplification, balance_quality, level_one
 from rotorcalc.numerics.parts import in_parts
 from rotorcalc.onset import onset_speed
@@ -99,7 +100,8 @@ def _criteria(case: Case) -> dict[str, float]:
     found = level_one(case.machine, case.speed, 0.0)
     quality = balance_quality(case.machine.rotor, speed=case.speed)
     return {
-        "log_decrement [-]": float(found.log_decrement),
+        "log_decrement [-]": log_decrement(analyse(case.machine, case.speed)),
+        "forward_log_decrement [-]": float(found.log_decrement),
         "zero_decrement_cross_coupling [N/m]": found.zero_decrement,
         "balance_quality [m/s]": float(quality),
     }

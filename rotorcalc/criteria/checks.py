@@ -201,7 +201,8 @@ def _of_peak(factor: float, *, stable: bool) -> str:
 def _stability(machine: Machine, speed: float, anticipated: float | None) -> list[Criterion]:
     """Return the log decrement at Q_A, or at zero, and Q_0/Q_A."""
     found = level_one(machine, speed, anticipated or 0.0)
-    decrement, Q_0 = float(found.log_decrement), found.zero_decrement
+    forward, backward = float(found.log_decrement), float(found.backward_decrement)
+    Q_0 = found.zero_decrement
     unknown = {
         None: "No anticipated cross-coupling was given.",
         0.0: "The anticipated cross-coupling is zero.",
@@ -209,9 +210,11 @@ def _stability(machine: Machine, speed: float, anticipated: float | None) -> lis
     never = "No Q makes the machine unstable." if math.isinf(Q_0) else ""
     return [
         Criterion(
-            name="Log decrement " + ("at Q_A" if anticipated else "without cross-coupling"),
-            value=decrement, limit=LEAST_DECREMENT, kind="number", source=_LEVEL_ONE,
-            remark=_of_mode(found) or unknown,
+            name="Log decrement of the first forward mode "
+            + ("at Q_A" if anticipated else "without cross-coupling"),
+            # A machine that is unstable by itself never meets it, whichever way it whirls.
+            value=backward if backward < 0.0 else forward, limit=LEAST_DECREMENT, kind="number",
+            source=_LEVEL_ONE, remark=_of_modes(found) or unknown,
         ),
         Criterion(
             name="Q_0/Q_A", value=Q_0 / anticipated if anticipated else math.nan,
@@ -220,11 +223,19 @@ def _stability(machine: Machine, speed: float, anticipated: float | None) -> lis
     ]  # fmt: skip
 
 
-def _of_mode(found: LevelOne) -> str:
-    """Return the remark on the least damped mode."""
+def _of_modes(found: LevelOne) -> str:
+    """Return the remark on the modes other than the first forward one."""
+    backward = float(found.backward_decrement)
+    if backward == -math.inf:
+        return "The machine is unstable: a mode grows without oscillating."
+    if backward < 0.0:
+        return "The machine is unstable: a backward mode grows, of which the value is."
     if found.whirl_frequency == 0.0:
-        return "No mode oscillates."
-    return "" if found.forward else "The least damped mode whirls backward."
+        return "No forward mode oscillates."
+    if backward < found.log_decrement:
+        below = f", below {LEAST_DECREMENT:g}" if backward < LEAST_DECREMENT else ""
+        return f"A backward mode is damped less: δ = {backward:.3g}{below}."
+    return ""
 
 
 def _response(machine: Machine, low: float, top: float) -> list[Criterion]:

@@ -19,6 +19,9 @@ _I = np.eye(2)
 # Newton's steps at most, the size of the last step over λ below which no further is needed, and
 # above which λ has not converged. With an impedance the steps shrink by a factor only.
 _STEPS, _NO_NEED, _SETTLED = 60, 1e-14, 1e-9
+# Ratio of an orbit's axes below which it counts as a line, and share of the inertia's force below
+# which no force acts.
+_LINE, _ALIKE = 0.005, 1e-8
 # A refined eigenvalue further than this from the matrix's own, relative, is another one.
 _SAME = 1e-6
 
@@ -53,12 +56,42 @@ def coupled_eigenvalues(rotor: Rotor, film: FilmDynamics, cross_coupling: Array)
 def disk_whirls_forward(
     rotor: Rotor, film: FilmDynamics, cross_coupling: Array, eigenvalue: ComplexArray
 ) -> BoolArray:
-    """Return whether the disk turns forward in a mode of each Q, (m,), of eigenvalue λ, (m,)."""
-    W, _ = _impedance(rotor, film, cross_coupling / 2.0, eigenvalue[:, None])
+    """Return whether the disk turns forward, or along a line, in each mode.
+
+    Parameters
+    ----------
+    rotor : Rotor
+        The rotor.
+    film : FilmDynamics
+        The film of one bearing at one speed [N/m], [N·s/m], [kg].
+    cross_coupling : array, (m,)
+        Q of the whole machine [N/m].
+    eigenvalue : complex array, (m, n)
+        λ of its modes [1/s]; NaN where one is not known.
+
+    Returns
+    -------
+    boolean array, (m, n)
+        False where λ is not known.
+    """
+    known = ~np.isnan(eigenvalue)
+    lam = np.where(known, eigenvalue, 1j)
+    W, _ = _impedance(rotor, film, cross_coupling / 2.0, lam)
     # The motion on which no force acts: the right singular vector of the smallest value.
-    motion = np.linalg.svd(W[:, 0])[2][:, -1].conj()
-    x, y = motion[:, 0], motion[:, 1]
-    return np.abs(x + 1j * y) > np.abs(x - 1j * y)
+    motion = np.linalg.svd(W)[2][..., -1, :].conj()
+    forward, backward = (np.abs(motion[..., 0] + sign * motion[..., 1]) for sign in (1j, -1j))
+    # Alike in X and Y, forward and backward have one λ: no force acts on any motion of the disk.
+    inertia = np.abs(lam) ** 2 * rotor.half_mass
+    alike = np.abs(_of_disk(W)).max(axis=(-2, -1)) <= _ALIKE * inertia
+    return known & ((forward - backward >= -_LINE * (forward + backward)) | alike)
+
+
+def _of_disk(W: ComplexArray) -> ComplexArray:
+    """Return the impedance of the disk alone, the film's inner coordinates free, (..., 2, 2)."""
+    if W.shape[-1] == 2:
+        return W
+    inner = np.linalg.solve(W[..., 2:, 2:], W[..., 2:, :2])
+    return W[..., :2, :2] - W[..., :2, 2:] @ inner
 
 
 def _state_matrices(rotor: Rotor, film: FilmDynamics, q: Array) -> Array:

@@ -1,7 +1,7 @@
 """Level-one stability: the log decrement with cross-coupled stiffness at midspan.
 
 The screening of API 617 (7th edition, 2002) and of API 684: a stiffness Q that stands for all that
-drives the disk forward is raised from zero past the anticipated Q_A. The least damped mode must
+drives the disk forward is raised from zero past the anticipated Q_A. The first forward mode must
 have a logarithmic decrement of at least 0.1 at Q_A, and Q_0, where the decrement vanishes, must be
 at least twice Q_A; else a second level of analysis, with the seals' own coefficients, is asked for.
 The anticipated value is Wachel's form of Alford's equation,
@@ -9,8 +9,12 @@ The anticipated value is Wachel's form of Alford's equation,
     q_A = B T/(D H) · ρ_d/ρ_s,    T = P/Ω,
 
 for each impeller, Q_A their sum; B = 3 for a centrifugal impeller, and for a row of blades B = 1.5
-without the ratio of densities. The standard prints B C P/(D H N) with C = 9.55 = 60/2π for P in W,
-N in rpm, D and H in mm and q_A in kN/mm, and with C = 63 for hp, inches and klbf/in.
+without the ratio of densities. Of several forward modes, such as oil whirl beside that of the bent
+shaft, the least damped counts here as the first. Q damps a backward mode more, but as Q rises its
+orbit may narrow to a line and open forward: where it is damped less, that is to be known too.
+
+The standard prints B C P/(D H N) with C = 9.55 = 60/2π for P in W, N in rpm, D and H in mm and q_A
+in kN/mm, and with C = 63 for hp, inches and klbf/in.
 
 Source: the paragraphs SP6.8.5.6 to SP6.8.5.10 of API 684 as Petrobras' open program ROSS cites and
 computes them (`ross/API_Report/Report.py`). The standard's chart of the critical speed ratio over
@@ -43,7 +47,7 @@ _RAISED, _PLACES = 80, 121
 
 @dataclass(frozen=True, eq=False)
 class LevelOne(Result):
-    """The least damped mode of a machine over the cross-coupled stiffness at midspan.
+    """The first forward mode of a machine over the cross-coupled stiffness at midspan.
 
     Attributes
     ----------
@@ -52,12 +56,14 @@ class LevelOne(Result):
     cross_coupling : array, (...)
         Q of the whole machine, positive forward [N/m].
     log_decrement : array, (...)
-        δ of the least damped mode [-]; infinite where no mode oscillates.
+        δ of the first forward mode [-]: of the modes in which the disk turns with the shaft, or
+        moves along a line, the least damped; infinite where none oscillates.
     whirl_frequency : array, (...)
-        Frequency of that mode [rad/s].
-    forward : boolean array, (...)
-        Whether the disk turns with the shaft in that mode. Standards ask for the first forward
-        mode; a backward one that is damped less only makes this criterion stricter.
+        Frequency of that mode [rad/s]; 0 where there is none.
+    backward_decrement : array, (...)
+        δ of the least damped of the other modes [-], in which the disk turns against the shaft.
+        Minus infinity where a mode grows without oscillating, infinite
+        where there is no other mode.
     zero_decrement : float
         Q_0, the smallest Q at which δ vanishes [N/m]; 0 where the machine is unstable without any,
         infinite where no Q makes it unstable.
@@ -67,13 +73,13 @@ class LevelOne(Result):
     cross_coupling: Array
     log_decrement: Array
     whirl_frequency: Array
-    forward: BoolArray
+    backward_decrement: Array
     zero_decrement: float
 
 
 @checked
 def level_one(machine: Machine, speed: float, cross_coupling: ArrayLike) -> LevelOne:
-    """Return the least log decrement of a machine with cross-coupled stiffness at midspan.
+    """Return the log decrement of the first forward mode with cross-coupled stiffness at midspan.
 
     Parameters
     ----------
@@ -101,14 +107,15 @@ def level_one(machine: Machine, speed: float, cross_coupling: ArrayLike) -> Leve
         raise ValueError(f"cross_coupling = {shown(cross_coupling)} N/m: must be finite")
     film = dynamics(machine, omega)
     row = Q.ravel()
-    least = _least_damped(coupled_eigenvalues(machine.rotor, film, row))
-    forward = (least.imag != 0.0) & disk_whirls_forward(machine.rotor, film, row, least)
+    values = _known(coupled_eigenvalues(machine.rotor, film, row))
+    forward = (values.imag > 0.0) & disk_whirls_forward(machine.rotor, film, row, values)
+    first, others = _least_damped(values, forward), _least_damped(values, ~forward)
     return LevelOne(
         speed=omega,
         cross_coupling=Q,
-        log_decrement=modes.logarithmic_decrement(least).reshape(Q.shape),
-        whirl_frequency=modes.damped_frequency(least).reshape(Q.shape),
-        forward=forward.reshape(Q.shape),
+        log_decrement=modes.logarithmic_decrement(first).reshape(Q.shape),
+        whirl_frequency=modes.damped_frequency(first).reshape(Q.shape),
+        backward_decrement=modes.logarithmic_decrement(others).reshape(Q.shape),
         zero_decrement=_zero_decrement(machine.rotor, film),
     )
 
@@ -172,16 +179,24 @@ def _positive(name: str, value: ArrayLike, unit: str) -> Array:
     return array
 
 
-def _least_damped(values: ComplexArray) -> ComplexArray:
-    """Return λ of the least damped of modes (m, n) with Im λ ≥ 0, (m,)."""
-    decrement = np.where(values.imag < 0.0, np.nan, modes.logarithmic_decrement(values))
-    if np.any(np.all(np.isnan(decrement), axis=-1)):
+def _known(values: ComplexArray) -> ComplexArray:
+    """Return λ of modes (m, n); raises ValueError where of one Q none is known."""
+    if np.any(np.all(np.isnan(values), axis=-1)):
         raise ValueError(
             "cross_coupling: on this film no mode was found whose frequency is that of its own "
             "stiffness and damping; try other values of Q or another speed"
         )
-    place = np.nanargmin(decrement, axis=-1)[:, None]
-    return np.take_along_axis(values, place, axis=-1)[:, 0]
+    return values
+
+
+def _least_damped(values: ComplexArray, counts: BoolArray) -> ComplexArray:
+    """Return λ of the least damped of those modes (m, n) that count, (m,); −1 where none does."""
+    # A pair counts once, and a mode that decays without oscillating has an infinite decrement.
+    counts = counts & (values.imag >= 0.0)
+    decrement = np.where(counts, modes.logarithmic_decrement(values), np.inf)
+    place = np.argmin(decrement, axis=-1)[:, None]
+    found: ComplexArray = np.take_along_axis(values, place, axis=-1)[:, 0]
+    return np.where(np.min(decrement, axis=-1) < np.inf, found, -1.0 + 0.0j)
 
 
 def _zero_decrement(rotor: Rotor, film: FilmDynamics) -> float:

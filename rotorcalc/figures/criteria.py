@@ -63,22 +63,34 @@ class CriticalSpeeds(Result):
 
 
 def decrement(shown: Stability, units: Units) -> Chart:
-    """Return the least log decrement over the cross-coupled stiffness at midspan."""
+    """Return the first forward mode's log decrement over the cross-coupled stiffness at midspan.
+
+    A backward mode is drawn where it is damped less.
+    """
     unit, over = units.stiffness, shown.over
     Q, delta = unit.of(over.cross_coupling), np.where(np.isfinite(over.log_decrement),
                                                       over.log_decrement, np.nan)  # fmt: skip
     x = style.axis(
         style.titled("Cross-coupled stiffness at midspan", "Q", unit.name), 0.0, float(Q[-1])
     )
-    y = style.axis(style.titled("Log. decrement", "δ", "-"), *_ends(delta))
+    y = style.axis(style.titled("Log. decrement", "δ", "-"), *_ends(shown))
     hover = f"Q %{{x:.4g}} {unit.name}<br>δ %{{y:.3g}}<extra>%{{fullData.name}}</extra>"
     least = np.full(2, LEAST_DECREMENT)
     ends = np.array([0.0, float(Q[-1])])
     traces = [
         style.line(ends, least, f"least δ, {LEAST_DECREMENT:g}", style.GREY, dash="dash",
                    width=1.6, hoverinfo="skip"),
-        style.line(Q, delta, "least damped mode", style.BLUE, hovertemplate=hover),
+        style.line(Q, delta, "first forward mode", style.BLUE, hovertemplate=hover),
     ]  # fmt: skip
+    less = over.backward_decrement < over.log_decrement
+    if np.any(less):
+        back = np.where(
+            less & np.isfinite(over.backward_decrement), over.backward_decrement, np.nan
+        )
+        traces.append(
+            style.line(Q, back, "backward mode, damped less", style.PURPLE, dash="dot",
+                       hovertemplate=hover)
+        )  # fmt: skip
     if np.any(delta < 0.0):
         grows = np.where(delta < 0.0, delta, np.nan)
         traces.append(style.line(Q, grows, "unstable", style.UNSTABLE, width=4.0))
@@ -90,9 +102,12 @@ def decrement(shown: Stability, units: Units) -> Chart:
     )  # fmt: skip
 
 
-def _ends(delta: Array) -> tuple[float, float]:
+def _ends(shown: Stability) -> tuple[float, float]:
     """Return the ends of an axis of the log decrement: zero is within it, and the least one."""
-    known = delta[np.isfinite(delta)]
+    over = shown.over
+    drawn = np.concatenate([over.log_decrement, np.minimum(over.backward_decrement,
+                                                           over.log_decrement)])  # fmt: skip
+    known = drawn[np.isfinite(drawn)]
     low = float(known.min(initial=0.0))
     high = style.ceiling(known, 2.0 * LEAST_DECREMENT)
     return -max(style.ceiling(-low), 0.1 * high) if low < 0.0 else -0.1 * high, high

@@ -568,7 +568,7 @@ class _Drawing:
         }  # fmt: skip
 
     def _whirl(self) -> dict[str, Any]:
-        """Return the least damped mode: growth, frequency, and the journal's phasors, of size 1."""
+        """Return the slowest mode to decay: growth, frequency, the journal's phasors, of size 1."""
         values, place = self.others.modes.eigenvalues, leading_place(self.others.modes.eigenvalues)
         mode = np.take_along_axis(values, place[:, None], axis=-1)[:, 0]
         shape = np.take_along_axis(self.others.modes.journal, place[:, None, None], axis=-2)[:, 0]

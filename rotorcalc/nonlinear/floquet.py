@@ -30,7 +30,7 @@ def multiplier(balance: Balance, cycle: Cycle) -> complex:
     Returns
     -------
     complex
-        Growth of the least damped small motion over one period [-], its imaginary part not
+        Growth of a small motion over one period [-], the slowest to decay, its imaginary part not
         negative; of modulus below 1 the cycle is stable.
     """
     fine, coarse = (

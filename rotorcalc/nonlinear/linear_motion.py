@@ -49,7 +49,7 @@ class LinearMotion:
 
     @property
     def whirl(self) -> complex:
-        """λ of the least damped oscillating mode [1/s]."""
+        """λ of the oscillating mode that decays slowest or grows fastest [1/s]."""
         return complex(modes.leading(self.eigenvalues))
 
 

@@ -3,8 +3,8 @@
 From the film's coefficients in closed form (Eqs. 5.45 to 5.50); from the eigenvalues of the free
 motion; and as in an experiment: start a small whirl about the equilibrium at several speeds,
 integrate the nonlinear motion, measure the growth rate of the whirl, and find the speed at which it
-vanishes. The start lies on the linear theory's least damped mode, since a kick would mostly excite
-other modes; the growth rate is the nonlinear motion's own.
+vanishes. The start lies on the linear theory's mode that decays slowest, since a kick would mostly
+excite other modes; the growth rate is the nonlinear motion's own.
 """
 
 import math
@@ -150,7 +150,7 @@ def _apart(machine: Machine) -> float:
 def measured_growth(machine: Machine, speed: float) -> float:
     """Return the growth rate of a machine's whirl, measured on its nonlinear motion.
 
-    The motion starts on the least damped mode, so that it shows this mode alone: exponentials
+    The motion starts on the slowest mode to decay, so that it shows this mode alone: exponentials
     fitted to eight whirls then give its growth to about 1e-7 of |λ|, also where it takes thousands
     of them to grow by e.
 

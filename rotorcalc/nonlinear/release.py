@@ -54,7 +54,7 @@ class Release(Result):
     ellipse : array, (m, 2)
         The synchronous orbit by the linear theory [m].
     whirl : complex
-        Growth rate + j frequency [1/s] of the linear theory's least damped whirl.
+        Growth rate + j frequency [1/s] of the linear theory's mode that decays slowest.
     film : array, (n,)
         Minimum film thickness [m].
     spectrum : Spectrum

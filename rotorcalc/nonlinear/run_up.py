@@ -57,7 +57,7 @@ class Passage(Result):
     seen : Waterfall
         Its spectra.
     whirl_order : array, (k,)
-        Order of the least damped whirl at the spectra's speeds by the linear theory [-].
+        Order of the whirl that decays slowest at the spectra's speeds by the linear theory [-].
     """
 
     speed: Array

@@ -289,7 +289,7 @@ def growth(
     motion : Transient or MeasuredOrbit
         The motion, at constant speed; an integrated one without imbalance. In a recorded one only
         whirl is looked for, orders 0.2 to 0.85, as the imbalance is in it too; and of several
-        whirls, as imbalance and whirl at one half make two of, the least damped is taken.
+        whirls, as imbalance and whirl at one half make two of, the slowest to decay is taken.
     rest : array_like, (2,) or None
         Where the journal would rest [m]; None fits it with the modes.
     revolutions : int or None

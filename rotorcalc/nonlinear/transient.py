@@ -188,7 +188,7 @@ def simulate(  # noqa: PLR0913 - how long, from where, to which speed
 
 @checked
 def start_on_mode(machine: Machine, speed: float, amplitude: float) -> Start:
-    """Return a state on the least damped mode of the linear theory, about static equilibrium.
+    """Return a state on the linear theory's mode that decays slowest, about static equilibrium.
 
     Parameters
     ----------

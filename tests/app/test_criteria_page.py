@@ -6,6 +6,7 @@ import re
 import numpy as np
 import pytest
 
+from rotorcalc import modes
 from rotorcalc.criteria import anticipated_cross_coupling, checks, imbalance_of_grade
 from rotorcalc.units import SI, US, rpm
 from tests.app.session import charts, faults, open_part, session_of, tours, visit
@@ -15,6 +16,7 @@ from ui.bores import NAMES
 from ui.computed import computed_from
 from ui.criteria import Asked
 from ui.format import amount, digits, minus
+from ui.results.stability import least_damped
 from ui.words import criteria as words
 
 PAGE, HOME = "pages/10_Criteria.py", "app.py"
@@ -233,3 +235,15 @@ def test_the_verdict_counts_what_is_met():
     assert words.sentence(rows) == "Met: 2 of 3. Unknown: Q₀/Qₐ."
     rows.append(words.Row("Margin", "1 %", "at least 2 %", "failed", "S", ""))
     assert words.sentence(rows).startswith("Not met: 1 of 4: margin, 1 %, at least 2 % is")
+
+
+def test_the_cards_are_of_the_least_damped_mode_that_the_criteria_name():
+    # At 6000 rpm a backward mode loses the smallest share in a period, and another decays slowest.
+    computed = computed_from(session_of(visit(HOME)).values)
+    zeta = float(modes.damping_ratio(least_damped(computed)))
+    swings = computed.point.flexible_eigenvalues
+    assert zeta == pytest.approx(modes.damping_ratio(swings[swings.imag > 0.0]).min())
+    found = criteria.stability(computed, Asked()).here
+    decrement = 2.0 * math.pi * zeta / math.sqrt(1.0 - zeta**2)
+    assert decrement == pytest.approx(found.backward_decrement)
+    assert found.log_decrement > found.backward_decrement

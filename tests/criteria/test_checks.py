@@ -6,7 +6,16 @@ import numpy as np
 import pytest
 from scipy.constants import mil
 
-from rotorcalc import PRESETS, amplification, analyse, criteria, level_one, onset_speed, rpm
+from rotorcalc import (
+    PRESETS,
+    CoefficientTable,
+    amplification,
+    analyse,
+    criteria,
+    level_one,
+    onset_speed,
+    rpm,
+)
 from rotorcalc.units import Units
 from tests.criteria.bores import GEOMETRIES, on
 from tests.films.models import Sprung
@@ -112,7 +121,9 @@ def test_what_cannot_be_judged_says_why():
     assert named(still, VIBRATION).unjudged == "The rotor has no imbalance."
     assert named(still, "Distance").passed
     assert named(still, "Q_0/Q_A").unjudged == "No anticipated cross-coupling was given."
-    assert named(still, "Log").name == "Log decrement without cross-coupling"
+    assert named(still, "Log").name == (
+        "Log decrement of the first forward mode without cross-coupling"
+    )
     flat = criteria.checks(PRESETS["friswell-5-5-1"].machine, 1500 * rpm)
     assert named(flat, "Separation").unjudged.startswith("The response has no peak")
     fast = criteria.checks(SHEET, 1.05 * onset_speed(SHEET).speed)
@@ -120,12 +131,32 @@ def test_what_cannot_be_judged_says_why():
     assert named(fast, "Log").passed is False
 
 
-def test_the_remark_says_which_way_the_mode_whirls():
-    # At 6000 rpm the sheet's backward mode is damped less than its forward one.
-    rows = criteria.checks(SHEET, TOP)
-    assert named(rows, "Log").remark == "The least damped mode whirls backward."
-    assert not level_one(SHEET, TOP, 0.0).forward
-    assert level_one(SHEET, TOP, 2e7).forward
+def test_a_backward_mode_that_is_damped_less_is_said():
+    # At 6000 rpm the sheet's backward mode is damped less than its forward ones.
+    found = level_one(SHEET, TOP, 0.0)
+    row = named(criteria.checks(SHEET, TOP), "Log")
+    assert row.value == found.log_decrement > found.backward_decrement
+    assert row.remark == f"A backward mode is damped less: δ = {found.backward_decrement:.3g}."
+    along = level_one(SHEET, TOP, 2e7)
+    assert along.log_decrement < along.backward_decrement
+    assert not named(criteria.checks(SHEET, TOP, cross_coupling=2e7), "Log").remark
+    soft = named(criteria.checks(SOFT, 4000 * rpm), "Log")
+    assert soft.passed
+    assert soft.remark.endswith(", below 0.1.")
+
+
+def test_a_machine_that_a_backward_mode_makes_unstable_never_passes():
+    # The sheet's own film, its cross terms of the other sign: it drives against the shaft.
+    onset = onset_speed(SOFT).speed
+    film = analyse(SOFT, np.array([1.0, 1.05, 1.1]) * onset)
+    sign = np.array([[1.0, -1.0], [-1.0, 1.0]])
+    table = CoefficientTable(
+        speed=film.speed, stiffness=sign * film.stiffness, damping=sign * film.damping
+    )
+    row = named(criteria.checks(replace(SOFT, bearing=table), 1.05 * onset), "Log")
+    assert row.value < 0.0
+    assert row.passed is False
+    assert "a backward mode grows" in row.remark
 
 
 @pytest.mark.parametrize("geometry", GEOMETRIES.values(), ids=GEOMETRIES)

@@ -243,7 +243,7 @@ def test_a_ring_floats_clear_of_journal_and_bore_and_turns_at_its_own_speed():
     assert said.endswith(f"{rpm_there:.0f} rpm")
 
 
-def test_the_whirl_is_the_least_damped_modes():
+def test_the_whirl_is_that_of_the_mode_that_decays_slowest():
     made, speed = PRESETS["sheet-1e8"].machine, PRESETS["sheet-1e8"].speed
     point, film = analyse(made, speed), film_field(made, speed, theta=THETA)
     chart = machine.cross_section(point, film, SI, others=other_speeds(made, speed))

@@ -169,7 +169,7 @@ def test_modes_outside_the_chart_are_mentioned():
 
 def test_the_running_speed_is_marked_on_every_chart_over_speed():
     shown, rigid, shaft = shown_of(PRESETS["sheet-1e8"])
-    lead = shown.locus.here.eigenvalues[shown.locus.leading]
+    lead = shown.locus.here.eigenvalues[shown.locus.least_damped]
     for chart, value in (
         (figures.growth(shown), lead.real),
         (figures.frequency(shown), lead.imag * 30 / np.pi),
@@ -185,7 +185,7 @@ def test_the_running_speed_is_marked_on_every_chart_over_speed():
 
 def test_a_forward_orbit_turns_from_x_down_to_y_right():
     shown, *_ = shown_of(PRESETS["sheet-1e8"])
-    chart = figures.shape(shown.locus.here, shown.locus.leading, rigid=False)
+    chart = figures.shape(shown.locus.here, shown.locus.least_damped, rigid=False)
     assert chart["layout"]["yaxis"]["range"][0] > chart["layout"]["yaxis"]["range"][1]
     orbit = next(trace for trace in chart["data"] if trace["name"] == "disk")
     Y, X = orbit["x"], orbit["y"]
@@ -209,7 +209,7 @@ def test_a_floating_rings_orbit_stands_in_the_shape_beside_the_shaft():
 
 def test_the_spiral_shrinks_by_the_decrement():
     shown, *_ = shown_of(PRESETS["sheet-1e8"])
-    here, lead = shown.locus.here, shown.locus.leading
+    here, lead = shown.locus.here, shown.locus.least_damped
     orbit = figures.shape(here, lead, rigid=False, spiral=True)["data"][0]
     turn = (len(orbit["x"]) - 1) // 3
     ratio = np.hypot(orbit["x"][turn], orbit["y"][turn]) / np.hypot(orbit["x"][0], orbit["y"][0])

@@ -149,7 +149,7 @@ def test_noise_changes_what_is_read_by_no_more_than_its_share(noise: float) -> N
         assert synchronous_vector(orbit) == pytest.approx([22e-6, -18e-6j], abs=0.5 * noise + 1e-8)
 
 
-def test_of_two_whirls_that_an_imbalance_makes_of_one_the_least_damped_is_read() -> None:
+def test_of_two_whirls_that_an_imbalance_makes_of_one_the_slowest_to_decay_is_read() -> None:
     # The imbalance holds the whirl at one half, of which one phase decays and the other grows.
     speed = 10500 * RPM
     start = start_on_mode(SHEET, speed, 1.2e-6)

@@ -22,7 +22,7 @@ def expected(machine, speed):
 
 @pytest.mark.parametrize("factor", [0.3, 0.9, 1.1, 3.0])
 @pytest.mark.parametrize("seed", range(12))
-def test_growth_is_that_of_the_least_damped_mode(seed, factor):
+def test_growth_is_that_of_the_mode_that_decays_slowest(seed, factor):
     machine, top = drawn(seed)
     onset = onset_speed(machine).speed
     speed = factor * (onset if 0.0 < onset < math.inf else top / 3.0)

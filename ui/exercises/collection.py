@@ -14,7 +14,7 @@ from ui.bores import Values
 from ui.computed import Computed, computed_from
 from ui.format import digits
 from ui.inputs import PRESET_VALUES
-from ui.results.stability import leading
+from ui.results.stability import least_damped
 
 # Share by which an answer may differ from the program's: what rounding on the way leaves.
 TOLERANCE = 0.02
@@ -133,7 +133,7 @@ def _threshold(c: Computed) -> Mapping[str, str]:
 
 
 def _mode(c: Computed) -> Mapping[str, str]:
-    found = leading(c)
+    found = least_damped(c)
     return {"real": digits(-found.real), "imag": digits(found.imag)}
 
 
@@ -275,10 +275,10 @@ EXERCISES: tuple[Exercise, ...] = (
         "in 1/s and rad/s. What are its damping ratio and its logarithmic decrement?",
         _sheet(2500, 8000),
         (
-            Ask("Damping ratio ζ", "-", lambda c: -leading(c).real / abs(leading(c))),
+            Ask("Damping ratio ζ", "-", lambda c: -least_damped(c).real / abs(least_damped(c))),
             Ask(
                 "Logarithmic decrement δ", "-",
-                lambda c: -2 * math.pi * leading(c).real / leading(c).imag,
+                lambda c: -2 * math.pi * least_damped(c).real / least_damped(c).imag,
             ),
         ),
         "δ is the logarithm of the ratio of two maxima, one period apart.", "pages/4_Root_locus.py",

@@ -15,10 +15,14 @@ from ui.results.record import Result
 from ui.words.citation import whirl_without_load
 
 
-def leading(computed: Computed) -> complex:
-    """Return the eigenvalue of the oscillating mode nearest to growth at running speed [1/s]."""
-    value = complex(modes.leading(computed.point.flexible_eigenvalues))
-    return value if value.imag > 0.0 else complex(math.nan)  # where none oscillates
+def fastest_growing(computed: Computed) -> complex:
+    """Return λ of the oscillating mode that grows fastest at running speed [1/s]."""
+    return complex(modes.leading(computed.point.flexible_eigenvalues))
+
+
+def least_damped(computed: Computed) -> complex:
+    """Return λ of the oscillating mode with the smallest log decrement at running speed [1/s]."""
+    return complex(modes.least_damped(computed.point.flexible_eigenvalues))
 
 
 def _stiffness(computed: Computed) -> str:
@@ -147,6 +151,10 @@ def _ratio_of_speeds(computed: Computed) -> str:
 _RIGID, _FLEXIBLE, _RATIO = "Eq. 5.45", "Eq. 5.50", "Eq. 5.46"
 _CITED = {number: equation(number.removeprefix("Eq. ")) for number in (_RIGID, _FLEXIBLE, _RATIO)}
 _BALANCE = r"(K_{eq}-M_jX)(K_{rot}-m_dX) = K_{rot}\,m_dX,\quad X = (\bar\omega\,\Omega)^2"
+_DECISIVE = (
+    "For the least damped mode at the running speed: of all that oscillate, forward or backward, "
+    "the one with the smallest log decrement δ."
+)
 _ONSET_REMARK = "With the equilibrium at the onset speed itself."
 
 STABILITY: tuple[Result, ...] = (
@@ -226,16 +234,16 @@ STABILITY: tuple[Result, ...] = (
     ),
     Result(
         "damping_ratio", "Damping ratio ζ", "number",
-        lambda c: float(modes.damping_ratio(leading(c))), "Re λ, Im λ",
+        lambda c: float(modes.damping_ratio(least_damped(c))), "Re λ, Im λ",
         r"\zeta = -\frac{\mathrm{Re}\,\lambda}{|\lambda|}",
-        lambda c: rf"{tex(float(modes.damping_ratio(leading(c))))},\quad \lambda = "
-        rf"{tex(leading(c).real)} \pm {tex(abs(leading(c).imag))}\,j",
-        "For the oscillating mode that decays slowest, or grows fastest, at the running speed.",
+        lambda c: rf"{tex(float(modes.damping_ratio(least_damped(c))))},\quad \lambda = "
+        rf"{tex(least_damped(c).real)} \pm {tex(abs(least_damped(c).imag))}\,j",
+        _DECISIVE,
     ),
     Result(
         "natural_frequency", "Mode's frequency |Im\u00a0λ|", "speed",
-        lambda c: abs(leading(c).imag), "Im λ", r"\omega_d = |\mathrm{Im}\,\lambda|",
-        lambda c: tex(abs(leading(c).imag), "rad/s"),
-        "For the oscillating mode that decays slowest, or grows fastest, at the running speed.",
+        lambda c: abs(least_damped(c).imag), "Im λ", r"\omega_d = |\mathrm{Im}\,\lambda|",
+        lambda c: tex(abs(least_damped(c).imag), "rad/s"),
+        _DECISIVE,
     ),
 )  # fmt: skip

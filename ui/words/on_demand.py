@@ -28,7 +28,7 @@ from ui.format import amount, digits
 from ui.frame.page import Page
 from ui.jobs import cache, work
 from ui.jobs.work import Progress
-from ui.results.stability import leading
+from ui.results.stability import fastest_growing
 from ui.session import session
 from ui.words.citation import capital, without_load, without_onset
 
@@ -201,7 +201,7 @@ def ask_onsets(page: Page) -> tuple[Onsets, GrowthCurve] | None:
 def three_onsets(computed: Computed) -> tuple[Onsets, GrowthCurve]:
     """Return the onset found three ways, and growth over speed, of a machine that has one."""
     found, curve = _three(balanced(computed.machine))
-    here = leading(computed).real
+    here = fastest_growing(computed).real
     return found, replace(curve, running_speed=computed.speed, running_rate=here)
 
 

@@ -8,7 +8,7 @@ from rotorcalc.units import Units
 from ui.computed import Computed
 from ui.format import above, amount, digits, lower
 from ui.preview import Kind, Text
-from ui.results.stability import leading
+from ui.results.stability import fastest_growing
 from ui.ring import has_ring
 from ui.words import validity
 from ui.words.citation import without_load
@@ -92,7 +92,7 @@ def _never(computed: Computed, units: Units) -> str:
 
 
 def _past(computed: Computed, units: Units) -> str:
-    onset, growing = computed.onset, leading(computed)
+    onset, growing = computed.onset, fastest_growing(computed)
     now = f"{_growing(computed, growing, units)}; " if growing.real > 0.0 else ""
     if math.isinf(onset.speed):
         return f"{now}no onset was found."
