@@ -12,16 +12,21 @@ import numpy as np
 from rotorcalc.analysis import analyse
 from rotorcalc.arguments import checked
 from rotorcalc.batch.reading import Case, Problem
+from rotorcalc.coefficient_table import CoefficientTable
 from rotorcalc.comparison import log_decrement
 from rotorcalc.criteria import amplification, balance_quality, level_one
+from rotorcalc.machine import Machine
 from rotorcalc.numerics.parts import in_parts
 from rotorcalc.onset import onset_speed
 from rotorcalc.onset.judge import is_unstable
 from rotorcalc.tables import columns
 from rotorcalc.tolerances.study import tolerance
 from rotorcalc.units import rpm
+from rotorcalc.validity import IMBALANCE_ORBIT, Check, validity
 
 Value: TypeAlias = float | str
+# Words of the app for an assumption that is doubtful, and one that fails.
+_STATES = {"caution": "strained", "outside": "outside"}
 # What a film that has no answer raises.
 _NO_ANSWER = (ValueError, RuntimeError)
 _SHARES = (0.05, 0.5, 0.95)
@@ -41,12 +46,16 @@ class CaseResult:
         In SI, the unit in the name: "onset [rad/s]".
     refusal : str
         Why something has no value; empty where all has.
+    validity : str
+        Which of the model's assumptions are strained or fail at the running speed, by number and
+        limit; empty where all hold.
     """
 
     line: int
     name: str
     values: Mapping[str, float] = field(default_factory=dict[str, float])
     refusal: str = ""
+    validity: str = ""
 
 
 @checked
@@ -73,7 +82,38 @@ def result(case: Case) -> CaseResult:
             values |= compute(case)
         except _NO_ANSWER as error:
             refusals.append(str(error))
-    return CaseResult(case.line, case.name, values, "; ".join(dict.fromkeys(refusals)))
+    told = "; ".join(dict.fromkeys(refusals))
+    said = _validity(case, values.get("onset [rad/s]", math.nan))
+    return CaseResult(case.line, case.name, values, told, said)
+
+
+def _validity(case: Case, onset: float) -> str:
+    """Return in words what lies outside the model's range, at the running speed and the onset."""
+    if isinstance(case.machine.bearing, CoefficientTable):
+        return "own coefficients: whether they hold for this machine is not known"
+    parts: list[str] = []
+    try:
+        if not math.isnan(case.speed):
+            parts += _judged(case.machine, case.speed)
+        if 0.0 < onset < math.inf:
+            # The onset is that of a small motion, whatever the imbalance.
+            parts += [f"at the onset {words}" for words in _judged(case.machine, onset)
+                      if words.startswith("outside") and IMBALANCE_ORBIT not in words]  # fmt: skip
+    except _NO_ANSWER:  # the refusal is told already
+        pass
+    return "; ".join(parts)
+
+
+def _judged(machine: Machine, speed: float) -> list[str]:
+    """Return each assumption that is strained or fails at a speed, with its number and limit."""
+    return [
+        f"{_STATES[one.worst]}: {one.name} = {float(one.value):.4g}, limit {_limit(one):.4g}"
+        for one in validity(analyse(machine, speed)) if one.worst != "good"
+    ]  # fmt: skip
+
+
+def _limit(check: Check) -> float:
+    return float(check.limit if check.worst == "outside" else check.caution)
 
 
 def _onset(case: Case) -> dict[str, float]:
@@ -246,7 +286,8 @@ def table(
     Returns
     -------
     dict of str to list
-        "line", "name", every value with its unit, and "problem"; NaN where a row has no value.
+        "line", "name", every value with its unit, "validity" and "problem"; NaN where a row has
+        no value.
         `pandas.DataFrame` takes it as it is.
     """
     wrong = [CaseResult(one.line, one.name, refusal=str(one)) for one in problems]
@@ -256,5 +297,6 @@ def table(
         "line": [row.line for row in rows],
         "name": [row.name for row in rows],
         **{name: [row.values.get(name, math.nan) for row in rows] for name in names},
+        "validity": [row.validity for row in rows],
         "problem": [row.refusal for row in rows],
     }

@@ -61,10 +61,12 @@ def _paragraph(row: Mapping[str, Value]) -> list[str]:
     title = f"line {row['line']}" + (f": {row['name']}" if row["name"] else "")
     lines = [title, "-" * len(title)]
     for name, value in row.items():
-        if name in ("line", "name", "problem") or value in ("", None) or _is_nan(value):
+        if name in ("line", "name", "validity", "problem") or value in ("", None) or _is_nan(value):
             continue
         quantity, _, unit = name.partition(" [")
         lines.append(f"{quantity:{_WIDTH}} {value:>14.6g} {unit.rstrip(']')}")
+    if row["validity"]:
+        lines.append(f"validity: {row['validity']}")
     if row["problem"]:
         lines.append(f"problem: {row['problem']}")
     return [*lines, ""]

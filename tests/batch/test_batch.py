@@ -382,7 +382,8 @@ def test_what_is_written_is_read_again() -> None:
     assert [row["name"] for row in rows] == ["'=1+1", "sheet"]
     records = json.loads(rc.batch.to_json(table))
     for name, column in table.items():
-        if name in ("name", "problem"):
+        if name in ("name", "validity", "problem"):
+            assert [record[name] for record in records] == column
             continue
         for value, row, record in zip(column, rows, records, strict=True):
             if math.isnan(value):
@@ -393,6 +394,34 @@ def test_what_is_written_is_read_again() -> None:
     report = rc.batch.to_report(table)
     assert report.startswith("line 2: =1+1\n")
     assert "934.029 rad/s" in report
+
+
+def test_what_lies_outside_the_models_range_is_said_in_words() -> None:
+    # Long for a short bearing, and an imbalance orbit as large as the clearance.
+    read = rc.read_machines(f"{TABLE}{ROW.replace('150,50', '150,300').replace(',12', ',300')}\n")
+    good, bad = rc.batch.results(read.cases)
+    checks = [one for one in rc.validity(rc.analyse(read.cases[1].machine, read.cases[1].speed))
+              if one.worst != "good"]  # fmt: skip
+    assert len(checks) > 1
+    assert {one.worst for one in checks} == {"caution", "outside"}
+    for one in checks:
+        word = {"caution": "strained", "outside": "outside"}[one.worst]
+        assert f"{word}: {one.name} = {float(one.value):.4g}, limit" in bad.validity
+    assert good.validity == "; ".join(
+        f"strained: {one.name} = {float(one.value):.4g}, limit {float(one.caution):.4g}"
+        for one in rc.validity(rc.analyse(SHEET, 6000 * rc.rpm)) if one.worst != "good"
+    )  # fmt: skip
+    table = rc.batch.table([good, bad])
+    assert table["validity"] == [good.validity, bad.validity]
+    assert f"validity: {bad.validity}" in rc.batch.to_report(table)
+
+
+def test_own_coefficients_have_an_unknown_validity() -> None:
+    sweep = rc.analyse(SHEET, [400.0, 700.0])
+    table = rc.CoefficientTable(speed=sweep.speed, stiffness=sweep.stiffness, damping=sweep.damping)
+    [one] = rc.read_machines(replace(SHEET, bearing=table).to_json()).cases
+    [found] = rc.batch.results([replace(one, speed=628.0)])
+    assert found.validity.startswith("own coefficients")
 
 
 # --- The command line -----------------------------------------------------------------------

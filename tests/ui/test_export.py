@@ -25,6 +25,7 @@ from ui.results.table import RESULTS
 from ui.sharing import export, report
 from ui.sharing.labels import Labels
 from ui.sharing.report_charts import sections
+from ui.words import validity, verdict
 
 LABELS = Labels("Pump 3", "Trip at 80 µm.\n<b>&", "Survey of the boiler feed pumps", "A. Nother")
 LINK = 'https://host.example/Stability?preset=sheet-1e7&C=80&u="><script>alert(1)</script>'
@@ -335,6 +336,18 @@ def test_report_shows_every_input_and_result(case: str, units: Units) -> None:
             assert f"{item.shown(value, units):.6g}".replace("-", "−") in text
     for result in RESULTS.values():
         assert (result.label in text) == result.belongs(shown)
+
+
+@every_case
+def test_the_reports_headline_says_of_the_model_what_the_page_says(case: str) -> None:
+    shown = computed(case)
+    said = " ".join(read(case, None).text)
+    headline = validity.headline(shown)
+    assert f"{headline}." in said[: said.index("Inputs")]
+    page = verdict.text(shown, SI).words
+    assert headline in page
+    for words in ("lie outside the model's range.", "Coarse mesh"):
+        assert (words in page) == (words in said[: said.index("Inputs")])
 
 
 def test_report_has_title_case_author_and_remarks_as_they_were_written() -> None:

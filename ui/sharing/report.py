@@ -36,7 +36,7 @@ from ui.sharing.report_charts import Figure
 from ui.words import citation, recesses
 from ui.words import criteria as criteria_words
 from ui.words import validity as validity_words
-from ui.words.verdict import verdict
+from ui.words.verdict import beside, verdict
 
 # Speeds in the table of coefficients.
 _ROWS = 20
@@ -83,6 +83,8 @@ def report(  # noqa: PLR0913, PLR0917 - a machine, what stands beside it, and ho
         subtitle=escape(_subtitle(computed, cases, units)),
         level=judged.level,
         verdict=escape(judged.sentence),
+        validity=validity_words.level(computed),
+        beside=escape(beside(computed)),
         body="\n".join(body),
         version=escape(__version__),
         date=dt.datetime.now(dt.UTC).date().isoformat(),

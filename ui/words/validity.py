@@ -44,6 +44,11 @@ def headline(computed: Computed) -> str:
     return f"{state}: {name}"
 
 
+def level(computed: Computed) -> str:
+    """Return the verdict on the worst of the assumptions; "unknown" of own coefficients."""
+    return "unknown" if computed.has_own else worst(computed).worst
+
+
 def badge(computed: Computed) -> str:
     """Return the headline in its colour, Markdown."""
     if computed.has_own:

@@ -26,17 +26,30 @@ class Verdict:
 
 _SHOWN_AS: dict[str, Kind] = {"stable": "success", "unstable": "error", "outside": "warning"}
 
-_COARSE = ":orange-badge[Coarse mesh: K and C to some 4 %]"
+_COARSE = "Coarse mesh: K and C to some 4 %"
 
 
 def text(computed: Computed, units: Units) -> Text:
     """Return the verdict as a page shows it, with the headline of the model's assumptions."""
     judged = verdict(computed, units)
-    marked = computed.is_outside or computed.onset_is_outside
-    note = " Numbers in brackets lie outside the model's range." if marked else ""
-    draft = f" {_COARSE}" if computed.machine.bearing.model == "coarse" else ""
-    words = f"{judged.sentence}{note} {validity.badge(computed)}{draft}"
+    draft = f" :orange-badge[{_COARSE}]" if _is_coarse(computed) else ""
+    words = f"{judged.sentence}{_marked(computed)} {validity.badge(computed)}{draft}"
     return Text(words, _SHOWN_AS[judged.level])
+
+
+def beside(computed: Computed) -> str:
+    """Return in plain words what the page says beside its verdict, for the report."""
+    draft = f" {_COARSE}." if _is_coarse(computed) else ""
+    return f"{validity.headline(computed)}.{_marked(computed)}{draft}"
+
+
+def _marked(computed: Computed) -> str:
+    marked = computed.is_outside or computed.onset_is_outside
+    return " Numbers in brackets lie outside the model's range." if marked else ""
+
+
+def _is_coarse(computed: Computed) -> bool:
+    return computed.machine.bearing.model == "coarse"
 
 
 def verdict(computed: Computed, units: Units) -> Verdict:
