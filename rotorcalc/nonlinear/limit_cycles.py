@@ -55,7 +55,7 @@ class Bifurcation(Result):
     paths : tuple of arrays, (m, 2)
         The journal's positions in X, Y around each cycle, from the bearing's centre [m].
     beats : boolean array, (n,)
-        Whether the least damped small motion about the cycle has a frequency of its own. An
+        Whether the slowest small motion to decay about the cycle has a frequency of its own. An
         unstable cycle at which it has one is left for a motion of two whirls at once; at others the
         size of the whirl changes.
     inner_amplitude : array, (n,)
