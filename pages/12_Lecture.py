@@ -5,5 +5,5 @@ show(
     "Lecture",
     "The notes in thirteen steps.",
     stage.content,
-    stage=Stage(stage.arrive, stage.heading, stage.sliders),
+    stage=Stage(stage.arrive, stage.heading, stage.sidebar, is_whole=True),
 )

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 
-from rotorcalc.figures import Chart, with_cases
+from rotorcalc.figures import Chart, widened, with_cases
 from rotorcalc.figures import cases as figures
 from rotorcalc.figures.cases import COLOURS
 from ui.bores import Values
@@ -109,6 +109,20 @@ def compared(draw: Draw, cases: Iterable[Shown], *, with_notes: bool = False) ->
         return with_cases(draw(computed), [*first, *behind])
 
     return drawn
+
+
+def on_axes_of(draw: Draw, others: Iterable[Computed]) -> Draw:
+    """Return what draws a chart on axes that have room for the charts of other machines too.
+
+    So a change from one of them to another is seen on the same axes.
+    """
+    layouts = [case.chart["layout"] for case in _drawn(draw, [("", "", one) for one in others])]
+
+    def drawn(computed: Computed) -> Chart:
+        chart = draw(computed)
+        return {**chart, "layout": widened(chart["layout"], layouts)}
+
+    return drawn if layouts else draw
 
 
 def _drawn(draw: Draw, ghosts: Iterable[Ghost]) -> Iterator[figures.Case]:

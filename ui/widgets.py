@@ -5,7 +5,7 @@ How an input sends and how a chart is drawn are decided here and nowhere else.
 
 import importlib
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache, lru_cache, partial
 from types import ModuleType
 from typing import Any
@@ -92,14 +92,19 @@ def is_dark() -> bool:
     return st.context.theme.type == "dark"
 
 
-def show_inputs(group: str, items: Sequence[Input]) -> None:
-    """Show sliders, or fields to type in, that read and write the session's state."""
+def show_inputs(
+    group: str, items: Sequence[Input], windows: Mapping[str, tuple[float, float]] | None = None
+) -> None:
+    """Show sliders, or fields to type in, that read and write the session's state.
+
+    A live slider named in `windows` has a track that is fixed between two kept values.
+    """
     visitor = session()
     if settings.live() == "off" or visitor.typed:
         for item in items:
             _own(item, visitor)
     else:
-        _live_sliders(group, items, visitor)
+        _live_sliders(group, items, visitor, windows or {})
 
 
 def _own(item: Input, visitor: Session) -> None:
@@ -149,7 +154,9 @@ def _live() -> ModuleType:
     return importlib.import_module("ui.live")
 
 
-def _live_sliders(group: str, items: Sequence[Input], visitor: Session) -> None:
+def _live_sliders(
+    group: str, items: Sequence[Input], visitor: Session, windows: Mapping[str, tuple[float, float]]
+) -> None:
     live, values, units = _live(), visitor.values, visitor.units
 
     def slider(item: Input) -> object:
@@ -163,6 +170,7 @@ def _live_sliders(group: str, items: Sequence[Input], visitor: Session) -> None:
             step=_step(item, units),
             span=_difference(item, item.span, units) if item.step else 0.0,
             beyond=item.infinite,
+            window=tuple(item.shown(end, units) for end in windows.get(item.key, ())),
         )  # fmt: skip
 
     live.show_sliders(

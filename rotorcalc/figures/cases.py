@@ -54,7 +54,7 @@ def with_cases(chart: Chart, cases: Sequence[Case]) -> Chart:
     if not groups:
         return chart
     ghosts = [trace for group in groups for trace in group]
-    layout = _widened(chart["layout"], [case.chart["layout"] for case in cases])
+    layout = widened(chart["layout"], [case.chart["layout"] for case in cases])
     own, layout = _legend(chart["data"], layout)
     if _is_narrow(layout["legend"]):
         ghosts, layout = _with_own_legend(ghosts, layout)
@@ -154,7 +154,7 @@ def _with_own_legend(ghosts: Sequence[Trace], layout: Chart) -> tuple[list[Trace
     return named, {**layout, "legend2": below, "margin": margin}
 
 
-def _widened(layout: Chart, others: Sequence[Chart]) -> Chart:
+def widened(layout: Chart, others: Sequence[Chart]) -> Chart:
     """Return a layout whose axes include others' ranges, reversed axes staying reversed."""
     axes: Chart = {}
     for name, axis in layout.items():

@@ -348,7 +348,7 @@ def guide_names(half: str = "½×", once: str = "1×") -> list[dict[str, Any]]:
 
 
 def _top(size: Array) -> float:
-    return max(1.0, 1.08 * float(size.max()))
+    return style.ceiling(1.02 * size, 1.0)
 
 
 def branch_lines(at: Array, size: Array, branch: Bifurcation) -> list[Trace]:

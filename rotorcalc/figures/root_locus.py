@@ -42,31 +42,65 @@ def plane(locus: Locus, onset: Onset, units: Units) -> Chart:
     units : Units
         The reader's units.
     """
-    left, right, top = window(locus, units)
-    x = style.axis(titled("Growth rate", "Re λ", units.growth.name), -left, right)
-    y = style.axis(titled("Mode frequency", "Im λ", units.speed.name), 0.0, top)
-    here = locus.here.eigenvalues
-    speeds, steps, active = _steps(locus, x, units)
-    traces = [
-        *_coloured_branches(locus, units),
-        _colour_bar(locus, units),
-        *_crossing(onset, locus, units),
-        *points(locus, here.real, whirl_frequency(here, units), x, y),
-        *_moving(steps[active]),
-    ]
-    rays = _rays(left, top, units)
-    chart = style.chart(
-        traces, x, y,
-        height=580, margin={"l": 64, "r": 28, "t": 44, "b": ROW},
-        shapes=[_half_plane(right), _imaginary_axis(), *(ray for ray, _ in rays)],
-        annotations=[*_sides(), *(name for _, name in rays), *_numbers(locus, units, left, top)],
-    )  # fmt: skip
+    axes = _axes(locus, units)
+    speeds, steps, active = _steps(locus, axes[0], units)
+    traces = [*_path(locus, onset, axes, units), *_moving(steps[active])]
+    chart = _half_planes(traces, axes, locus, units, b=ROW)
     stops = units.speed.of(speeds)
     labels = [f"{stop:.0f}" for stop in stops]
     chart = scrubbed(chart, steps, labels=labels, active=active, unit=units.speed.name)
     return cursor.over_speed(
         playable(chart, step=120), locus.running_speed, units, frames=stops, along=_EIGENVALUES
     )
+
+
+def still(locus: Locus, onset: Onset, units: Units) -> Chart:
+    """Return the root locus without a speed slider of its own."""
+    axes = _axes(locus, units)
+    chart = _half_planes(_path(locus, onset, axes, units), axes, locus, units, b=64)
+    return cursor.over_speed(chart, locus.running_speed, units, along=_EIGENVALUES)
+
+
+def at_running_speed(locus: Locus, units: Units) -> Chart:
+    """Return the eigenvalues at the running speed alone, on the axes of the root locus."""
+    axes = _axes(locus, units)
+    return _half_planes(_here(locus, axes, units), axes, locus, units, b=64)
+
+
+def _axes(locus: Locus, units: Units) -> tuple[Axis, Axis]:
+    left, right, top = window(locus, units)
+    return (
+        style.axis(titled("Growth rate", "Re λ", units.growth.name), -left, right),
+        style.axis(titled("Mode frequency", "Im λ", units.speed.name), 0.0, top),
+    )
+
+
+def _path(locus: Locus, onset: Onset, axes: tuple[Axis, Axis], units: Units) -> list[Trace]:
+    return [
+        *_coloured_branches(locus, units),
+        _colour_bar(locus, units),
+        *_crossing(onset, locus, units),
+        *_here(locus, axes, units),
+    ]
+
+
+def _here(locus: Locus, axes: tuple[Axis, Axis], units: Units) -> list[Trace]:
+    here = locus.here.eigenvalues
+    return points(locus, here.real, whirl_frequency(here, units), *axes)
+
+
+def _half_planes(
+    traces: list[Trace], axes: tuple[Axis, Axis], locus: Locus, units: Units, *, b: int
+) -> Chart:
+    """Return a chart of the half planes where motions decay and grow; `b` is its lower margin."""
+    (left, right), (_, top) = (axis["range"] for axis in axes)
+    rays = _rays(-left, top, units)
+    return style.chart(
+        traces, *axes,
+        height=580, margin={"l": 64, "r": 28, "t": 44, "b": b},
+        shapes=[_half_plane(right), _imaginary_axis(), *(ray for ray, _ in rays)],
+        annotations=[*_sides(), *(name for _, name in rays), *_numbers(locus, units, -left, top)],
+    )  # fmt: skip
 
 
 def beyond(locus: Locus, units: Units) -> str:

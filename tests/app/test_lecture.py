@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from streamlit.testing.v1 import AppTest
 
 import rotorcalc as rc
 from tests.app.session import (
@@ -162,19 +163,51 @@ def test_what_a_step_answers_is_so(title: str) -> None:
     CLAIMS[title]()
 
 
-def test_each_step_shows_its_view_and_its_answer() -> None:
+def axes(at: AppTest) -> list[object]:
+    """Return the range and ticks of each axis of the chart that is shown."""
+    (chart,) = charts(at).values()
+    found = (axis for name, axis in chart["layout"].items() if name[1:5] == "axis")
+    return [(axis["range"], axis.get("tickvals")) for axis in found]
+
+
+def test_each_step_shows_its_view_and_its_answer_on_the_same_axes() -> None:
     at = visit(LECTURE)
     for number, step in enumerate(STEPS, start=1):
         assert faults(at) == []
         assert at.header[0].value == f"{number} · {step.title}"
-        assert bool(charts(at)) is not (step.hide or step.view == "bearings")
+        before = axes(at)
+        assert before
+        assert bool(at.metric) is (bool(step.results) and not step.before)
         at.button(key="lecture_show").click().run()
         assert step.answer in [box.value for box in at.success]
-        assert bool(charts(at)) is (step.view != "bearings")
+        assert len(at.metric) == len(step.results)
+        if not step.before:
+            assert axes(at) == before, step.title
         assert {key: session_of(at).values[key] for key in step.then} == step.changed
         assert at.button(key="lecture_next").disabled is (number == len(STEPS))
         if number < len(STEPS):
             at.button(key="lecture_next").click().run()
+
+
+@pytest.mark.parametrize("step", STEPS, ids=lambda step: step.title)
+def test_a_step_moves_one_input_over_a_range_in_which_its_values_lie(step: Step) -> None:
+    (key,) = step.move
+    low, high = step.windows[key]
+    assert low < step.values[key] < high
+    assert low < step.changed.get(key, step.values[key]) < high
+    assert set(step.then) <= {key}
+    # The charts run to the top speed, and a running speed above it would stretch them.
+    assert key != "rpm" or step.view == "bearings" or high <= step.values["rpm_max"]
+
+
+def test_without_a_range_an_input_moves_about_its_values() -> None:
+    more = "machine = {rpm = 2000, T = 60}\nthen = {rpm = 5000}\nmove = ['rpm', 'T', 'u', 'k']"
+    (step,) = read(f"[[step]]\n{GOOD}{more}".encode(), VIEWS)
+    assert step.windows["rpm"] == (1000.0, 10000.0)
+    low, high = step.windows["T"]
+    assert (low, high) == (30.0, 90.0)
+    assert 0.0 < step.windows["u"][0] < step.windows["u"][1]
+    assert step.windows["k"] == (5e7, 2e8)
 
 
 def test_a_visitors_machine_is_there_again_after_the_lecture() -> None:
@@ -235,21 +268,36 @@ GOOD = 'title = "A"\nsay = "B"\nview = "locus"\nquestion = "C"\nanswer = "D"\n'
         (b"a = 1", "1 to 60 tables"),
         (b"step = []", "1 to 60 tables"),
         (b"step = [1]", "step 1: must be a table"),
+        (b"[[step]]\na = x\nb = 1", "at line 2"),
         (b"[[step]]\n" * 61, "1 to 60 tables"),
         (b"#" * (MOST_BYTES + 1), "at most 200000 are read"),
-        (f"[[step]]\n{GOOD}titel = 'x'", "step 1: `'titel'` is none of title, say"),
-        (f"[[step]]\n{GOOD}[[step]]\ntitle = 'x'", "step 2: say: missing"),
-        (f"[[step]]\n{GOOD}hide = 'x'", "step 1: hide: must be true or false"),
-        (f"[[step]]\n{GOOD.replace('locus', 'x')}", "step 1: view = `'x'`: must be one of bearing"),
-        (f"[[step]]\n{GOOD}move = ['x']", "step 1: move = `'x'`: must be one of rpm"),
-        (f"[[step]]\n{GOOD}results = ['x']", "step 1: results = `'x'`: must be one of"),
+        (f"[[step]]\n{GOOD}titel = 'x'", "step 1 (line 1): `'titel'` is none of title, say"),
+        (f"[[step]]\n{GOOD}[[step]]\ntitle = 'x'", "step 2 (line 7): say: missing"),
+        (f"[[step]]\n{GOOD}move = 'x'", "step 1 (line 1): move: must be a list"),
+        (f"[[step]]\n{GOOD}before = 'x'", "step 1 (line 1): before = `'x'`: must be one of"),
+        (f"[[step]]\n{GOOD}between = {{C = [1, 2]}}", "between = `'C'`: must be one of rpm"),
+        (f"[[step]]\n{GOOD}between = {{rpm = 5}}", "between: rpm must have two values"),
+        (f"[[step]]\n{GOOD}between = {{rpm = [900, 500]}}", "between: rpm must rise"),
+        (
+            f"[[step]]\n{GOOD}between = {{rpm = [900, 'x']}}",
+            "between: Running speed (rpm = `'x'`) is not a number",
+        ),
+        (
+            f"[[step]]\n{GOOD.replace('locus', 'x')}",
+            "(line 1): view = `'x'`: must be one of bearing",
+        ),
+        (f"[[step]]\n{GOOD}move = ['x']", "step 1 (line 1): move = `'x'`: must be one of rpm"),
+        (f"[[step]]\n{GOOD}results = ['x']", "step 1 (line 1): results = `'x'`: must be one of"),
         (
             f"[[step]]\n{GOOD}machine = {{rpm = -1}}",
-            "step 1: machine: Running speed (rpm = `'-1'`)",
+            "step 1 (line 1): machine: Running speed (rpm = `'-1'`)",
         ),
-        (f"[[step]]\n{GOOD}machine = {{preset = 'x'}}", "step 1: preset = `'x'`: must be one of"),
-        (f"[[step]]\n{GOOD}then = {{D = 'x'}}", "step 1: machine: Diameter (D = `'x'`)"),
-        (f"[[step]]\n{GOOD}then = {{y = 1}}", "step 1: then = `'y'`: must be one of"),
+        (
+            f"[[step]]\n{GOOD}machine = {{preset = 'x'}}",
+            "(line 1): preset = `'x'`: must be one of",
+        ),
+        (f"[[step]]\n{GOOD}then = {{D = 'x'}}", "step 1 (line 1): then: Diameter (D = `'x'`)"),
+        (f"[[step]]\n{GOOD}then = {{y = 1}}", "step 1 (line 1): then = `'y'`: must be one of"),
     ],
 )
 def test_a_file_of_steps_is_refused_by_step_and_field(content: str | bytes, words: str) -> None:
@@ -260,7 +308,7 @@ def test_a_file_of_steps_is_refused_by_step_and_field(content: str | bytes, word
 def test_a_lecturers_own_steps_replace_the_notes_and_go_again() -> None:
     at = visit(LECTURE, step="4")
     at.file_uploader[0].set_value(("bad.toml", b"[[step]]", "text/plain")).run()
-    assert "bad.toml: step 1: title: missing." in [box.value for box in at.error]
+    assert "bad.toml: step 1 (line 1): title: missing." in [box.value for box in at.error]
     assert at.header[0].value.startswith("4 ")
     at.file_uploader[0].set_value(("own.toml", f"[[step]]\n{GOOD}".encode(), "text/plain")).run()
     assert at.header[0].value == "1 · A"

@@ -9,7 +9,7 @@ def test_a_clicker_leads_on_after_a_slider_was_dragged(app: AppPage) -> None:
     app.open("Lecture", step="2")
     heading = app.page.get_by_test_id("stHeading").first
     expect(heading).to_have_text("2 · Where the journal sits")
-    thumb = app.slider("Radial clearance").bounding_box()
+    thumb = app.slider("Running speed").bounding_box()
     assert thumb
     app.page.mouse.move(thumb["x"] + thumb["width"] / 2, thumb["y"] + thumb["height"] / 2)
     app.page.mouse.down()

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from datetime import timedelta
 from functools import cache, partial
 from pathlib import Path
-from typing import NamedTuple, NoReturn
+from typing import Literal, NamedTuple, NoReturn
 
 import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
@@ -14,7 +14,7 @@ from rotorcalc.figures import Chart, cursor
 from rotorcalc.units import Units
 from ui import choices
 from ui.bores import Values
-from ui.cases import Draw, Shown, compared
+from ui.cases import Draw, Shown, compared, on_axes_of
 from ui.cases import computed as computed_cases
 from ui.choices import choice
 from ui.computed import Computed, computed_from
@@ -90,6 +90,8 @@ class Page:
     views: presentation.Views
     # Whether the content runs with the frame as one.
     whole: bool = False
+    # Machines for whose charts the axes have room too.
+    fixed_for: tuple[Computed, ...] = ()
 
     def chart(  # noqa: PLR0913 - a chart's drawing, its words, and how it answers
         self,
@@ -111,8 +113,10 @@ class Page:
             if at_one_speed:
                 draw = self._at_marked_speeds(draw)
                 while_dragging = while_dragging and self._at_marked_speeds(while_dragging)
-            shown = compared(draw, self.cases)
-            dragged = compared(while_dragging, self.cases) if while_dragging else shown
+            shown = compared(self._on_fixed_axes(draw), self.cases)
+            dragged = shown
+            if while_dragging:
+                dragged = compared(self._on_fixed_axes(while_dragging), self.cases)
             self._show((shown, dragged), key, alt, caption)
 
     def figure_of_the_notes(
@@ -133,6 +137,9 @@ class Page:
             st.caption(caption)
         else:
             self.say(f"under_{key}", lambda c: Text(caption(c), "caption"))
+
+    def _on_fixed_axes(self, draw: Draw) -> Draw:
+        return on_axes_of(draw, self.fixed_for) if self.fixed_for else draw
 
     def _at_marked_speeds(self, draw: Draw) -> Draw:
         """Return a chart that is asked for at other running speeds, those of the sweep."""
@@ -183,7 +190,9 @@ class Stage(NamedTuple):
 
     arrive: Callable[[], object]
     heading: Callable[[], object]
-    sliders: Callable[[], object]
+    sidebar: Callable[[], object]
+    # Whether a presentation begins without the sidebar.
+    is_whole: bool = False
 
 
 class Places(NamedTuple):
@@ -230,7 +239,7 @@ def _frame(title: str, sentence: str, stage: Stage | None) -> Places:
         page_title=f"{title} · rotorcalc",
         page_icon=_ICON,
         layout="wide",
-        initial_sidebar_state=sidebar.WIDTH,
+        initial_sidebar_state=_sidebar_at_first(stage),
         menu_items={"About": _ABOUT},
     )
     st.html(STYLE)
@@ -261,6 +270,11 @@ def _frame(title: str, sentence: str, stage: Stage | None) -> Places:
     return Places(past, navigation, foot, picture, stage is not None)
 
 
+def _sidebar_at_first(stage: Stage | None) -> Literal["collapsed"] | int:
+    presented = bool(stage and stage.is_whole and session().present)
+    return "collapsed" if presented else sidebar.WIDTH
+
+
 def _sidebar(
     visitor: Session, stage: Stage | None
 ) -> tuple[DeltaGenerator, DeltaGenerator, DeltaGenerator | None]:
@@ -273,7 +287,7 @@ def _sidebar(
     if stage or visitor.present:
         past = st.container(key="past")
         if stage:
-            stage.sliders()
+            stage.sidebar()
         else:
             presentation.draw_sliders(visitor)
         return past, st.container(), None

@@ -1,13 +1,15 @@
 """The lecture's stage: which step is shown, what it asks, and the way back to one's own machine."""
 
 import io
-from dataclasses import dataclass
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from pathlib import Path
 
 import segno
 import streamlit as st
 
 from ui.choices import choice
-from ui.computed import computed_from
+from ui.computed import Computed, answered_from, computed_from
 from ui.frame.page import HOME, Page
 from ui.inputs import inputs_of
 from ui.lecture.steps import OWN, Step, own_steps, read
@@ -18,6 +20,13 @@ from ui.words import on_demand
 
 _STEP, _KEY = "lecture_step", "rotorcalc_lecture"
 _NAMES = frozenset(VIEWS)
+
+
+def _style(name: str) -> str:
+    return f"<style>{Path(__file__).with_name(name).read_text(encoding='utf-8')}</style>"
+
+
+_STYLE, _PRESENTED = _style("stage.css"), _style("presented.css")
 
 
 @dataclass
@@ -54,21 +63,13 @@ def arrive() -> None:
         _take()
 
 
-def sliders() -> None:
-    """Draw the sidebar: the steps, what this one moves, and the way back."""
+def sidebar() -> None:
+    """Draw the sidebar: the steps, a file of others, and the way back."""
     mine = lecture()
     st.selectbox(
         "Step", range(1, len(mine.steps) + 1), key=_STEP, on_change=_take,
         format_func=lambda at: f"{at} · {mine.steps[at - 1].title}",
     )  # fmt: skip
-    items = inputs_of(session().values)
-    show_inputs(f"lecture {_at()}", [items[key] for key in _step().move if key in items])
-    st.button(
-        "Reset this step", on_click=_take, width="stretch",
-        help="Its machine as it was at first, and the answer hidden.",
-    )  # fmt: skip
-    if st.button("Link for students", width="stretch"):
-        _show_link()
     with st.popover("Steps from a file", width="stretch"):
         _show_file()
     if st.button("Use this machine", width="stretch", help="It replaces your own; undo works."):
@@ -81,6 +82,7 @@ def sliders() -> None:
 def heading() -> None:
     """Draw the step's number, title and sentence, and the buttons to the next."""
     mine, step = lecture(), _step()
+    st.html(_STYLE + (_PRESENTED if session().present else ""))
     with st.container(key="lecture_heading", horizontal=True, vertical_alignment="center"):
         st.button(
             "Back", key="lecture_back", shortcut="PageUp", on_click=_go, args=(-1,),
@@ -91,32 +93,58 @@ def heading() -> None:
             disabled=_at() == len(mine.steps),
         )  # fmt: skip
         st.header(f"{_at()} · {step.title}", anchor=False)
+        if st.button("Link for students", shortcut="l"):
+            _show_link()
     with st.container(key="lecture_say"):  # a presentation leaves out a page's sentence
         st.markdown(step.say)
 
 
 def content(page: Page) -> None:
-    """Draw the step: its numbers, its view, its question and the answer."""
+    """Draw the step: its question, what moves, its numbers, its view, and the answer below."""
     step, mine = _step(), lecture()
-    asked, button = st.columns([6, 1], vertical_alignment="center")
-    asked.markdown(f"**{step.question}**")
-    if not mine.answered:
-        button.button(
-            "Show", key="lecture_show", type="primary", shortcut="s", on_click=_show,
-            width="stretch",
-        )  # fmt: skip
-    if mine.answered:
-        st.success(step.answer)
-    if mine.answered or not step.hide:
-        if step.results:
+    with st.container(key="lecture_question", horizontal=True, vertical_alignment="center"):
+        st.markdown(f"**{step.question}**")
+        if mine.answered:
+            st.button(
+                "Again", key="lecture_again", shortcut="a", on_click=_take,
+                help="Its machine as it was at first, and the answer hidden.",
+            )  # fmt: skip
+        else:
+            st.button("Show", key="lecture_show", type="primary", shortcut="s", on_click=_show)
+    answered = mine.answered
+    with st.container(key="lecture_stage"):
+        shown, beside = st.container(key="lecture_view"), st.container(key="lecture_side")
+    with beside:
+        items = inputs_of(session().values)
+        moved = [items[key] for key in step.move if key in items]
+        show_inputs(f"lecture {_at()}", moved, step.windows)
+        if step.results and (answered or not step.before):
             page.results(*step.results)
-        VIEWS[step.view](page)
-    if mine.answered and step.equation:
-        st.latex(step.equation)
+        if answered:
+            _answer(step)
+    with shown:
+        view = step.view if answered else step.before or step.view
+        VIEWS[view](replace(page, fixed_for=_extremes(step)))
+
+
+def _answer(step: Step) -> None:
+    st.success(step.answer)
+    for line in step.equation.strip().splitlines():
+        st.latex(line)
+    if step.source:
         st.caption(f"{step.source[:1].upper()}{step.source[1:]}.")
-        if step.derivation:
-            with st.expander("Derivation"):
-                st.markdown(step.derivation)
+    if step.derivation:
+        with st.expander("Derivation"):
+            st.markdown(step.derivation)
+
+
+def _extremes(step: Step) -> tuple[Computed, ...]:
+    """Return the machines among which the step moves, as far as their films have an answer."""
+    found: list[Computed] = []
+    for values in step.extremes:
+        with suppress(ValueError):
+            found.append(answered_from(values))
+    return tuple(found)
 
 
 def _at() -> int:

@@ -1,7 +1,9 @@
 """The lecture's steps, read from a file and checked."""
 
+import math
+import re
 import tomllib
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from functools import cache
 from pathlib import Path
@@ -9,14 +11,15 @@ from typing import Any
 
 from ui.bores import Value, Values
 from ui.format import quoted
-from ui.inputs import DEFAULT_PRESET, PRESET_VALUES, inputs_of
+from ui.inputs import DEFAULT_PRESET, PRESET_VALUES, inputs_of, number, usual
 from ui.results.table import RESULTS
 from ui.sharing import address
 
 OWN = Path(__file__).with_name("steps.toml")
 # A file of forty steps has room in both.
 MOST_BYTES, MOST_STEPS = 200_000, 60
-_KINDS = {str: "text in quotes", bool: "true or false", dict: "a table { … }", list: "a list [ … ]"}
+_ENDED = re.compile(r"; | and was left out|\.$")
+_KINDS = {str: "text in quotes", dict: "a table { … }", list: "a list [ … ]"}
 
 
 @dataclass(frozen=True)
@@ -34,10 +37,11 @@ class Step:
     equation: str = ""
     source: str = ""
     derivation: str = ""
-    hide: bool = False
+    before: str = ""
     machine: dict[str, Any] = field(default_factory=dict, hash=False)
     then: dict[str, Any] = field(default_factory=dict, hash=False)
     move: list[str] = field(default_factory=lambda: ["rpm"], hash=False)
+    between: dict[str, Any] = field(default_factory=dict, hash=False)
     results: list[str] = field(default_factory=list, hash=False)
 
     @property
@@ -48,13 +52,28 @@ class Step:
     @property
     def values(self) -> Values:
         """The machine's kept values."""
-        return _values(self.machine)
+        return _values(self.machine, "machine")
 
     @property
     def changed(self) -> Mapping[str, Value]:
         """The values that the answer changes."""
-        after = _values(self.machine | self.then)
+        after = _values(self.machine | self.then, "then")
         return {key: after[key] for key in self.then}
+
+    @property
+    def windows(self) -> dict[str, tuple[float, float]]:
+        """The values between which each of the inputs moves: as given, or about the machine's."""
+        return {
+            key: _between(self, key) if key in self.between else _about(self, key)
+            for key in self.move
+        }
+
+    @property
+    def extremes(self) -> Iterator[Values]:
+        """The machines at first, with the answer, and with each input at the ends of its window."""
+        after = self.values | dict(self.changed)
+        yield from (self.values, after)
+        yield from (after | {key: end} for key, ends in self.windows.items() for end in ends)
 
 
 @cache
@@ -74,15 +93,21 @@ def read(content: bytes, views: Collection[str]) -> tuple[Step, ...]:
     steps = found.pop("step", None)
     if found or not isinstance(steps, list) or not 1 <= len(steps) <= MOST_STEPS:
         raise ValueError(f"the file must hold 1 to {MOST_STEPS} tables [[step]], and nothing else")
-    return tuple(_step(number, one, views) for number, one in enumerate(steps, start=1))
+    lines = [at for at, line in enumerate(content.splitlines(), 1) if line.strip() == b"[[step]]"]
+    # Steps may also be written as one list, whose lines are not known.
+    where = [f" (line {at})" for at in lines] if len(lines) == len(steps) else [""] * len(steps)
+    return tuple(
+        _step(f"step {place}{at}", one, views)
+        for place, (at, one) in enumerate(zip(where, steps, strict=True), start=1)
+    )
 
 
-def _step(number: int, given: object, views: Collection[str]) -> Step:
+def _step(name: str, given: object, views: Collection[str]) -> Step:
     try:
         step = Step(**_fields(given))
         _check(step, views)
     except ValueError as error:
-        raise ValueError(f"step {number}: {error}") from error
+        raise ValueError(f"{name}: {error}") from error
     return step
 
 
@@ -110,11 +135,38 @@ def _kind(annotation: object) -> type:
 
 def _check(step: Step, views: Collection[str]) -> None:
     _known("view", [step.view], views)
+    _known("before", [step.before] if step.before else [], views)
     _known("results", step.results, RESULTS)
     _known("preset", [step.preset], PRESET_VALUES)
     _known("move", step.move, inputs_of(step.values))
     _known("then", list(step.then), inputs_of(step.values))
-    _ = step.changed
+    _known("between", list(step.between), step.move)
+    _ = step.changed, step.windows
+
+
+def _between(step: Step, key: str) -> tuple[float, float]:
+    """Return the two values between which a step moves an input, or raise ValueError."""
+    given = step.between[key]
+    if not isinstance(given, list) or len(given) != 2:
+        raise ValueError(f"between: {key} must have two values, [from, to]")
+    low, high = (number(_values(step.machine | {key: end}, "between"), key) for end in given)
+    if not (low < high < math.inf) or (low <= 0.0 and not inputs_of(step.values)[key].step):
+        raise ValueError(f"between: {key} must rise, from a value above zero to a finite one")
+    return low, high
+
+
+def _about(step: Step, key: str) -> tuple[float, float]:
+    """Return a window about an input's value at first and with the answer."""
+    item, after = inputs_of(step.values)[key], step.values | dict(step.changed)
+    ends = sorted(number(values, key) for values in (step.values, after) if values[key] is not None)
+    inside = [value for value in ends if (value > 0.0 or item.step) and value < math.inf]
+    inside = inside or [usual(key, step.values)]
+    least = item.least or item.low
+    if item.step:
+        low, high = inside[0] - 0.5 * item.span, inside[-1] + 0.5 * item.span
+    else:
+        low, high = 0.5 * inside[0], 2.0 * inside[-1]
+    return max(low, least), min(high, item.high)
 
 
 def _known(name: str, given: list[str], known: Collection[str]) -> None:
@@ -123,12 +175,13 @@ def _known(name: str, given: list[str], known: Collection[str]) -> None:
             raise ValueError(f"{name} = {quoted(one)}: must be one of {', '.join(known)}")
 
 
-def _values(given: dict[str, Any]) -> Values:
+def _values(given: dict[str, Any], name: str) -> Values:
     words = {key: f"{value}" for key, value in given.items() if key != "preset"}
     problems: list[str] = []
     preset = str(given.get("preset", DEFAULT_PRESET))
     _known("preset", [preset], PRESET_VALUES)
     values = address.checked_values(words, preset, problems)
     if problems:
-        raise ValueError(f"machine: {' '.join(problems)}")
+        # Of a link such a value would be replaced, and the problem ends with how.
+        raise ValueError(f"{name}: {'; '.join(_ENDED.split(one)[0] for one in problems)}")
     return values

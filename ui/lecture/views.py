@@ -18,7 +18,6 @@ from ui.frame.page import Page
 from ui.preview import not_at_once
 from ui.words import bearings as compared
 from ui.words import on_demand
-from ui.words import response as on_response
 from ui.words import root_locus as on_locus
 from ui.words import stability as on_stability
 from ui.words.citation import cited
@@ -128,10 +127,19 @@ def _over_speed(page: Page, draw: Callable[..., Chart], key: str, alt: str, capt
 
 def _root_locus(page: Page) -> None:
     page.chart(
-        lambda c: root_locus.plane(c.locus(True), c.onset, page.units),
+        lambda c: root_locus.still(c.locus(True), c.onset, page.units),
         "lecture_root_locus",
         alt=on_locus.ALTS["locus"],
         caption=lambda c: on_locus.crossing(c, c.onset, page.units),
+    )
+
+
+def _modes(page: Page) -> None:
+    page.chart(
+        lambda c: root_locus.at_running_speed(c.locus(True), page.units),
+        "lecture_modes",
+        alt="The modes at the running speed in the complex plane: growth rate and frequency.",
+        caption="Each mode at the running speed.",
     )
 
 
@@ -140,7 +148,7 @@ def _response(page: Page) -> None:
         lambda c: response.amplitude(c.response, "axes", page.units),
         "lecture_response",
         alt="Amplitudes of disk and journal against speed, with peaks and unstable range.",
-        caption=on_response.amplitude_caption,
+        caption="Diamonds mark the largest orbits of disk and journal. Eq. 5.38.",
     )
 
 
@@ -168,8 +176,7 @@ def _temperatures(page: Page) -> None:
 
 
 def _bearings(page: Page) -> None:
-    with page.preview.dimmed("bearings"):
-        compared.compare(page)
+    compared.compare(page, draw=compared.onsets)
 
 
 VIEWS: dict[str, View] = {
@@ -181,6 +188,7 @@ VIEWS: dict[str, View] = {
     "energy": _energy,
     "threshold": _threshold,
     "whirl frequency": _whirl_frequency,
+    "modes": _modes,
     "root locus": _root_locus,
     "response": _response,
     "limit cycles": _limit_cycles,

@@ -233,7 +233,9 @@ function fitted(view, { layout: { height, yaxis } }, presenting) {
   const room = `100vh - ${top}px`;
   // Of words at ticks each needs its row.
   const rows = 22 * large() * (yaxis?.ticktext?.length ?? 0) + 150;
-  if (presenting) return `max(340px, ${rows}px, ${room} - 2.4rem)`;
+  // At a lecture's desk too.
+  if (presenting || view.closest(".st-key-lecture_view"))
+    return `max(var(--chart-least, max(340px, ${rows}px)), ${room} - var(--below-chart, 2.4rem))`;
   const usual = `clamp(${0.8 * height}px, calc((100vh - 306px) * ${height / 600}), ${1.5 * height}px)`;
   return top > innerHeight / 2 ? usual : `min(${usual}, max(${0.7 * height}px, ${room} - 0.5rem))`;
 }

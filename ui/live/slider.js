@@ -2,7 +2,7 @@
 //
 // A track is a window on an input's range, logarithmic and four times wide, or linear where the quantity's zero is
 // arbitrary. Dropped near its end, or at a value from elsewhere, the slider begins a window about the value; dragged
-// past the end and held there, it moves its window on. So a pixel changes a value by half of one per cent at most, over
+// past the end and held there, it moves its window on. A window that is given stays as it is. Else a pixel changes a value by half of one per cent at most, over
 // any range. A track of an input that may be zero begins with a stop at zero; one with a word for infinity ends with it.
 //
 // A slider's values go to the page's preview first, if there is one. While it is dragged that is all; on release and
@@ -61,8 +61,12 @@ function textOf(value) {
 // A window on the range of an input, and the values at the places along it, from 0 to 1.
 class Track {
   constructor(data, centre) {
-    const { low, high, least, span, beyond } = data;
+    const { low, high, least, span, beyond, window } = data;
     Object.assign(this, { data, log: !span, first: least ? ROOM : 0, last: beyond ? 1 - ROOM : 1 });
+    if (window.length) {
+      [this.low, this.high] = window;
+      return;
+    }
     const start = least || low;
     const width = this.log ? Math.min(WIDTH, high / start) : Math.min(span, high - low);
     const middle = centre === beyond || (least && centre === 0) ? data.usual : centre;
@@ -98,7 +102,8 @@ class Track {
   }
 
   admitted(value) {
-    return between(value, this.data.low, this.data.high);
+    const [low, high] = this.data.window.length ? this.data.window : [this.data.low, this.data.high];
+    return between(value, low, high);
   }
 
   holds(value) {
@@ -109,12 +114,14 @@ class Track {
   isLeft(value) {
     const place = this.place(value);
     const isStop = value === this.data.beyond || (this.data.least && value === 0);
-    return !isStop && (place < MARGIN || place > 1 - MARGIN);
+    return !isStop && !this.data.window.length && (place < MARGIN || place > 1 - MARGIN);
   }
 
   // What a key leads to: a round number, the preset's value, or an end; undefined for other keys.
   stepped(value, key, fine) {
-    const { low, high, least, step, beyond, preset } = this.data;
+    const { least, step, beyond, preset } = this.data;
+    const low = least ? 0 : this.admitted(-Infinity);
+    const high = this.admitted(Infinity);
     if (key === "Home") return low;
     if (key === "End") return beyond || high;
     const count = STEPS[key];
@@ -176,6 +183,7 @@ class Slider {
   }
 
   update(data, send) {
+    if (String(data.window) !== String(this.data?.window)) this.shown = undefined;
     this.data = data;
     this.send = send;
     this.label.textContent = data.label;

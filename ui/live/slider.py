@@ -18,7 +18,8 @@ class Slider:
     `low` to `high` is the range; its track is a window on it, logarithmic, or linear of width
     `span` where there is one, with a key's `step`. `least` is the lowest value beside zero of a
     range that begins there; `beyond` is the word for one more stop above `high`. At such a stop the
-    window lies about `usual`. `preset` is a value that no drag or key passes unseen.
+    window lies about `usual`. `preset` is a value that no drag or key passes unseen. Where `window`
+    has two values the track is fixed between them.
     """
 
     name: str
@@ -33,6 +34,7 @@ class Slider:
     step: float = 0.0
     span: float = 0.0
     beyond: str = ""
+    window: tuple[float, ...] = ()
 
 
 def show(

@@ -6,7 +6,7 @@ out is computed.
 
 import math
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import takewhile
 from typing import Any, NamedTuple, TypeAlias
@@ -17,7 +17,7 @@ from streamlit.elements.lib.column_types import ButtonColumnResult, ColumnConfig
 
 from rotorcalc import JournalBearing, Machine, Oil
 from rotorcalc.comparison import BearingResult, usual_bores
-from rotorcalc.figures import Units
+from rotorcalc.figures import Units, comparison
 from rotorcalc.gas import Gas
 from rotorcalc.geometry import Geometry, Plain
 from ui.bearing import defaults_of, film_name, without_shape
@@ -154,29 +154,31 @@ _JUDGEMENTS = {
 }  # fmt: skip
 
 
-def compare(page: Page) -> list[BearingResult]:
+def compare(page: Page, *, draw: Callable[..., object] | None = None) -> list[BearingResult]:
     """Return this machine's own bearing and every kind, and show their table as they come.
 
+    Instead of the table `draw` shows what it likes of results, the page, and whether all are there.
     Where all come at once the table is drawn once. Where they take longer the page runs whole,
     which a visitor can end, and what is found is kept.
     """
     machine, speed = page.computed.machine, page.computed.speed
     asked = _asked(machine, speed)
     found: list[BearingResult] = []
+    draw = draw or _table
     # A place made empty at once would be so until its table comes.
     top, below = st.container(), st.container()
     so_far: _SoFar | None = None
     while len(found) < len(asked):
         if found:
             page.run_whole()
-            so_far = so_far or _SoFar(top.empty(), below.empty())
+            so_far = so_far or _SoFar(top.empty(), below.empty(), draw)
             geometry = asked[len(found)][2] or machine.bearing.geometry
             so_far.show(found, geometry, len(asked), page)
         found += [_worded(one, page) for one in _next(asked[len(found) :])]
     if so_far:
         so_far.progress.empty()
     with so_far.table.container() if so_far else top:
-        _table(found, page, done=True)
+        draw(found, page, done=True)
     return found
 
 
@@ -210,6 +212,7 @@ class _SoFar(NamedTuple):
 
     table: DeltaGenerator
     progress: DeltaGenerator
+    draw: Callable[..., object]
 
     def show(
         self, found: Sequence[BearingResult], geometry: Geometry, among: int, page: Page
@@ -218,7 +221,7 @@ class _SoFar(NamedTuple):
         words = f"Computing: {lower(name_of(geometry.kind))} …"
         self.progress.progress(len(found) / among, words)
         with self.table.container():
-            _table(found, page, done=False)
+            self.draw(found, page, done=False)
 
 
 def _asked(machine: Machine, speed: float) -> list[_Asked]:
@@ -352,6 +355,26 @@ def _numbers(
 def _take(bearings: Sequence[JournalBearing]) -> None:
     """Take the bearing over whose button in the table was clicked."""
     session().set_bearing(bearings[st.session_state[_CLICKED]["row"]])
+
+
+def onsets(found: Sequence[BearingResult], page: Page, *, done: bool) -> None:
+    """Show a chart of the onset on each kind of bearing, once all are there."""
+    if not done:
+        return
+    kinds = found[1:]
+    names = [name_of(one.bearing.geometry.kind) for one in kinds]
+    page.chart(
+        lambda c: comparison.onsets(kinds, names, c.speed, page.units),
+        "onsets",
+        alt="Onset of whirl on each kind of bearing as bars, the highest on top.",
+        caption=_left_out(kinds),
+    )
+
+
+def _left_out(found: Sequence[BearingResult]) -> str:
+    names = ", ".join(lower(name_of(one.bearing.geometry.kind)) for one in found if one.refusal)
+    usual = "Each kind at its usual shape. Red: it whirls at the running speed."
+    return f"{usual} No answer at this speed and load: {names}." if names else usual
 
 
 def say_unanswered(problem: str) -> None:
