@@ -103,7 +103,7 @@ def test_a_thread_outside_the_gate_opens_nothing_by_stepping_aside() -> None:
 
 
 def _is_open(gate: Gate) -> bool:
-    """Tell whether another thread gets in at once."""
+    """Tell whether another thread gets in."""
     entered = threading.Event()
 
     def go() -> None:
@@ -112,7 +112,7 @@ def _is_open(gate: Gate) -> bool:
 
     thread = threading.Thread(target=go, daemon=True)  # where it gets in never, it ends with us
     thread.start()
-    return entered.wait(1.0)
+    return entered.wait(PATIENCE)
 
 
 @pytest.mark.parametrize("rpm", ["6000", "nonsense"])

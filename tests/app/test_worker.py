@@ -13,7 +13,7 @@ import pytest
 
 from rotorcalc import TransientError
 from tests.machines import SHEET
-from tests.waiting import until
+from tests.waiting import PATIENCE, until
 from ui.jobs import process, queue, work
 from ui.jobs.process import Worker, WorkerError
 from ui.jobs.queue import Turns
@@ -153,7 +153,7 @@ def test_a_worker_ends_with_its_parent_process() -> None:
     worker = Worker()
     worker.run(np.zeros, (3,), None)
     worker._process.stdin.close()
-    assert worker._process.wait(timeout=10.0) == 0
+    assert worker._process.wait(PATIENCE) == 0
     worker._process.stdout.close()
 
 

@@ -39,6 +39,7 @@ def _drag(app: AppPage, label: str, share: float) -> tuple[float, float]:
 
 
 def _zoom(app: AppPage, chart: Locator) -> list[float]:
+    before = _ranges(chart)
     plot = chart.locator(".nsewdrag").first.bounding_box()
     assert plot
     mouse = app.page.mouse
@@ -46,7 +47,7 @@ def _zoom(app: AppPage, chart: Locator) -> list[float]:
     mouse.down()
     mouse.move(plot["x"] + 0.6 * plot["width"], plot["y"] + 0.7 * plot["height"], steps=5)
     mouse.up()
-    app.page.wait_for_timeout(500)  # Plotly waits for a second click before it zooms
+    assert app.changes(lambda: _ranges(chart), before)  # Plotly waits for a second click first
     return _ranges(chart)
 
 

@@ -3,8 +3,8 @@
 import os
 import shutil
 import subprocess
-import time
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from http.client import HTTPConnection, HTTPResponse
 from pathlib import Path
@@ -15,6 +15,7 @@ from deploy import publish
 from tests.deploy import documented
 from tests.load.client import Visitor
 from tests.load.replicas import ROOT, Replica, free_port
+from tests.waiting import until
 
 HOST = "rotor.example.org"
 BASE = "rotorcalc"
@@ -177,11 +178,12 @@ def write_around(folder: Path, nginx: Path) -> None:
 
 
 def _wait_for(site: Site) -> None:
-    end = time.monotonic() + 10
-    while time.monotonic() < end:
-        try:
-            if site.get(f"/{BASE}/_stcore/health").status == 200:
-                return
-        except OSError:
-            time.sleep(0.05)
-    pytest.fail((site.folder / "error.log").read_text(), pytrace=False)
+    def answers() -> bool:
+        with suppress(OSError):
+            return site.get(f"/{BASE}/_stcore/health").status == 200
+        return False
+
+    try:
+        until(answers)
+    except AssertionError:
+        pytest.fail((site.folder / "error.log").read_text(), pytrace=False)
