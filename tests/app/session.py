@@ -21,6 +21,7 @@ PAGES = {path: name for path, name in frame.PAGES.items() if name not in _STAGES
 HOME, *OTHERS = PAGES
 _BY_NAME = {name: path for path, name in PAGES.items()}
 ORBITS, BEARINGS_PAGE, NOTES = (_BY_NAME[name] for name in ("Orbits", "Bearings", "Notes"))
+TOLERANCES = _BY_NAME["Tolerances"]
 YOUR_DATA = _BY_NAME["Your data"]
 
 # A number that is none, as Python writes it, where a reader should find a word.
