@@ -115,8 +115,11 @@ def depends_on_whirl(computed: Computed) -> bool:
 
 def whirl_ratio_caption(computed: Computed, symbol: str) -> str:
     """Return the caption of K or C over the whirl ratio."""
+    parts = "The foil yields and the gas is squeezed" if computed.has_gas else (
+        "The film's moving parts follow the journal"
+    )  # fmt: skip
     words = (
-        "The film's moving parts follow the journal at ν = ω/Ω; the mark is imbalance, ν = 1. "
+        f"{parts} at ν = ω/Ω; the mark is imbalance, ν = 1. "
         "Onset and modes take each whirl at its own ν. "
         + ("$K=\\operatorname{Re}Z(ν)$." if symbol == "K" else "$C=\\operatorname{Im}Z(ν)/(νΩ)$.")
     )
