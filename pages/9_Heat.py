@@ -16,7 +16,9 @@ def content(page: Page) -> None:
         page.results("film_temperature", "viscosity", "power_loss")
         loss(page)
         return
-    page.results("film_temperature", "outlet_temperature", "power_loss", "oil_rise", "flow_needed")
+    # Recesses have no grooves: the words below have the flow through their restrictors.
+    needed = () if page.computed.has_recesses else ("flow_needed",)
+    page.results("film_temperature", "outlet_temperature", "power_loss", "oil_rise", *needed)
     if not film.known("Loss, flow and their heat", page.computed.point.power_loss):
         return
     page.tabs("heat_tab", {

@@ -177,3 +177,9 @@ def test_a_run_up_that_ends_at_the_wall_says_at_which_speed(monkeypatch):
     assert run_up._takes(computed, asked) > 3.0
     plain = computed_from(values_of(PRESETS["sheet-1e8"].machine, 600.0, 1200.0))
     assert run_up._takes(plain, asked) < 1.0
+
+
+def test_recesses_have_no_grooves_through_which_a_flow_is_needed() -> None:
+    for kind, labels in (("hydrostatic", set()), ("plain", {"Groove flow needed"})):
+        at = visit("pages/9_Heat.py", bearing=kind)
+        assert {one.label for one in at.metric if "Groove" in one.label} == labels

@@ -77,6 +77,10 @@ def _has_oil(computed: Computed) -> bool:
     return not computed.has_gas
 
 
+def _has_grooves(computed: Computed) -> bool:
+    return _has_oil(computed) and not computed.has_recesses
+
+
 HEAT: tuple[Result, ...] = (
     Result(
         "film_temperature", "Film temperature T", "temperature",
@@ -98,6 +102,6 @@ HEAT: tuple[Result, ...] = (
     Result(
         "flow_needed", "Groove flow needed", "flow", lambda c: c.flow_needed, _ISO, _NEEDED,
         _needed_filled, "Besides the side flow Q, so that the oil warms by ΔT = 20 K, or 36 °F.",
-        nought=lambda _: "none", unknown="not known", modelled=False, belongs=_has_oil,
+        nought=lambda _: "none", unknown="not known", modelled=False, belongs=_has_grooves,
     ),
 )  # fmt: skip
