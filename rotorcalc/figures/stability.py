@@ -305,7 +305,8 @@ def _over_speed(
     if _inside(here, axes):
         traces += style.here(*here, x, y)
     else:
-        notes.append(_beyond("running speed: no whirl", here, axes))
+        whose = "running speed" if crossing.closed_form else "closed forms"
+        notes.append(_beyond(f"{whose}: no whirl", here, axes))
     return style.chart(traces, x, y, annotations=notes, legend=LEGEND, margin=MARGIN, **layout)
 
 
