@@ -70,6 +70,7 @@ class Visitor:
         self._page_hash = ""
         self._widgets: dict[str, WidgetState] = {}
         self._shown: dict[tuple[int, ...], Any] = {}
+        self._named: dict[tuple[int, ...], str] = {}  # of what is shown the components' names
         self._touched: set[tuple[int, ...]] = set()
         self._parts: dict[tuple[int, ...], str] = {}  # the fragment that drew what is shown
         self._run_parts: list[str] = []  # the fragments that run, none where the whole page does
@@ -230,9 +231,8 @@ class Visitor:
     def _components(self, name: str) -> list[tuple[BidiComponent, str]]:
         """Return the components of a name, each with the fragment that drew it."""
         return [
-            (item.bidi_component, self._parts[path])
-            for path, item in sorted(self._shown.items())
-            if isinstance(item, Element) and item.bidi_component.component_name == name
+            (self._shown[path].bidi_component, self._parts[path])
+            for path in sorted(path for path, known in self._named.items() if known == name)
         ]
 
     def _labels(self, row: tuple[int, ...]) -> list[str]:
@@ -341,12 +341,17 @@ class Visitor:
 
     def _place(self, message: ForwardMsg) -> None:
         path, delta = tuple(message.metadata.delta_path), message.delta
-        if delta.WhichOneof("type") == "add_block":
+        self._named.pop(path, None)
+        kind = delta.WhichOneof("type")
+        if kind == "add_block":
             self._shown[path] = delta.add_block
-        elif delta.WhichOneof("type") == "new_element":
-            self._shown[path] = delta.new_element
-            if delta.new_element.WhichOneof("type") == "exception":
-                self._failed(f"exception: {delta.new_element.exception.message}")
+        elif kind == "new_element":
+            self._shown[path] = element = delta.new_element
+            kind = element.WhichOneof("type")
+            if kind == "bidi_component":
+                self._named[path] = element.bidi_component.component_name
+            elif kind == "exception":
+                self._failed(f"exception: {element.exception.message}")
         self._touched.add(path)
         self._parts[path] = delta.fragment_id
 
@@ -359,6 +364,7 @@ class Visitor:
         for path in self._shown.keys() - self._touched:
             if not self._run_parts or self._parts[path] in self._run_parts:
                 del self._shown[path]
+                self._named.pop(path, None)
         self.tally.runs += 1
         self.tally.under_way = 0
         self._finished.set()
