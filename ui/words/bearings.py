@@ -35,7 +35,7 @@ _NO_ANSWER = "This machine's own bearing has no answer at this speed and load"
 _OWN, _CLICKED = "This machine", "use_in_table"
 _A_ROW = 4
 # Seconds after which the results so far are shown.
-_PATIENCE = 0.4
+_PATIENCE = 0.6
 
 # A machine, its running speed, and another bore in place of its own.
 _Asked: TypeAlias = tuple[Machine, float, Geometry | None]
