@@ -4,8 +4,10 @@ import math
 import re
 import reprlib
 
+import numpy as np
 from numpy.typing import ArrayLike
 
+from rotorcalc.arrays import Array
 from rotorcalc.units import Unit
 
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -154,3 +156,9 @@ def _readings(mantissa: str) -> set[str]:
                 + (match["rest"] or "")
             )
     return found
+
+
+def without_noise(matrices: Array) -> Array:
+    """Return matrices, (..., 2, 2), with zero for elements that are the rounding of others."""
+    largest = np.abs(matrices).max(axis=(-2, -1), keepdims=True)
+    return np.where(np.abs(matrices) < 1e-12 * largest, 0.0, matrices)

@@ -122,6 +122,7 @@ def _onset(case: Case) -> dict[str, float]:
         "speed [rad/s]": case.speed,
         "onset [rad/s]": found.speed,
         "onset [rpm]": found.speed / rpm,
+        "onset_searched_to [rad/s]": found.searched_to,
         "whirl_frequency_at_onset [rad/s]": found.whirl_frequency,
         "margin [-]": found.speed / case.speed - 1.0,
     }

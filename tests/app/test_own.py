@@ -9,12 +9,14 @@ from functools import cache
 import numpy as np
 import pytest
 
+import rotorcalc as rc
 from rotorcalc import PRESETS, CoefficientTable, Machine, Supply, analyse, read_coefficients, rpm
 from rotorcalc.units import SI
 from tests.app.session import HOME, OTHERS, charts, faults, session_of, texts, tours, visit
 from ui import own
 from ui.computed import computed_from
 from ui.inputs import inputs_of, machine_of, values_of
+from ui.results.table import RESULTS
 from ui.sharing import address, export, machine_file, report
 from ui.sharing.labels import Labels
 
@@ -204,3 +206,17 @@ def test_csv_and_report_have_what_is_known():
     body = page.split("</style>")[-1].split("<script")[0]
     assert not re.search(r">\s*(nan|none|inf)", body, re.IGNORECASE)
     assert "known by its own coefficients alone" in body
+    # Neither an oil nor its film, of which nothing is known, stands among inputs and results.
+    for words in ("Viscosity", "laminar", "Film temperature"):
+        assert words not in body.split("Conventions")[0].split("Static equilibrium")[0]
+    assert "of one viscosity" not in body
+
+
+def test_what_was_not_found_up_to_the_last_row_is_no_absence():
+    # The film's own rows end below the rigid shaft's onset.
+    computed = computed_from(values_of(machine(last=700.0), 600.0, 700.0))
+    assert math.isinf(computed.rigid_onset.speed)
+    assert computed.rigid_onset.searched_to < math.inf
+    assert RESULTS["rigid_onset"].shown(computed, SI) == "not found"
+    [one] = rc.batch.results([rc.batch.Case(1, "", computed.machine, 600.0)])
+    assert one.values["onset_searched_to [rad/s]"] == computed.onset.searched_to

@@ -1,10 +1,11 @@
 """Numbers as visitors type them, and as fields show them."""
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ui.format import short, typed_number
+from ui.format import short, typed_number, without_noise
 
 
 @pytest.mark.parametrize(
@@ -71,3 +72,10 @@ def test_a_number_as_python_writes_it_is_read_exactly(value: float) -> None:
 @given(st.floats(1e-3, 1e12))
 def test_what_a_field_shows_can_be_typed_again(value: float) -> None:
     assert typed_number(short(value)) == pytest.approx(value, rel=1e-5)
+
+
+def test_the_rounding_of_other_elements_is_zero() -> None:
+    matrices = np.array([[[4e8, 1e-7], [-1e-7, 4e8]], [[1e8, 1e3], [0.0, 1e8]]])
+    shown = without_noise(matrices)
+    assert np.count_nonzero(shown[0]) == 2
+    assert np.array_equal(shown[1], matrices[1])

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from rotorcalc.films.model import Source
+from rotorcalc.onset import Onset
 from rotorcalc.units import Unit, Units
 from ui.computed import Computed
 from ui.format import digits, minus
@@ -27,6 +28,7 @@ class Result:
     `unknown` for no number, `boundless` for an infinite one. `modelled` is false of what follows
     from the inputs without the film's model, `at_onset` true of what holds at the onset of whirl.
     `source` names the result among those of the film, where another film has another equation;
+    `sought` returns an onset other than the machine's own that it follows from;
     `solved` returns what was solved where that depends on the machine; `belongs` whether a machine
     has such a result.
     """
@@ -46,6 +48,7 @@ class Result:
     cites: str = ""
     at_onset: bool = False
     source: str = ""
+    sought: Callable[[Computed], Onset] | None = None
     solved: Callable[[Computed], Source] | None = None
     belongs: Callable[[Computed], bool] = lambda _: True
 
@@ -68,6 +71,8 @@ class Result:
 
     def _without_number(self, computed: Computed, value: float) -> str:
         if self.at_onset and computed.onset_is_unknown:
+            return "not found"
+        if self.sought and computed.ends_unanswered(self.sought(computed)):
             return "not found"
         return self.unknown if math.isnan(value) else self.boundless
 

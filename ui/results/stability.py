@@ -9,7 +9,7 @@ from rotorcalc.films import film_of
 from rotorcalc.films.model import Source
 from rotorcalc.onset import closed_form
 from ui.computed import Computed
-from ui.format import tex
+from ui.format import tex, without_noise
 from ui.notes.equations import equation
 from ui.results.record import Result
 from ui.words.citation import whirl_without_load
@@ -34,7 +34,8 @@ def _stiffness(computed: Computed) -> str:
 
 
 def _matrix(matrix: np.ndarray) -> str:
-    rows = (" & ".join(tex(float(value)) for value in row) for row in matrix)
+    shown = without_noise(matrix)
+    rows = (" & ".join(tex(float(value)) for value in row) for row in shown)
     return r"\begin{bmatrix}" + r" \\ ".join(rows) + r"\end{bmatrix}"
 
 
@@ -210,7 +211,7 @@ STABILITY: tuple[Result, ...] = (
         "rigid_onset", "Onset if the shaft were rigid", "speed", lambda c: c.rigid_onset.speed,
         _RIGID, r"\Omega_{on} = \Omega_s(\varepsilon(\Omega_{on}))",
         lambda c: _onset(c, flexible=False), _ONSET_REMARK, nought=lambda _: "any speed",
-        cites=_CITED[_RIGID], solved=lambda c: _solved(c, False),
+        cites=_CITED[_RIGID], solved=lambda c: _solved(c, False), sought=lambda c: c.rigid_onset,
     ),
     Result(
         "whirl_frequency", "Whirl at onset ωₒₙ", "speed",

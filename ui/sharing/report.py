@@ -27,7 +27,7 @@ from ui.bores import KIND, Values, name_of
 from ui.cases import Shown
 from ui.computed import Computed
 from ui.criteria import Asked
-from ui.format import amount, digits, minus
+from ui.format import amount, digits, minus, without_noise
 from ui.inputs import GROUPS, INPUTS, applies, in_units, law_of, values_of
 from ui.results.table import RESULTS
 from ui.sharing import report_charts
@@ -40,6 +40,8 @@ from ui.words.verdict import beside, verdict
 
 # Speeds in the table of coefficients.
 _ROWS = 20
+# Results that only an oil's film has.
+_OF_OIL = ("viscosity", "film_temperature")
 # Text, and the class of its cell.
 Cell: TypeAlias = tuple[str, str]
 
@@ -89,10 +91,16 @@ def report(  # noqa: PLR0913, PLR0917 - a machine, what stands beside it, and ho
         version=escape(__version__),
         date=dt.datetime.now(dt.UTC).date().isoformat(),
         link=_anchor(link),
-        film=escape(citation.film(computed)),
+        film=escape(_film(computed)),
         plotly=_plotly(),
         charts=_script(charts),
     ).encode()
+
+
+def _film(computed: Computed) -> str:
+    """Return what the film's model takes for granted; of own coefficients nothing is known."""
+    more = "" if computed.has_own else "; laminar, of one viscosity, aligned"
+    return f"{citation.film(computed)}{more}"
 
 
 @functools.cache
@@ -133,6 +141,8 @@ def _inputs(computed: Computed, units: Units) -> str:
     live = values_of(computed.machine, computed.speed, computed.top_speed)
     rows: list[str] = []
     for group in GROUPS:
+        if group == "Oil" and computed.has_own:  # which nothing depends on
+            continue
         rows.append(f'<tr class="group"><th colspan="4">{escape(group)}</th></tr>')
         rows += (
             _input(key, live, units)
@@ -186,7 +196,8 @@ def _results(computed: Computed, units: Units) -> str:
             (result.cited(computed), ""),
         ])
         for result in RESULTS.values() if result.belongs(computed)
-        and not (computed.has_own and math.isnan(result.value(computed)))
+        and not (computed.has_own
+                 and (result.key in _OF_OIL or math.isnan(result.value(computed))))
     )  # fmt: skip
     head = _head("Result", ("Value", "n"), "Equation")
     return f"<h2>Results at the running speed</h2>{_table(head, rows)}"
@@ -215,7 +226,7 @@ def _compared(computed: Computed, cases: Sequence[Shown], units: Units) -> str:
 
 
 def _matrices(computed: Computed, units: Units) -> str:
-    K, C = computed.point.stiffness, computed.point.damping
+    K, C = map(without_noise, (computed.point.stiffness, computed.point.damping))
     return (
         "<h2>Force coefficients at the running speed</h2>"
         f'<div class="beside">{_matrix("Stiffness K", K, units.stiffness)}'
@@ -238,6 +249,7 @@ def _over_speed(computed: Computed, units: Units) -> str:
     parts = [(f"{letter}{ij}", unit, matrix[:, "XY".index(ij[0]), "XY".index(ij[1])])
              for letter, unit, matrix in (("K", units.stiffness, sweep.stiffness),
                                           ("C", units.damping, sweep.damping))
+             for matrix in (without_noise(matrix),)
              for ij in ("XX", "XY", "YX", "YY")]  # fmt: skip
     columns = [units.speed.of(sweep.speed), *(unit.of(values) for _, unit, values in parts)]
     rows = (

@@ -329,7 +329,8 @@ def of_criteria(asked: Asked) -> tuple[Figure, ...]:
         Figure(
             "level_one", "Level one",
             lambda c, u: criteria_figures.decrement(criteria.stability(c, asked), u),
-            "Least log decrement over the cross-coupled stiffness at midspan. API 617, level I.",
+            "Log decrement of the first forward mode over the cross-coupled stiffness at midspan. "
+            "API 617, level I.",
             width=FULL, height=260, missing=_refused(lambda c: criteria.stability(c, asked)),
         ),
         Figure(
