@@ -16,6 +16,8 @@ and r of whole recesses,
 
     G = A_rr − A_rl A_ll⁻¹ A_lr,    g = b_r − A_rl A_ll⁻¹ b_l,    D = b_lᵀ A_ll⁻¹ b_l
 
+All are products of Y = L⁻¹ (b_l, −A_lr) with itself, where A_ll = L Lᵀ: half a solution is enough.
+
 Forces are in p_s R L, flows, of both ends together, in (L/D) p_s C³/(6μ). The pressure of a recess
 pushes the journal by the same g by which the journal's motion pumps its flow: reciprocity.
 """
@@ -34,6 +36,7 @@ _POINTS = 0.5 * np.array([1.0 - np.sqrt(0.6), 1.0, 1.0 + np.sqrt(0.6)])
 _SHARES = np.array([5.0, 8.0, 5.0]) / 18.0
 # Positions solved in one call: their matrices stay within some ten megabytes.
 _AT_ONCE = 24
+_TOUCHES = "the journal touches the lands"
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,22 +58,6 @@ class Influence:
     squeeze: Array
 
 
-@dataclass(frozen=True, eq=False)
-class Solutions:
-    """Solutions on the lands at P positions, and what they were solved for.
-
-    Attributes
-    ----------
-    pressure : array, (P, u, 2 + N)
-        A_ll⁻¹ b_l and −A_ll⁻¹ A_lr, by unknown.
-    right : array, (P, u, 2 + N)
-        b_l and −A_lr.
-    """
-
-    pressure: Array
-    right: Array
-
-
 def influence(mesh: Mesh, position: Array) -> Influence:
     """Return the matrices at positions (P, 2) of the journal, in C."""
     parts = [
@@ -84,10 +71,11 @@ def influence(mesh: Mesh, position: Array) -> Influence:
 
 
 def _influence(mesh: Mesh, position: Array) -> Influence:
-    found = solutions(mesh, position)
-    product = found.right.swapaxes(1, 2) @ found.pressure
+    band, right = _assembled(mesh, *conductances(mesh, position))
+    Y = _halfway(band, right)
+    product = Y @ Y.swapaxes(1, 2)
     # A recess conducts to its land nodes only: their sum is its diagonal.
-    to_lands = found.right[:, :, 2:].sum(axis=1)
+    to_lands = right[:, :, 2:].sum(axis=1)
     diagonal = to_lands[:, :, None] * np.eye(mesh.lands.recesses)
     return Influence(
         conductance=diagonal - product[:, 2:, 2:],
@@ -96,13 +84,24 @@ def _influence(mesh: Mesh, position: Array) -> Influence:
     )
 
 
+def _halfway(band: Array, right: Array) -> Array:
+    """Return Yᵀ, (P, 2 + N, u), from the lower band of A_ll and the right sides."""
+    count, unknowns, columns = right.shape
+    factor, halve = cast("Any", lapack.dpbtrf), cast("Any", lapack.dtbtrs)
+    L, info = factor(band.reshape(count * unknowns, -1).T, lower=1, overwrite_ab=1)
+    if info:
+        raise ValueError(_TOUCHES)
+    Y, _ = halve(L, right.reshape(count * unknowns, columns), uplo="L")
+    return np.asarray(Y).T.reshape(columns, count, unknowns).swapaxes(0, 1)
+
+
 def _over_recesses(mesh: Mesh) -> Array:
     """Return b_r, (N, 2): the integrals over whole recesses."""
     inside = mesh.recess[..., None] == np.arange(mesh.lands.recesses)
     return np.einsum("jnm,nmk->kj", mesh.weights, inside.astype(float))
 
 
-def solutions(mesh: Mesh, position: Array) -> Solutions:
+def solutions(mesh: Mesh, position: Array) -> Array:
     """Return the pressures on the lands by unit motions and by unit recess pressures.
 
     Parameters
@@ -114,8 +113,8 @@ def solutions(mesh: Mesh, position: Array) -> Solutions:
 
     Returns
     -------
-    Solutions
-        At every position.
+    array, (P, u, 2 + N)
+        A_ll⁻¹ b_l and −A_ll⁻¹ A_lr, by unknown.
     """
     around, along = conductances(mesh, position)
     band, right = _assembled(mesh, around, along)
@@ -126,8 +125,8 @@ def solutions(mesh: Mesh, position: Array) -> Solutions:
         overwrite_ab=1,
     )  # fmt: skip
     if info:
-        raise ValueError("the journal touches the lands")
-    return Solutions(x.reshape(right.shape), right)
+        raise ValueError(_TOUCHES)
+    return np.asarray(x).reshape(right.shape)
 
 
 def conductances(mesh: Mesh, position: Array) -> tuple[Array, Array]:

@@ -50,7 +50,7 @@ def nodal(grid: Mesh, found: Around, S: Array, velocity: Array | float = 0.0) ->
 
     Of journals at rest, or at velocities (n, 2), in CΩ.
     """
-    solved = solutions(grid, found.position).pressure
+    solved = solutions(grid, found.position)
     x, y = found.position[:, 0], found.position[:, 1]
     # Rotation acts as the velocity (y, −x)/2.
     motion = 12.0 * S[:, None] * (velocity + 0.5 * np.stack([y, -x], axis=-1))
