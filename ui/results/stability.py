@@ -234,7 +234,7 @@ STABILITY: tuple[Result, ...] = (
         at_onset=True,
     ),
     Result(
-        "damping_ratio", "Damping ratio ζ", "number",
+        "damping_ratio", "Least damping ratio ζ", "number",
         lambda c: float(modes.damping_ratio(least_damped(c))), "Re λ, Im λ",
         r"\zeta = -\frac{\mathrm{Re}\,\lambda}{|\lambda|}",
         lambda c: rf"{tex(float(modes.damping_ratio(least_damped(c))))},\quad \lambda = "

@@ -197,7 +197,8 @@ def _show(
     with place:
         _say(table, is_used=is_used)
         st.button(
-            "In use" if is_used else "Use these coefficients", key="use_own", type="primary",
+            "In use" if is_used else "Use these coefficients", key="use_own",
+            type="secondary" if is_used else "primary",
             on_click=lambda: session().set_bearing(table.table), disabled=is_used,
         )  # fmt: skip
     _doubt(table)
