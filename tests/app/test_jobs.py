@@ -235,13 +235,14 @@ def doubled(asked: list[tuple[int]], most: int) -> list[int]:
     return [2 * number for (number,) in asked[:most]]
 
 
-def test_one_order_gives_the_first_of_several_requests() -> None:
+def test_one_order_gives_several_results() -> None:
     cached = Cached(lambda number: 2 * number, entries=9, megabytes=1, turns=Turns(1, hire=Here))
     asked = [(1,), (2,), (3,), (4,)]
-    assert cached.first(asked, doubled, 2) == [2, 4]
+    assert cached.several(asked, doubled, 2) == 2
     assert [cached.known(*one) for one in asked] == [2, 4, None, None]
-    assert cached.first(asked, doubled, 4) == [2]  # known: nothing is ordered
-    assert cached.first(asked[2:], doubled, 4) == [6, 8]  # what was asked and not given is free
+    assert cached.several(asked[:2], doubled, 4) == 0  # known: nothing is ordered
+    assert cached.several(asked, doubled, 4) == 2  # what was asked and not given is free
+    assert [cached.known(*one) for one in asked] == [2, 4, 6, 8]
     assert not cached._under_way
 
 
@@ -258,14 +259,14 @@ def test_an_order_leaves_to_another_visitor_what_he_has_begun() -> None:
         return doubled(asked, most)
 
     cached = Cached(work, entries=9, megabytes=1, turns=Turns(2, hire=Here))
-    with ThreadPoolExecutor(2) as pool:
+    with ThreadPoolExecutor(1) as pool:
         his = pool.submit(cached, 2)
         take(begun)
-        assert cached.first([(1,), (2,), (3,)], together, 9) == [2]
-        waits = pool.submit(cached.first, [(2,), (3,)], together, 9)
+        assert cached.several([(1,), (2,), (3,)], together, 9) == 2
+        assert cached.several([(2,)], together, 9) == 0
         go_on.set()
-        assert (his.result(PATIENCE), waits.result(PATIENCE)) == (4, [4])
-    assert orders == [((1,),)]
+        assert his.result(PATIENCE) == 4
+    assert orders == [((1,), (3,))]
 
 
 def test_a_failed_order_is_free_for_others() -> None:
@@ -274,7 +275,7 @@ def test_a_failed_order_is_free_for_others() -> None:
 
     cached = Cached(lambda number: 2 * number, entries=9, megabytes=1, turns=Turns(1, hire=Here))
     with pytest.raises(RuntimeError):
-        cached.first([(1,), (2,)], together)
+        cached.several([(1,), (2,)], together)
     assert [cached(1), cached(2)] == [2, 4]
 
 

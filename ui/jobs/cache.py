@@ -2,10 +2,9 @@
 
 import threading
 from collections import OrderedDict
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from functools import partial
-from itertools import takewhile
 from typing import Generic, TypeVar, cast
 
 import numpy as np
@@ -50,24 +49,24 @@ class Cached(Generic[T]):
         found = self._look(args)
         return None if found is None else found[0]
 
-    def first(
-        self, asked: Sequence[tuple[Hashable, ...]], together: Callable[..., Sequence[T]],
-        *more: Hashable,
-    ) -> Sequence[T]:  # fmt: skip
-        """Return the results of the first of some requests, as many as one order gives.
+    def several(
+        self, asked: Iterable[tuple[Hashable, ...]], together: Callable[..., Sequence[T]],
+        *more: Hashable, turns: Turns | None = None,
+    ) -> int:  # fmt: skip
+        """Compute what is neither known nor under way, as much as one order gives; return how much.
 
-        `together` takes the requests and `more`, and returns results in their order, one at least.
-        One by one each answer would wait for this process, which other pages keep busy.
+        `together` takes those requests and `more`, and returns results in their order, one at
+        least. One by one each answer would wait for this process, which other pages keep busy.
         """
-        begun = tuple(takewhile(self._begin, asked))
-        if not begun:  # known, or under way for another visitor
-            return [self(*asked[0])]
+        begun = tuple(filter(self._begin, asked))
+        if not begun:
+            return 0
         try:
             with one_at_a_time.PAGES.aside():
-                found = self._turns.run(together, (begun, *more), None)
+                found = (turns or self._turns).run(together, (begun, *more), None)
             for key, result in zip(begun, found, strict=False):
                 self._keep(key, result)
-            return found
+            return len(found)
         finally:
             self._end(*begun)
 

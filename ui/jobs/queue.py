@@ -94,6 +94,11 @@ class Turns:
             self._put_back(worker)
             self._leave(ticket)
 
+    @property
+    def is_free(self) -> bool:
+        """Whether nothing runs and nobody waits."""
+        return not self._line
+
     def begin(self) -> None:
         """Start a process before it is needed."""
         with self.turn():
@@ -194,7 +199,7 @@ def wait_while(why: Callable[[], str], changed: threading.Condition) -> None:
 SHORT = Turns(1, hire=partial(Worker, nicer=0), name="releases")
 LONG = Turns(settings.heavy_jobs())
 # Rows of the comparison come in tens: one process has all their tables, and stands back behind the
-# pages as long computations do.
+# pages as long computations do, whose process computes the slowest rows beside it while it is free.
 ROWS = Turns(1, hire=partial(Worker, nicer=NICER - 1), name="comparisons")
 LINES = SHORT, LONG, ROWS
 

@@ -5,8 +5,10 @@ out is computed.
 """
 
 import math
+import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import takewhile
 from typing import Any, NamedTuple, TypeAlias
@@ -27,7 +29,7 @@ from ui.frame.bore import picture_address, picture_tag
 from ui.frame.page import Page
 from ui.inputs import as_shown, machine_of, on_lubricant
 from ui.jobs import cache, work
-from ui.jobs.queue import ROWS
+from ui.jobs.queue import LONG, ROWS
 from ui.serving import one_at_a_time
 from ui.session import session
 
@@ -36,6 +38,8 @@ _OWN, _CLICKED = "This machine", "use_in_table"
 _A_ROW = 4
 # Seconds after which the results so far are shown.
 _PATIENCE = 0.6
+# Kinds that take about as long as all the others together.
+_SLOW = ("tilting-pads", "hydrostatic")
 
 # A machine, its running speed, and another bore in place of its own.
 _Asked: TypeAlias = tuple[Machine, float, Geometry | None]
@@ -192,13 +196,41 @@ def _next(asked: Sequence[_Asked]) -> list[BearingResult]:
         return found
     until = time.monotonic() + _PATIENCE
     with one_at_a_time.PAGES.aside():
+        helper = _helper(asked[len(found) :])
         while len(found) < len(asked):
             left = until - time.monotonic()
             if found and left <= 0.0:
                 break
-            found += _results.first(asked[len(found) :], work.bearings, left)
-            found += _known(asked[len(found) :])
+            rest = asked[len(found) :]
+            mine = [one for one in rest if helper is None or not _is_slow(one)]
+            if not _results.several(mine, work.bearings, left):
+                if helper is None:  # under way for another visitor
+                    _results(*rest[0])
+                else:
+                    helper.join(max(left, 0.0))
+                    helper = helper if helper.is_alive() else None
+            found += _known(rest)
     return found
+
+
+def _helper(asked: Sequence[_Asked]) -> threading.Thread | None:
+    """Return a thread that has the slow ones computed by another process, where that is free."""
+    slow = [one for one in asked if _is_slow(one) and _results.known(*one) is None]
+    if not slow or not LONG.is_free:
+        return None
+    helper = threading.Thread(target=_compute_ahead, args=(slow,), daemon=True)
+    helper.start()
+    return helper
+
+
+def _compute_ahead(slow: Sequence[_Asked]) -> None:
+    with suppress(Exception):  # the page then asks itself, and is told
+        _results.several(slow, work.bearings, _PATIENCE, turns=LONG)
+
+
+def _is_slow(one: _Asked) -> bool:
+    _, _, geometry = one
+    return geometry is not None and geometry.kind in _SLOW
 
 
 def _known(asked: Sequence[_Asked]) -> list[BearingResult]:
