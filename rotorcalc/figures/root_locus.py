@@ -63,8 +63,9 @@ def still(locus: Locus, onset: Onset, units: Units) -> Chart:
 
 def at_running_speed(locus: Locus, units: Units) -> Chart:
     """Return the eigenvalues at the running speed alone, on the axes of the root locus."""
-    axes = _axes(locus, units)
-    return _half_planes(_here(locus, axes, units), axes, locus, units, b=64)
+    axes, here = _axes(locus, units), locus.here.eigenvalues
+    marks = style.mark(here.real, whirl_frequency(here, units), "running speed")
+    return _half_planes([{**marks, "cliponaxis": True}], axes, locus, units, b=64)
 
 
 def _axes(locus: Locus, units: Units) -> tuple[Axis, Axis]:

@@ -16,9 +16,13 @@ def test_a_clicker_leads_on_after_a_slider_was_dragged(app: AppPage) -> None:
     app.page.mouse.move(thumb["x"] + 0.6 * thumb["width"], thumb["y"] + thumb["height"] / 2)
     app.page.mouse.up()
     app.rest()
+    app.slider("Running speed").focus()
+    app.page.keyboard.press("ArrowRight")  # which leaves the focus on the slider
+    app.rest()
     app.page.keyboard.press("s")
     expect(app.page.get_by_text("To one side, along a curve")).to_be_visible()
     app.rest()
+    app.slider("Running speed").focus()
     app.page.keyboard.press("PageDown")
     expect(heading).to_have_text("3 · Why it moves sideways")
 

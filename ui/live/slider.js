@@ -2,8 +2,8 @@
 //
 // A track is a window on an input's range, logarithmic and four times wide, or linear where the quantity's zero is
 // arbitrary. Dropped near its end, or at a value from elsewhere, the slider begins a window about the value; dragged
-// past the end and held there, it moves its window on. A window that is given stays as it is. Else a pixel changes a value by half of one per cent at most, over
-// any range. A track of an input that may be zero begins with a stop at zero; one with a word for infinity ends with it.
+// past the end and held there, it moves its window on. So a pixel changes a value by half of one per cent at most, over
+// any range. A window that is given stays as it is. A track of an input that may be zero begins with a stop at zero; one with a word for infinity ends with it.
 //
 // A slider's values go to the page's preview first, if there is one. While it is dragged that is all; on release and
 // by key, the slider then sends {name, value, dragging, number}, and the server returns `number` as `echo`. It sends through the
@@ -368,6 +368,22 @@ class Slider {
     return false;
   }
 }
+
+// In a lecture the keys that a presenter's clicker sends, and the letters of its buttons, are the page's wherever the
+// focus is. To the page a key in a field is typing: it is sent again from outside the field.
+function lead(event) {
+  const { target, key, code, ctrlKey, altKey, metaKey } = event;
+  const isLetter = target.type === "range" && /^[a-z]$/i.test(key);
+  const isLeading = key === "PageUp" || key === "PageDown" || isLetter;
+  if (!isLeading || ctrlKey || altKey || metaKey || !target.matches?.("input, textarea")) return;
+  if (!document.querySelector(".st-key-lecture_heading")) return;
+  event.preventDefault();
+  event.stopImmediatePropagation();
+  target.blur();
+  document.body.dispatchEvent(new KeyboardEvent("keydown", { key, code, bubbles: true, cancelable: true }));
+}
+
+addEventListener("keydown", lead, true);
 
 const groups = new WeakMap();
 
