@@ -35,3 +35,9 @@ def test_a_sheet_has_the_students_own_number(app: AppPage) -> None:
     shown = app.page.get_by_text("A short bearing has the diameter").inner_text()
     assert "number 4711" in sheet
     assert shown.split("What are")[0].strip() in sheet
+
+
+def test_an_address_in_lower_case_leads_to_the_page(app: AppPage) -> None:
+    app.page.goto(f"{app.url}/lecture?step=4")
+    expect(app.page.get_by_test_id("stHeading").first).to_have_text("4 · Stiffness")
+    assert app.page.url.endswith("/Lecture?step=4")

@@ -74,7 +74,7 @@ def content(page: Page) -> None:
         st.text_input(f"{ask.words}{_in(ask)}", key=f"answer_{name}_{i}", width=280)
         for i, ask in enumerate(exercise.asks)
     ]
-    st.caption(f"An answer is right within {100 * TOLERANCE:g} %.")
+    st.caption(f"An answer is right within {100 * TOLERANCE:g}\u00a0%.")
     right = [_judge(ask, word, page) for ask, word in zip(exercise.asks, given, strict=True)]
     with st.expander("Hint"):
         st.markdown(exercise.hint)

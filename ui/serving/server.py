@@ -4,13 +4,14 @@ import asyncio
 import gc
 import importlib
 import platform
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager
+from pathlib import Path
 
 import streamlit as st
 from starlette.middleware import Middleware
 from starlette.requests import Request
-from starlette.responses import JSONResponse
+from starlette.responses import JSONResponse, RedirectResponse
 from starlette.routing import Route
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from streamlit.url_util import make_url_path
@@ -21,6 +22,7 @@ from ui.serving import guard, log, pulse, settings, spare, version
 from ui.serving.own_origin import OwnOrigin
 from ui.serving.pulse import PULSE
 
+_PAGES = Path(__file__).parents[2] / "pages"
 _HEADER = b"x-rotorcalc-replica"
 # What the pages import, for the first visitor not to wait for it.
 _WARM = (
@@ -52,13 +54,31 @@ class NamedReplica:
 
 
 def routes() -> list[Route]:
-    """Return the routes beside the pages: health and previews."""
+    """Return the routes beside the pages: health, previews, and addresses in lower case."""
     base = st.get_option("server.baseUrlPath") or ""
-    health_route = Route(make_url_path(base, "healthz"), answer_health)
+    names = [path.stem.partition("_")[2] for path in _PAGES.glob("*_*.py")]
+    beside = [
+        Route(make_url_path(base, "healthz"), answer_health),
+        *(Route(make_url_path(base, name.lower()), _leading_to(name)) for name in names),
+    ]
     if settings.live() != "drag":
-        return [health_route]
+        return beside
     preview = importlib.import_module("ui.live.preview")
-    return [health_route, Route(preview.path(), preview.answer)]
+    return [*beside, Route(preview.path(), preview.answer)]
+
+
+def _leading_to(name: str) -> Callable[[Request], Awaitable[RedirectResponse]]:
+    """Return what leads to a page from its address in lower case, as typed from a blackboard.
+
+    Streamlit would say that there is no such page. What is said of the address is relative: a proxy
+    may know the app by another one.
+    """
+
+    async def answer(request: Request) -> RedirectResponse:
+        query = request.url.query
+        return RedirectResponse(f"{name}?{query}" if query else name)
+
+    return answer
 
 
 def middleware() -> list[Middleware]:
