@@ -15,7 +15,7 @@ from rotorcalc.coefficients import PressureField
 from rotorcalc.display import Result
 from rotorcalc.figures import cursor, style, text
 from rotorcalc.figures.bore import PadLines, closed, pad_lines
-from rotorcalc.figures.parts import RING, moving, still
+from rotorcalc.figures.parts import RING, moving, still, thickness
 from rotorcalc.figures.style import Chart, Trace
 from rotorcalc.films import film_of
 from rotorcalc.films.pads import Pad, pads_of
@@ -27,6 +27,8 @@ from rotorcalc.units import Unit, Units
 
 # Clearance over the bore's radius in the exaggerated drawing; to scale it would be invisible.
 EXAGGERATED = 0.3
+# How far beyond the bore the edges of tilting pads may lie, over its radius: within the housing.
+_EDGES = 0.1
 # Radius of the attitude angle's arc over the journal's.
 _ARC = 0.55
 _ANGLES = np.linspace(0.0, 2.0 * np.pi, 181)
@@ -203,7 +205,8 @@ class _Bore:
         widest = float(np.hypot(*outline.T).max())
         C = bearing.radial_clearance
         thick = _ring_thickness(bearing, parts)
-        gap = C / (bearing.radius + thick + widest * C) if to_scale else EXAGGERATED / widest
+        room = max(widest, _room_for_edges(parts, widest))
+        gap = C / (bearing.radius + thick + widest * C) if to_scale else EXAGGERATED / room
         ring = 0.0 if thick == 0.0 else gap * thick / C if to_scale else RING
         journal = 1.0 - gap * widest - ring
         pads, is_open = _pads(bearing, journal, gap, math.inf if to_scale else _POCKET)
@@ -220,6 +223,20 @@ class _Bore:
     def moving(self, parts: Parts, at: int) -> dict[str, Array]:
         """Return the lines of what moves, at one of the parts' speeds."""
         return moving(parts, at, journal=self.journal, gap=self.gap, ring=self.ring)
+
+
+def _room_for_edges(parts: Parts | None, widest: float) -> float:
+    """Return the least width of the drawing [C], in steps, that keeps pads in their housing.
+
+    The clearance between preloaded pads is a small part of C: where that is drawn large, the edges
+    of the pads lie far outside. 0 without pads.
+    """
+    if parts is None or parts.pads is None:
+        return 0.0
+    highest = max(
+        thickness(pad, edge) for pads in parts.pads for pad in pads for edge in (pad.start, pad.end)
+    )
+    return math.ceil(4.0 * EXAGGERATED * (highest - widest) / _EDGES) / 4.0
 
 
 def _ring_thickness(bearing: Bearing, parts: Parts | None) -> float:

@@ -4,11 +4,14 @@ Pads tilt, a ring floats and turns, a foil is pressed outward; recesses hold pre
 move is drawn by `figures.bore`.
 """
 
+import math
+
 import numpy as np
 
 from rotorcalc.arrays import Array
 from rotorcalc.bearing_parts import Parts
 from rotorcalc.figures.bore import pad_lines
+from rotorcalc.films.pads import Pad
 
 # Radius of the housing around tilting pads or a foil, over the bore's, and of a recess's bottom.
 HOUSING, RECESS = 1.12, 1.07
@@ -67,19 +70,28 @@ def still(parts: Parts, *, journal: float, gap: float) -> dict[str, Array]:
     dict of str to array, (n, 2)
         By the names of the traces, in X and Y; NaN between lines of one trace.
     """
-    if parts.pivots is not None:
-        # From the back of the pad, where it is closest to a centred journal, to the housing.
-        ends = np.array([journal + gap * 1.0, HOUSING])
-        return {
-            "housing": _arc(HOUSING),
-            "pivots": apart([ends[:, None] * _arc(1.0, np.array([one])) for one in parts.pivots]),
-        }
+    if parts.pads is not None and parts.pivots is not None:
+        # From the pad, which does not move there when it tilts, to the housing.
+        ends = [
+            np.array([journal + gap * thickness(pad, angle), HOUSING])
+            for pad, angle in zip(parts.pads[0], parts.pivots.tolist(), strict=True)
+        ]
+        lines = [
+            end[:, None] * _arc(1.0, np.array([angle]))
+            for end, angle in zip(ends, parts.pivots, strict=True)
+        ]
+        return {"housing": _arc(HOUSING), "pivots": apart(lines)}
     if parts.recesses is not None:
         return {"recesses": apart([_recess(*ends) for ends in parts.recesses])}
     if parts.slit is not None:
         ends = np.array([journal + gap, HOUSING])
         return {"housing": _arc(HOUSING), "slit": ends[:, None] * _arc(1.0, np.array([parts.slit]))}
     return {}
+
+
+def thickness(pad: Pad, angle: float) -> float:
+    """Return the film's thickness on a pad at an angle from X, the journal centred, in C."""
+    return 1.0 + pad.a_x * math.cos(angle) + pad.a_y * math.sin(angle)
 
 
 def apart(lines: list[Array]) -> Array:

@@ -6,10 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotorcalc import PRESETS, analyse
+from rotorcalc import PRESETS, TiltingPads, analyse
 from rotorcalc.bearing_parts import bearing_parts
 from rotorcalc.coefficients import film_field, middle_pressure
 from rotorcalc.figures import SI, US, machine
+from rotorcalc.figures.parts import HOUSING
 from rotorcalc.films import film_of
 from rotorcalc.films.pads import pads_of
 from rotorcalc.ring import ring_equilibrium
@@ -270,3 +271,18 @@ def test_what_the_drawing_shows_otherwise_is_said(name):
         said = machine.remarks(BEARINGS[name], to_scale=to_scale)
         assert ("centres of curvature" in said) == ("centres of the pads' curvature" in drawn_parts)
         assert ("Pockets" in said) == ("pocket" in drawn_parts and not to_scale)
+
+
+@pytest.mark.parametrize("preload", [0.0, 0.3, 0.9])
+def test_pads_stay_in_their_housing_and_pivots_hold_them(preload: float) -> None:
+    bearing = replace(SHEET.bearing, geometry=TiltingPads(preload=preload))
+    pads = replace(SHEET, bearing=bearing)
+    chart = machine.cross_section(
+        analyse(pads, 600.0), film_field(pads, 600.0, theta=np.linspace(0.0, 2.0 * np.pi, 181)), SI,
+        parts=bearing_parts(pads, 600.0),
+    )  # fmt: skip
+    lines = {one["name"]: np.stack((one["x"], one["y"])) for one in chart["data"] if "x" in one}
+    assert np.nanmax(np.hypot(*lines["pads"])) <= HOUSING
+    for start in lines["pivots"][:, ::3].T:  # each pivot's line begins on a pad
+        away = np.hypot(*(lines["pads"] - start[:, None]))
+        assert np.nanmin(away) < 0.03  # its points are so far apart

@@ -22,7 +22,7 @@ from ui.preview import Text
 from ui.words.citation import at_one_speed, capital, without_load, without_onset
 
 NO_WHIRL = (
-    "This film cannot whirl: at no load does it have the cross-coupled stiffness that feeds a "
+    "This film cannot whirl: whatever its load, it lacks the cross-coupled stiffness that feeds a "
     "whirl. Every rotor is stable on it, so there is no threshold speed to draw."
 )
 _OWN_NO_WHIRL = (
@@ -30,9 +30,9 @@ _OWN_NO_WHIRL = (
     "to draw."
 )
 SLOWER_WHIRL = (
-    "At no load does this film feed a whirl at running speed, so there is no threshold speed to "
-    "draw. Its stiffness and damping depend on the whirl's frequency, and a slower whirl may still "
-    "grow: the machine's onset is searched for with all its moving parts."
+    "Whatever its load, this film feeds no whirl at running speed, so there is no threshold speed "
+    "to draw. Its stiffness and damping depend on the whirl's frequency, and a slower whirl may "
+    "still grow: the machine's onset is searched for with all its moving parts."
 )
 WORK = r"""
 \begin{gathered}
