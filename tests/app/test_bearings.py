@@ -174,13 +174,13 @@ def test_files_are_written_for_every_bearing(name: str) -> None:
         assert f"<td>{words}</td>" in page or f'<td class="n">{words}</td>' in page
 
 
-def refusal(path: str, name: str) -> list[str]:
-    """Return what a page refuses: Orbits need a force in any motion, and every tab says so."""
+def refusal(path: str, name: str) -> str:
+    """Return what a page lacks: Orbits need a force in any motion, and every tab says so."""
     if path != ORBITS or name in (*MOVING, *FINITE, *PADS, *RINGS):
-        return []
+        return ""
     with pytest.raises(ValueError, match="motion") as refused:
         film_of(BEARINGS[name]).motion()
-    return [str(refused.value)]
+    return str(refused.value).partition(": ")[2]
 
 
 @pytest.mark.usefixtures("coarse_maps")
@@ -190,7 +190,9 @@ def test_every_page_shows_every_bearing(path: str, name: str) -> None:
     mass = {"mj": "10"} if "partial arc" in name else {}
     at = visit(path, **query(name) | mass)
     for tab in tours(at):
-        assert faults(at) == refusal(path, name), tab
+        assert faults(at) == [], tab
+        lacks = refusal(path, name)
+        assert not lacks or any(lacks in one.value for one in at.info), tab
     assert not at.warning or path != HOME
     assert machine_of(session_of(at).values).bearing == BEARINGS[name]
 
