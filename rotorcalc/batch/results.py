@@ -92,6 +92,8 @@ def _validity(case: Case, onset: float) -> str:
     if isinstance(case.machine.bearing, CoefficientTable):
         return "own coefficients: whether they hold for this machine is not known"
     parts: list[str] = []
+    if case.machine.bearing.model == "coarse":
+        parts.append("coarse mesh: K and C to some 4 %")
     try:
         if not math.isnan(case.speed):
             parts += _judged(case.machine, case.speed)
@@ -204,6 +206,7 @@ def tolerance_result(
             case.machine, spread.spreads, spread.samples, spread.seed, executor,
             speed=speed, progress=progress,
         )  # fmt: skip
+        onset = onset_speed(case.machine).speed
     except ValueError as error:
         return CaseResult(case.line, case.name, refusal=str(error))
     known = found.onset[~np.isnan(found.onset)]
@@ -223,7 +226,8 @@ def tolerance_result(
     for one in found.influences:
         values[f"influence_{one.field} [-]"] = one.index
         values[f"influence_error_{one.field} [-]"] = one.error
-    return CaseResult(case.line, case.name, values, "; ".join(found.refusals))
+    told = "; ".join(found.refusals)
+    return CaseResult(case.line, case.name, values, told, _validity(case, onset))
 
 
 @checked

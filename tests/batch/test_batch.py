@@ -473,6 +473,8 @@ def test_tolerances_from_the_command_line(machines: Path, tmp_path: Path) -> Non
     expected = rc.tolerance(SHEET, si, 300, 5, speed=6000 * rc.rpm)
     middle = np.quantile(expected.onset, 0.5, method="inverted_cdf")
     assert found["onset_quantile_0.5 [rad/s]"] == pytest.approx(middle, rel=1e-9)
+    [plain] = rc.batch.results(rc.read_machines(machines.read_text("utf-8")).cases)
+    assert found["validity"] == plain.validity != ""
     index = {one.field: one.index for one in expected.influences}
     assert found["influence_temperature [-]"] == pytest.approx(index["temperature"], abs=1e-9)
 

@@ -339,6 +339,13 @@ def test_report_shows_every_input_and_result(case: str, units: Units) -> None:
 
 
 @every_case
+def test_the_sweeps_file_says_of_the_model_what_the_page_says(case: str) -> None:
+    text = export.sweep_csv(computed(case), SI).decode("utf-8-sig")
+    [said] = [row for row in csv.reader(io.StringIO(text)) if row[0].startswith("# Model")]
+    assert said == ["# Model at the running speed", validity.headline(computed(case))]
+
+
+@every_case
 def test_the_reports_headline_says_of_the_model_what_the_page_says(case: str) -> None:
     shown = computed(case)
     said = " ".join(read(case, None).text)

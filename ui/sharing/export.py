@@ -25,6 +25,7 @@ from ui.bores import KIND, name_of
 from ui.computed import Computed
 from ui.inputs import INPUTS, applies, law_of, values_of
 from ui.sharing import xlsx
+from ui.words import validity
 
 # Words, unit and SI values of a column.
 Column: TypeAlias = tuple[str, Unit, Array]
@@ -99,6 +100,7 @@ def coefficients_csv(computed: Computed) -> bytes:
 def head(computed: Computed, units: Units) -> Iterator[tuple[str, str]]:
     """Yield the lines before a table: inputs, onset and modes."""
     yield from inputs(computed, units)
+    yield "# Model at the running speed", validity.headline(computed)
     onset = computed.onset
     for words, speed in (
         ("Onset of whirl", onset.speed),
@@ -117,7 +119,8 @@ def inputs(computed: Computed, units: Units) -> Iterator[tuple[str, str]]:
         if not applies(key, values):
             continue
         yield f"# {item.name(units)}", comparison.shown(key, values, units).replace("−", "-")
-    yield "# Viscosity law", law_of(values)
+    if not computed.has_own:
+        yield "# Viscosity law", law_of(values)
     yield "# Bearing", name_of(values[KIND])
     yield "# Film", film_name(values)
     for field in fields_of(values[KIND]).values():
