@@ -9,6 +9,7 @@ from ui import measured
 from ui.choices import choose
 from ui.frame.page import Page, show
 from ui.preview import Draw, not_at_once
+from ui.words import limit_cycles as cycles
 from ui.words import on_demand, own
 from ui.words import orbits as ask
 from ui.words import run_up as run_ups
@@ -161,7 +162,7 @@ def run_up_charts(page: Page, asked: run_ups.AskRun, run: RunUp) -> None:
     picture = choose("Picture", ["Amplitude", "Spectra rising", "Spectra falling"],
                      "orbits_picture", hidden=True)  # fmt: skip
     if picture == "Amplitude":
-        branch = on_demand.known_cycles(page.computed)
+        branch = cycles.known(page.computed)
         page.chart(
             lambda _: draw_run.hysteresis(run, branch, marks, units), "orbits_hysteresis",
             while_dragging=not_at_once,
@@ -184,9 +185,12 @@ def run_up_charts(page: Page, asked: run_ups.AskRun, run: RunUp) -> None:
 def limit_cycles(page: Page) -> None:
     units = page.units
     if (branch := on_demand.ask_cycles(page)) is not None:
+        on_demand.say_held(branch, page.computed, units)
         on_demand.say_cycles(branch, units)
         page.alone().chart(
-            lambda c, branch=branch: draw.cycles(branch, on_demand.swept(branch), c.speed, units),
+            lambda c, branch=branch: draw.cycles(
+                branch, on_demand.swept(branch, c), c.speed, units
+            ),
             "orbits_cycles",
             while_dragging=not_at_once,
             alt="Size of the limit cycles over speed, stable and unstable, and two sweeps.",

@@ -19,7 +19,7 @@ T = TypeVar("T", str, float, int, bool)
 NAMES = frozenset((
     "tab", "scale", "over", "axes", "shaft", "spiral", "shown", "varied", "x", "y", "vary",
     "wanted", "margin", "target", "kick", "revolutions",
-    "speeds", "balance", "pace", "picture", "step", "exercise",
+    "speeds", "balance", "pace", "picture", "whirl", "step", "exercise",
     "spreads", "samples", "seed",
     "slowest", "fastest", "coupling", "qa", "stages", "grade",
     "load_axis", "turns", "which_s", "norm",

@@ -1,5 +1,6 @@
 """What a machine's floating ring does, kept for the texts and charts that share it."""
 
+import math
 from functools import lru_cache
 
 from rotorcalc import (
@@ -41,6 +42,12 @@ def whirls(computed: Computed) -> TwoWhirls:
         here=ring_whirl(machine, computed.speed),
         onsets=_onsets(machine),
     )
+
+
+def onsets(computed: Computed) -> tuple[ModeOnset, ...]:
+    """Return the onsets of the whirls that set in at some speed, the lowest first."""
+    found = (one for one in _onsets(computed.machine) if 0.0 < one.speed < math.inf)
+    return tuple(sorted(found, key=lambda one: one.speed))
 
 
 # A slider of the running speed leaves them as they are.

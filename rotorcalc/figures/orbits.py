@@ -167,11 +167,16 @@ def once_a_revolution(let_go: Release, units: Units) -> Chart:
 
 
 def cycles(
-    branch: Bifurcation, swept: tuple[Array, Array, Array], running_speed: float, units: Units
+    branch: Bifurcation,
+    swept: tuple[Array, Array, Array] | None,
+    running_speed: float,
+    units: Units,
 ) -> Chart:
     """Return the limit cycles over speed, stable solid and unstable broken, with two sweeps.
 
-    `swept` holds rising speeds [rad/s] and the amplitudes as the speed slowly rises and falls [m].
+    `swept` holds rising speeds [rad/s] and the amplitudes as the speed slowly rises and falls [m];
+    None where rest is unstable below this onset, and no sweep begins there. A floating ring's
+    amplitude is a thin line beside the journal's.
     """
     C, onset = branch.hopf.clearance, float(units.speed.of(branch.hopf.speed))
     at = units.speed.of(np.append(branch.hopf.speed, branch.speed))
@@ -183,12 +188,10 @@ def cycles(
     x = style.axis(titled("Running speed", "Ω", units.speed.name), *ends)
     y = style.axis("Largest distance from rest, a/C [-]", 0.0, _top(size))
     traces = [
+        *_of_ring(at, branch),
         *branch_lines(at, size, branch),
-        style.line([ends[0], onset], [0.0, 0.0], "rest, stable", style.JOURNAL, width=3.2,
-                   showlegend=False, cliponaxis=False),
-        style.line([onset, ends[1]], [0.0, 0.0], "rest, unstable", style.JOURNAL, dash="dot",
-                   showlegend=False, cliponaxis=False),
-        *_sweeps(swept, C, units),
+        *_rest(ends, ends[0] if swept is None else onset),
+        *([] if swept is None else _sweeps(swept, C, units)),
         style.mark(onset, 0.0, f"onset, {onset:.0f} {units.speed.name}", style.UNSTABLE),
         *_folds(branch, units),
     ]  # fmt: skip
@@ -372,6 +375,27 @@ def branch_lines(at: Array, size: Array, branch: Bifurcation) -> list[Trace]:
         )  # fmt: skip
     # The cycles are few, so a spline draws the smooth curve on which they lie.
     return [{**line, "line": {**line["line"], "shape": "spline"}} for line in lines]
+
+
+def _of_ring(at: Array, branch: Bifurcation) -> list[Trace]:
+    """Return the amplitude of a floating ring along the branch."""
+    if not branch.inner_amplitude.any():
+        return []
+    size = np.append(0.0, branch.inner_amplitude) / branch.hopf.clearance
+    hover = "%{x:.0f}, a/C = %{y:.3f}<extra>%{fullData.name}</extra>"
+    line = style.line(at, size, "the ring's distance, over C too", RING, width=1.4,
+                      hovertemplate=hover)  # fmt: skip
+    return [{**line, "line": {**line["line"], "shape": "spline"}}]
+
+
+def _rest(ends: tuple[float, float], onset: float) -> list[Trace]:
+    """Return the equilibrium, stable below its onset and unstable above."""
+    return [
+        style.line([ends[0], onset], [0.0, 0.0], "rest, stable", style.JOURNAL, width=3.2,
+                   showlegend=False, cliponaxis=False),
+        style.line([onset, ends[1]], [0.0, 0.0], "rest, unstable", style.JOURNAL, dash="dot",
+                   showlegend=False, cliponaxis=False),
+    ]  # fmt: skip
 
 
 def _sweeps(swept: tuple[Array, Array, Array], C: float, units: Units) -> list[Trace]:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotorcalc.arguments import checked
-from rotorcalc.arrays import Array, BoolArray, ComplexArray
+from rotorcalc.arrays import Array, BoolArray, ComplexArray, IntArray
 from rotorcalc.coefficients import rising_speed
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine
@@ -28,6 +28,26 @@ from rotorcalc.onset import ModeOnset, Onset
 
 # A multiplier's imaginary part that is rounding, over its modulus.
 _REAL = 1e-9
+
+
+@dataclass(frozen=True)
+class HeldCycle(Result):
+    """A stable limit cycle at one speed.
+
+    Attributes
+    ----------
+    amplitude, inner_amplitude : float
+        Largest distance from equilibrium of the journal, and of a floating ring [m].
+    whirl_frequency : float
+        ω [rad/s].
+    thinnest : float
+        Thinnest film over its own clearance [-].
+    """
+
+    amplitude: float
+    inner_amplitude: float
+    whirl_frequency: float
+    thinnest: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,9 +75,9 @@ class Bifurcation(Result):
     paths : tuple of arrays, (m, 2)
         The journal's positions in X, Y around each cycle, from the bearing's centre [m].
     beats : boolean array, (n,)
-        Whether the slowest small motion to decay about the cycle has a frequency of its own. An
-        unstable cycle at which it has one is left for a motion of two whirls at once; at others the
-        size of the whirl changes.
+        Whether the slowest small motion to decay about the cycle has a frequency of its own, half
+        the whirl's included. An unstable cycle at which it has one is left for a motion of both
+        frequencies at once; at others the size of the whirl changes.
     inner_amplitude : array, (n,)
         Largest distance of a floating ring from its equilibrium [m]; of another film's inner
         coordinates together. 0 where it has none.
@@ -125,13 +145,54 @@ class Bifurcation(Result):
         stable : boolean array, (m,)
             Whether each is stable.
         """
+        inside, share = self._between(speed)
+        nearest = inside + (share > 0.5)
+        return self._squarely(self.amplitude, inside, share), self.stable[nearest]
+
+    @checked
+    def held_at(self, speed: float) -> HeldCycle | None:
+        """Return the largest stable cycle at a speed, interpolated between those found.
+
+        Parameters
+        ----------
+        speed : float
+            Running speed, Ω [rad/s].
+
+        Returns
+        -------
+        HeldCycle or None
+            None where no cycle is stable.
+        """
+        inside, share = self._between(speed)
+        held = self.stable[inside + (share > 0.5)]
+        inside, share = inside[held], share[held]
+        if not len(inside):
+            return None
+        sizes = self._squarely(self.amplitude, inside, share)
+        largest = int(np.argmax(sizes))
+        first, part = int(inside[largest]), float(share[largest])
+
+        def along(values: Array) -> float:
+            return float(values[first] + part * (values[first + 1] - values[first]))
+
+        return HeldCycle(
+            amplitude=float(sizes[largest]),
+            inner_amplitude=math.sqrt(along(self.inner_amplitude**2)),
+            whirl_frequency=along(self.whirl_frequency),
+            thinnest=along(self.thinnest),
+        )
+
+    def _between(self, speed: float) -> tuple[IntArray, Array]:
+        """Return after which cycles the branch has a speed, and where between each two."""
         low, high = self.speed[:-1], self.speed[1:]
         inside = np.flatnonzero((low - speed) * (high - speed) <= 0.0)
-        share = (speed - low[inside]) / np.where(high == low, 1.0, high - low)[inside]
+        return inside, (speed - low[inside]) / np.where(high == low, 1.0, high - low)[inside]
+
+    @staticmethod
+    def _squarely(values: Array, inside: IntArray, share: Array) -> Array:
         # a² is linear in Ω at the onset (a ∝ √(Ω − Ω_s)), so it is a² that is interpolated.
-        first, last = self.amplitude[inside] ** 2, self.amplitude[inside + 1] ** 2
-        nearest = inside + (share > 0.5)
-        return np.sqrt(first + share * (last - first)), self.stable[nearest]
+        first, last = values[inside] ** 2, values[inside + 1] ** 2
+        return np.sqrt(first + share * (last - first))
 
 
 @checked
@@ -200,7 +261,8 @@ def bifurcation(
         multiplier=np.abs(multipliers),
         stable=np.abs(multipliers) < 1.0,
         paths=tuple(one.cycle.path[:, :2] * balance.C for one in found),
-        beats=multipliers.imag > _REAL * np.abs(multipliers),
+        # Of a real positive multiplier the small motion is in step with the whirl.
+        beats=(multipliers.imag > _REAL * np.abs(multipliers)) | (multipliers.real < 0.0),
         inner_amplitude=np.array([one.inner_amplitude for one in found]),
         thinnest=np.array([one.gap for one in found]),
         inner_paths=tuple(one.cycle.path[:, 2:] * balance.C for one in found),

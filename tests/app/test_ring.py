@@ -2,10 +2,13 @@
 
 import math
 import re
+from dataclasses import replace
 
 import pytest
 from streamlit.testing.v1 import AppTest
 
+from rotorcalc import bifurcation
+from rotorcalc.figures import orbits
 from rotorcalc.figures import ring as figures
 from rotorcalc.units import SI
 from tests.app.session import (
@@ -25,8 +28,8 @@ from ui.computed import Computed, computed_from
 from ui.inputs import PRESET_VALUES
 from ui.notes import ring as notes
 from ui.results.table import RESULTS
+from ui.words import limit_cycles, on_demand, verdict
 from ui.words import ring as words
-from ui.words import verdict
 
 EQUILIBRIUM, STABILITY = "pages/1_Equilibrium.py", "pages/3_Stability.py"
 RINGED = {"bearing": "floating-ring"}
@@ -65,6 +68,7 @@ def test_both_onsets_agree_with_the_verdict_which_points_to_the_orbits(film: str
     onset = RESULTS["onset_speed"].shown(unstable, SI).removesuffix(" rpm")
     assert f"| Onset [rpm] | none found | {onset} |" in table
     assert "limit cycle" in table
+    assert "has not been followed yet" in table
     told = verdict.verdict(unstable, SI)
     assert told.level == "unstable"
     assert told.sentence.endswith(words.BEYOND)
@@ -110,8 +114,8 @@ def test_orbits_follow_a_ring_on_films_of_finite_length_once_asked() -> None:
     assert set(charts(at)) == {"chart_orbits_path", "chart_orbits_time"}
     assert not faults(at)
     open_part(at, "orbits_tab", "Limit cycles")
-    assert "parts that move on their own" in at.info[0].value
-    assert not any(button.key == "orbits_cycles" for button in at.button)
+    assert any(button.key == "orbits_cycles" for button in at.button)
+    assert re.search(r"size of these cycles .* about 45\s+s", said(at)), said(at)
 
 
 def test_the_misprint_of_the_two_whirls_is_shown_by_eigenvalues() -> None:
@@ -129,3 +133,31 @@ def test_the_misprint_of_the_two_whirls_is_shown_by_eigenvalues() -> None:
         assert abs(outer - printed) > 0.3
     at = visit(NOTES, tab="Misprints")
     assert notes.whirls() in said(at)
+
+
+def test_the_limit_cycle_of_a_ring_is_told_with_its_sizes_and_its_frequency() -> None:
+    computed = shown(film="short", rpm=18200.0, rpm_max=40000.0, u=0.0)
+    asked = limit_cycles.branch_of(computed)
+    assert asked.onset == ring.onsets(computed)[0]
+    assert asked.highest == 1.5
+    branch = bifurcation(asked.machine, onset=asked.onset, highest=1.003)
+    cycle = branch.held_at(computed.speed)
+    assert cycle is not None
+    (told,) = limit_cycles.held(branch, computed.speed, SI)
+    journal, ring_goes = (1e6 * one for one in (cycle.amplitude, cycle.inner_amplitude))
+    words = re.search(r"journal up to ([\d.]+) µm and the ring up to ([\d.]+) µm", told)
+    assert words is not None
+    assert [float(one) for one in words.groups()] == pytest.approx([journal, ring_goes], rel=1e-3)
+    assert "has no cycle" in limit_cycles.held(branch, 0.5 * computed.speed, SI)[0]
+    # Where another whirl grows about the cycle it is said.
+    two = replace(branch, stable=~branch.stable, beats=~branch.beats)
+    assert "both frequencies" in limit_cycles.held(two, computed.speed, SI)[0]
+    # Two sweeps, as the machine rests below this onset, and the ring's own line.
+    chart = orbits.cycles(branch, on_demand.swept(branch, computed), computed.speed, SI)
+    assert next(one["name"] for one in chart["data"]).startswith("the ring")
+    early = replace(branch, hopf=replace(branch.hopf, speed=1.1 * branch.hopf.speed))
+    assert on_demand.swept(early, computed) is None
+    plain = orbits.cycles(early, None, computed.speed, SI)
+    assert not any("slowly" in one["name"] for one in plain["data"])
+    fast = shown(film="short", rpm=39000.0, rpm_max=40000.0)
+    assert limit_cycles.branch_of(fast).highest == 3.0

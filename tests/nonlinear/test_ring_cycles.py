@@ -161,6 +161,20 @@ def test_while_the_inner_film_whirls_that_of_the_outer_one_begins_unstable(begun
             assert branch.beats.all()
 
 
+def test_the_stable_cycle_at_a_speed_is_the_branch_between_two_cycles(inner_whirl):
+    last = inner_whirl.held_at(float(inner_whirl.speed[-1]))
+    assert last.amplitude == pytest.approx(inner_whirl.amplitude[-1], rel=1e-9)
+    assert last.inner_amplitude == pytest.approx(inner_whirl.inner_amplitude[-1], rel=1e-9)
+    speed = 0.5 * (inner_whirl.speed[-1] + inner_whirl.speed[-2])
+    held = inner_whirl.held_at(float(speed))
+    for value, values in (
+        (held.whirl_frequency, inner_whirl.whirl_frequency),
+        (held.thinnest, inner_whirl.thinnest),
+    ):
+        assert value == pytest.approx(values[-2:].mean(), rel=1e-9)
+    assert inner_whirl.held_at(0.5 * float(inner_whirl.speed.min())) is None
+
+
 def test_a_ring_that_stands_in_a_narrow_film_has_the_cycles_of_a_plain_bearing():
     loaded = replace(MACHINE, load=20.0)
     narrow = replace(loaded, bearing=ring(SMALL, outer_clearance=C / 100.0))

@@ -8,7 +8,18 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from rotorcalc import Machine, Onsets, Tolerance, compare_bearings, design, onsets, tolerance
+from rotorcalc import (
+    Bifurcation,
+    Machine,
+    ModeOnset,
+    Onsets,
+    Tolerance,
+    bifurcation,
+    compare_bearings,
+    design,
+    onsets,
+    tolerance,
+)
 from rotorcalc import input_sweep as sweeps
 from rotorcalc.arrays import Array
 from rotorcalc.comparison import BearingResult, bearing_result
@@ -55,6 +66,16 @@ def run_up(
 ) -> RunUp:
     """Return a run-up and the run-down from its end, amplitudes and spectra."""
     return run_ups.run_up(machine, lowest, highest, revolutions=revolutions, progress=progress)
+
+
+def cycles(
+    machine: Machine,
+    onset: ModeOnset | None,
+    highest: float,
+    progress: Progress | None = None,
+) -> Bifurcation:
+    """Return the limit cycles from an onset, the lowest for None, up to `highest` times it."""
+    return bifurcation(machine, onset=onset, highest=highest, progress=progress)
 
 
 def three_onsets(machine: Machine) -> tuple[Onsets, GrowthCurve]:

@@ -158,7 +158,7 @@ def _limit_cycles(page: Page) -> None:
     if (branch := on_demand.ask_cycles(page)) is None:
         return
     page.chart(
-        lambda c: orbits.cycles(branch, on_demand.swept(branch), c.speed, page.units),
+        lambda c: orbits.cycles(branch, on_demand.swept(branch, c), c.speed, page.units),
         "lecture_cycles",
         while_dragging=not_at_once,
         alt="Size of the limit cycles over speed, stable and unstable, and two sweeps.",

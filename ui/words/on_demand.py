@@ -12,17 +12,17 @@ import streamlit as st
 from rotorcalc import (
     Bifurcation,
     BifurcationError,
-    Machine,
     Onsets,
     TransientError,
-    bifurcation,
 )
 from rotorcalc.arrays import Array
 from rotorcalc.figures import Units
 from rotorcalc.films import FilmMotion, InnerMotion, film_of
 from rotorcalc.machine import Bearing
+from rotorcalc.nonlinear.film_forces import has_forces
 from rotorcalc.nonlinear.limit_cycles import sweep
 from rotorcalc.nonlinear.measured_onset import GrowthCurve
+from ui import ring
 from ui.computed import Computed
 from ui.format import amount, digits
 from ui.frame.page import Page
@@ -30,6 +30,7 @@ from ui.jobs import cache, work
 from ui.jobs.work import Progress
 from ui.results.stability import fastest_growing
 from ui.session import session
+from ui.words import limit_cycles
 from ui.words.citation import capital, without_load, without_onset
 
 T = TypeVar("T")
@@ -48,13 +49,14 @@ _THREE = (
     "nonlinear motion. A few seconds …"
 )
 _NOT_FOLLOWED = (
-    "Limit cycles are followed on films without parts of their own. This "
-    "film has parts that move on their own, which the method leaves out; a release and a run-up "
-    "show the whirl on which this machine ends."
+    "Limit cycles are followed on plain films and floating rings. A pad of this bearing may stand "
+    "still without pressure, which the method leaves out; a release and a run-up show the whirl on "
+    "which this machine ends."
 )
+# Two searches for one onset differ by rounding.
+_SAME_ONSET = 1e-6
 _STARTED_AGAIN = "This computation was interrupted and has started again."
 
-_cycles = cache.Cached(bifurcation, entries=16, megabytes=16)
 _three = cache.Cached(work.three_onsets, entries=16, megabytes=4)
 
 
@@ -113,7 +115,7 @@ def _name(token: object) -> str:
 
 def request_cycles(computed: Computed) -> None:
     """Ask for the limit cycles as their button does."""
-    key, name = "orbits_cycles", _name(("cycles", balanced(computed.machine)))
+    key, name = "orbits_cycles", _name(("cycles", limit_cycles.branch_of(computed)))
     if session().asked.get(key) != name:
         session().ask_for(key, name)
 
@@ -124,25 +126,25 @@ def ask_cycles(page: Page) -> Bifurcation | None:
     if not 0.0 < onset < math.inf:
         st.info(_no_onset(computed))
         return None
-    motion = film_of(computed.machine.bearing).motion()
-    if isinstance(motion, InnerMotion) and motion.states > 0:
+    if not has_forces(computed.machine.bearing):
         st.info(_NOT_FOLLOWED)
         return None
-    machine = balanced(computed.machine)
+    limit_cycles.choose_whirl(computed)
+    branch = limit_cycles.branch_of(computed)
     comes = _CYCLES.format(_SLOW_CYCLES_TAKE if slow_film(computed) else _CYCLES_TAKE)
     return on_demand(
-        page, Job("Follow the limit cycles", "orbits_cycles", comes), ("cycles", machine),
-        lambda tell: attempt(lambda: _cycles(machine, tell=tell)),
+        page, Job("Follow the limit cycles", "orbits_cycles", comes), ("cycles", branch),
+        lambda tell: attempt(lambda: limit_cycles.followed(*branch.asked, tell=tell)),
     )  # fmt: skip
 
 
-def known_cycles(computed: Computed) -> Bifurcation | None:
-    """Return the limit cycles where they have been computed."""
-    return _cycles.known(balanced(computed.machine))
+def swept(branch: Bifurcation, computed: Computed) -> tuple[Array, Array, Array] | None:
+    """Return speeds, and the amplitudes as the speed slowly rises and falls through them.
 
-
-def swept(branch: Bifurcation) -> tuple[Array, Array, Array]:
-    """Return speeds, and the amplitudes as the speed slowly rises and falls through them."""
+    None where the machine whirls already below the branch's onset: no sweep leaves rest there.
+    """
+    if branch.hopf.speed > computed.onset.speed * (1.0 + _SAME_ONSET):
+        return None
     onset = branch.hopf.speed
     low, high = min(float(branch.speed.min()), 0.97 * onset), float(branch.speed.max())
     speeds = np.linspace(low - 0.1 * (high - low), max(high, 1.001 * onset), 400)
@@ -178,6 +180,12 @@ def say_cycles(branch: Bifurcation, units: Units) -> None:
     st.caption(f"The branch of limit cycles {branch.ended}.")
 
 
+def say_held(branch: Bifurcation, computed: Computed, units: Units) -> None:
+    """Show on which cycle a machine on a floating ring runs, and where two whirls are at once."""
+    if ring.has_ring(computed):
+        st.markdown(" ".join(limit_cycles.held(branch, computed.speed, units)))
+
+
 def ask_onsets(page: Page) -> tuple[Onsets, GrowthCurve] | None:
     """Return the onset found three ways, and growth over speed, or show why there is none."""
     computed, onset = page.computed, page.computed.onset.speed
@@ -186,7 +194,7 @@ def ask_onsets(page: Page) -> tuple[Onsets, GrowthCurve] | None:
         return None
     if (film := slow_film(computed)) is not None:
         comes = f"{_THREE.removesuffix('A few seconds …')}About {_SLOW_THREE_TAKE} s."
-        about = film.tables or balanced(computed.machine)
+        about = film.tables or limit_cycles.balanced(computed.machine)
         return on_demand(
             page, Job("Find the onset three ways", "orbits_three", comes), ("three", about),
             lambda _: attempt(lambda: three_onsets(computed)),
@@ -200,7 +208,7 @@ def ask_onsets(page: Page) -> tuple[Onsets, GrowthCurve] | None:
 
 def three_onsets(computed: Computed) -> tuple[Onsets, GrowthCurve]:
     """Return the onset found three ways, and growth over speed, of a machine that has one."""
-    found, curve = _three(balanced(computed.machine))
+    found, curve = _three(limit_cycles.balanced(computed.machine))
     here = fastest_growing(computed).real
     return found, replace(curve, running_speed=computed.speed, running_rate=here)
 
@@ -233,10 +241,6 @@ def say_onsets(found: Onsets, units: Units) -> None:
         )
     else:
         st.error(f"They disagree by {found.spread:.1%} of the onset.")
-
-
-def balanced(machine: Machine) -> Machine:
-    return replace(machine, rotor=replace(machine.rotor, imbalance=0.0))
 
 
 def _no_onset(computed: Computed) -> str:

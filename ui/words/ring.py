@@ -8,6 +8,7 @@ from ui import ring
 from ui.computed import Computed
 from ui.format import amount, digits, minus
 from ui.preview import Text
+from ui.words import limit_cycles
 from ui.words.citation import cited
 
 # Said where a rotor on rings is past its onset.
@@ -16,6 +17,7 @@ _BEYOND = """
 These are the onsets of small motions. Rotors on floating rings, such as turbochargers, run far
 above them: the whirl grows only up to a limit cycle, on which the nonlinear films hold it.
 """
+_NOT_YET = "How large it is has not been followed yet: see the tab Limit cycles of Orbits."
 
 
 def whirls(computed: Computed, units: Units) -> Text:
@@ -37,7 +39,18 @@ def whirls(computed: Computed, units: Units) -> Text:
     )  # fmt: skip
     head, *rows = zip(names, *columns, strict=True)
     lines = (head, (":--", "--:", "--:"), *rows)
-    return Text("\n".join(f"| {' | '.join(line)} |" for line in lines) + f"\n{_BEYOND}")
+    table = "\n".join(f"| {' | '.join(line)} |" for line in lines)
+    return Text(f"{table}\n{_BEYOND}{_cycle(computed, units)}")
+
+
+def _cycle(computed: Computed, units: Units) -> str:
+    """Return on which cycle a machine past an onset runs, where that has been computed."""
+    if not 0.0 < computed.onset.speed < computed.speed:
+        return ""
+    branch = limit_cycles.known(computed)
+    return (
+        _NOT_YET if branch is None else " ".join(limit_cycles.held(branch, computed.speed, units))
+    )
 
 
 def _column(

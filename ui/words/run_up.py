@@ -17,7 +17,8 @@ from ui.format import amount, digits
 from ui.frame.page import Page
 from ui.jobs import cache, work
 from ui.jobs.work import Progress
-from ui.words.on_demand import Job, attempt, balanced, on_demand, slow_film
+from ui.words.limit_cycles import balanced
+from ui.words.on_demand import Job, attempt, on_demand, slow_film
 
 # Ends of a passage around the onset, over its speed; and the start of one to the top speed, over
 # that.

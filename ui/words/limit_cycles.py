@@ -1,0 +1,90 @@
+"""Which limit cycles a visitor asks for, those that are known, and what is said of them."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rotorcalc import Bifurcation, Machine, ModeOnset
+from rotorcalc.figures import Units
+from ui import ring
+from ui.choices import choices, choose
+from ui.computed import Computed
+from ui.format import amount, digits
+from ui.jobs import cache, work
+
+# A ring's machine runs at many times its onset: how far its cycles are followed, over the onset.
+_REACHES = (1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0)
+_BEYOND = 1.1
+_WHIRL = "orbits_whirl"
+_BOTH = (
+    "a whirl of another frequency grows about it, and the motion has both frequencies at once. A "
+    "release shows it."
+)
+
+followed = cache.Cached(work.cycles, entries=16, megabytes=16)
+
+
+@dataclass(frozen=True)
+class Branch:
+    """Which limit cycles are asked for: from which onset of which machine, and up to where."""
+
+    machine: Machine
+    onset: ModeOnset | None
+    highest: float
+
+    @property
+    def asked(self) -> tuple[Machine, ModeOnset | None, float]:
+        """What they are kept by."""
+        return self.machine, self.onset, self.highest
+
+
+def branch_of(computed: Computed) -> Branch:
+    """Return the branch that is asked for: on a ring that of the whirl chosen, up past Ω."""
+    machine = balanced(computed.machine)
+    found = ring.onsets(computed) if ring.has_ring(computed) else ()
+    if not found:
+        return Branch(machine, None, _REACHES[0])
+    modes = {one.mode: one for one in found}
+    onset = modes.get(str(choices().chosen.get(_WHIRL, "")), found[0])
+    needed = _BEYOND * computed.speed / onset.speed
+    return Branch(machine, onset, next((one for one in _REACHES if one >= needed), _REACHES[-1]))
+
+
+def choose_whirl(computed: Computed) -> None:
+    """Show a choice of the whirl whose cycles are followed, where a ring has two."""
+    found = ring.onsets(computed) if ring.has_ring(computed) else ()
+    if len(found) > 1:
+        choose("Whirl in the", [one.mode for one in found], _WHIRL)
+
+
+def known(computed: Computed) -> Bifurcation | None:
+    """Return the limit cycles where they have been computed."""
+    return followed.known(*branch_of(computed).asked)
+
+
+def held(branch: Bifurcation, speed: float, units: Units) -> tuple[str, ...]:
+    """Return in sentences the stable cycle at a speed, and the speeds without one."""
+    at, cycle = amount(units.speed, speed), branch.held_at(speed)
+    low, high = float(branch.speed.min()), float(branch.speed.max())
+    if cycle is not None:
+        first = (
+            f"At {at} the limit cycle takes the journal up to "
+            f"{amount(units.film, cycle.amplitude)} and the ring up to "
+            f"{amount(units.film, cycle.inner_amplitude)} from rest, at "
+            f"{amount(units.speed, cycle.whirl_frequency)}, "
+            f"{digits(cycle.whirl_frequency / speed)} of the running speed; the thinnest film is "
+            f"{digits(cycle.thinnest)} of its clearance."
+        )
+    elif not low <= speed <= high:
+        first = f"At {at} this branch has no cycle."
+    elif branch.beats[np.argmin(np.abs(branch.speed - speed))]:
+        return (f"At {at} the cycle is unstable: {_BOTH}",)
+    else:
+        first = f"At {at} no cycle of this branch is stable."
+    if (branch.beats & ~branch.stable).any():
+        return first, f"Where a cycle is dashed beside no fold, {_BOTH}"
+    return (first,)
+
+
+def balanced(machine: Machine) -> Machine:
+    return replace(machine, rotor=replace(machine.rotor, imbalance=0.0))
