@@ -9,6 +9,8 @@ def test_a_clicker_leads_on_after_a_slider_was_dragged(app: AppPage) -> None:
     app.open("Lecture", step="2")
     heading = app.page.get_by_test_id("stHeading").first
     expect(heading).to_have_text("2 · Where the journal sits")
+    ends = app.page.locator(".live-slider span")
+    assert ends.all_inner_texts() == ["500", "12000"]
     thumb = app.slider("Running speed").bounding_box()
     assert thumb
     app.page.mouse.move(thumb["x"] + thumb["width"] / 2, thumb["y"] + thumb["height"] / 2)
@@ -22,6 +24,7 @@ def test_a_clicker_leads_on_after_a_slider_was_dragged(app: AppPage) -> None:
     app.page.keyboard.press("s")
     expect(app.page.get_by_text("To one side, along a curve")).to_be_visible()
     app.rest()
+    assert ends.all_inner_texts() == ["500", "12000"]
     app.slider("Running speed").focus()
     app.page.keyboard.press("PageDown")
     expect(heading).to_have_text("3 · Why it moves sideways")

@@ -405,8 +405,8 @@ def onsets(found: Sequence[BearingResult], page: Page, *, done: bool) -> None:
 
 def _left_out(found: Sequence[BearingResult]) -> str:
     names = ", ".join(lower(name_of(one.bearing.geometry.kind)) for one in found if one.refusal)
-    usual = "Each kind at its usual shape. Red: it whirls at the running speed."
-    return f"{usual} No answer at this speed and load: {names}." if names else usual
+    usual = "Each kind at its usual shape. Red: it whirls at this speed."
+    return f"{usual} No answer: {names}." if names else usual
 
 
 def say_unanswered(problem: str) -> None:
