@@ -383,7 +383,7 @@ def _of_ring(at: Array, branch: Bifurcation) -> list[Trace]:
         return []
     size = np.append(0.0, branch.inner_amplitude) / branch.hopf.clearance
     hover = "%{x:.0f}, a/C = %{y:.3f}<extra>%{fullData.name}</extra>"
-    line = style.line(at, size, "the ring's distance, over C too", RING, width=1.4,
+    line = style.line(at, size, "the ring's distance", RING, width=1.4,
                       hovertemplate=hover)  # fmt: skip
     return [{**line, "line": {**line["line"], "shape": "spline"}}]
 

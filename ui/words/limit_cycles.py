@@ -17,8 +17,8 @@ _REACHES = (1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0)
 _BEYOND = 1.1
 _WHIRL = "orbits_whirl"
 _BOTH = (
-    "a whirl of another frequency grows about it, and the motion has both frequencies at once. A "
-    "release shows it."
+    "a whirl of another frequency grows about the cycle, and the motion has both frequencies at "
+    "once. A release shows it."
 )
 
 followed = cache.Cached(work.cycles, entries=16, megabytes=16)
@@ -78,11 +78,11 @@ def held(branch: Bifurcation, speed: float, units: Units) -> tuple[str, ...]:
     elif not low <= speed <= high:
         first = f"At {at} this branch has no cycle."
     elif branch.beats[np.argmin(np.abs(branch.speed - speed))]:
-        return (f"At {at} the cycle is unstable: {_BOTH}",)
+        return (f"At {at} no cycle is stable: {_BOTH}",)
     else:
         first = f"At {at} no cycle of this branch is stable."
     if (branch.beats & ~branch.stable).any():
-        return first, f"Where a cycle is dashed beside no fold, {_BOTH}"
+        return first, f"On parts of the dashed line {_BOTH}"
     return (first,)
 
 
