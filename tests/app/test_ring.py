@@ -28,6 +28,7 @@ from ui.computed import Computed, computed_from
 from ui.inputs import PRESET_VALUES
 from ui.notes import ring as notes
 from ui.results.table import RESULTS
+from ui.sharing.report_charts import sections
 from ui.words import limit_cycles, on_demand, verdict
 from ui.words import ring as words
 
@@ -161,3 +162,10 @@ def test_the_limit_cycle_of_a_ring_is_told_with_its_sizes_and_its_frequency() ->
     assert not any("slowly" in one["name"] for one in plain["data"])
     fast = shown(film="short", rpm=39000.0, rpm_max=40000.0)
     assert limit_cycles.branch_of(fast).highest == 3.0
+
+
+def test_the_report_says_that_closed_forms_miss_the_onset_of_a_ring() -> None:
+    plain = computed_from(PRESET_VALUES["sheet-1e8"])
+    for machine, misses in ((shown(), True), (plain, False)):
+        (figure,) = [one for one in sections(machine)["Stability"] if one.key == "threshold"]
+        assert ("closed forms neglect" in figure.words(machine)) == misses

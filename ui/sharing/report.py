@@ -285,7 +285,8 @@ def _modes(computed: Computed, units: Units) -> str:
         (f"Growth rate Re λ [{units.growth.name}]", "n"), ("Damping ratio ζ", "n"),
         ("Log. decrement δ", "n"),
     )  # fmt: skip
-    return f"<h2>Modes at the running speed</h2>{_table(head, rows)}"
+    table = f'<div class="modes">{_table(head, rows)}</div>'
+    return f"<h2>Modes at the running speed</h2>{table}"
 
 
 def _mode(name: str, value: complex, speed: float, units: Units) -> str:

@@ -53,7 +53,7 @@ class Figure:
     key: str
     title: str
     draw: Callable[[Computed, Units], Chart]
-    caption: str
+    caption: str | Callable[[Computed], str]
     film: tuple[str, ...] = ()
     rotor: str = ""
     width: int = HALF
@@ -66,7 +66,8 @@ class Figure:
 
     def words(self, computed: Computed) -> str:
         """Return the caption with its sources."""
-        return cited(self.caption, computed, *self.film, rotor=self.rotor)
+        caption = self.caption if isinstance(self.caption, str) else self.caption(computed)
+        return cited(caption, computed, *self.film, rotor=self.rotor)
 
 
 def _unknown(field: str) -> Callable[[Computed], str]:
@@ -253,12 +254,13 @@ SECTIONS: dict[str, tuple[Figure, ...]] = {
     "Stability": (
         Figure(
             "threshold", "Threshold speed", _of_thresholds(stability.threshold),
-            "Where it meets the line Ω the rotor becomes unstable.", (), "Eqs. 5.45, 5.46, 5.50",
+            ask.meeting, (), "Eqs. 5.45, 5.46, 5.50",
             width=FULL, height=290, missing=_no_whirl,
         ),
         Figure(
             "whirl", "Whirl frequency at the threshold", _of_thresholds(stability.whirl_frequency),
-            "", (), "Eq. 5.47", missing=_no_whirl,
+            "", (), "Eq. 5.47",
+            titles={"yaxis": "ω<sub>s</sub> [{units.speed.name}]"}, missing=_no_whirl,
         ),
         Figure(
             "mass", "Critical mass", _of_thresholds(stability.critical_mass),

@@ -121,14 +121,18 @@ def bare(computed: Computed) -> Text | None:
 
 
 def meets(computed: Computed) -> str:
-    """Return what the threshold's meeting with the line of the running speed tells."""
-    words = (
+    """Return what the threshold's meeting with the line Ω tells, with its equations."""
+    return f"{meeting(computed)} Eqs. 5.45, 5.46, 5.50."
+
+
+def meeting(computed: Computed) -> str:
+    """Return what the threshold's meeting with the line Ω tells."""
+    return (
         "With all that the closed forms neglect left out, the rotor would become unstable where "
         "the threshold meets the line Ω."
         if _neglected(computed)
         else "Where the threshold meets the line Ω the rotor becomes unstable."
     )
-    return f"{words} Eqs. 5.45, 5.46, 5.50."
 
 
 def no_whirl(computed: Computed) -> str:
