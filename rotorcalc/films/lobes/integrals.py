@@ -24,6 +24,13 @@ _FAR_FOR_CUBES, _SHARE = 0.8, 0.3
 _NEAREST = 1e-9
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(32)
 _POINTS = tuple(zip(_NODES.tolist(), _WEIGHTS.tolist(), strict=True))
+# Where the film is thin at an end, and 1/h is singular not far beyond it, the pieces are divided,
+# the closer the nearer to both ends; the thickness, in C, from which that is not needed.
+_PARTS, _THICK = np.array([-1.0, -0.8, 0.0, 0.8, 1.0]), 0.25
+_HALVES = 0.5 * np.diff(_PARTS)[:, None]
+_DENSE_NODES = (0.5 * (_PARTS[1:] + _PARTS[:-1])[:, None] + _HALVES * _NODES).ravel()
+_DENSE_WEIGHTS = (_HALVES * _WEIGHTS).ravel()
+_DENSE_POINTS = tuple(zip(_DENSE_NODES.tolist(), _DENSE_WEIGHTS.tolist(), strict=True))
 
 
 def squares(e: float, low: float, high: float) -> tuple[float, float, float]:
@@ -72,7 +79,8 @@ def _is_away(low: float, high: float) -> bool:
 def _quadrature(e: float, low: float, high: float) -> tuple[float, float, float]:
     middle, half = 0.5 * (low + high), 0.5 * (high - low)
     cc = sc = ss = 0.0
-    for node, weight in _POINTS:
+    thinnest = 1.0 - e * max(math.cos(low), math.cos(high))
+    for node, weight in _POINTS if thinnest > _THICK else _DENSE_POINTS:
         c, s = math.cos(middle + half * node), math.sin(middle + half * node)
         h = max(1.0 - e * c, _NEAREST)
         w = weight * half / (h * h * h)
@@ -140,10 +148,10 @@ def _antiderivatives(psi: Array, s: Array, c: Array, e: Array) -> Array:
 
 def _by_quadrature(e: Array, low: Array, high: Array) -> Array:
     half = 0.5 * (high - low)
-    theta = 0.5 * (low + high)[:, None] + half[:, None] * _NODES
+    theta = 0.5 * (low + high)[:, None] + half[:, None] * _DENSE_NODES
     c, s = np.cos(theta), np.sin(theta)
     h = np.maximum(1.0 - e[:, None] * c, _NEAREST)
-    w = half[:, None] * _WEIGHTS
+    w = half[:, None] * _DENSE_WEIGHTS
     squares_, cubes = w / h**3, w / h**4
     return np.stack([
         (w / h).sum(-1), (squares_ * c * c).sum(-1), (squares_ * s * c).sum(-1),
