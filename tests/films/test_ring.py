@@ -443,3 +443,13 @@ def test_a_motion_goes_to_another_process_and_returns():
 def test_a_ring_of_next_to_no_mass_is_one_of_none():
     light = onset_speed(on(ring(ring_mass=1e-9)))
     assert light.speed == pytest.approx(onset_speed(MACHINE).speed, rel=1e-6)
+
+
+@BOTH
+def test_one_operating_point_in_floats_is_one_of_many(bearing):
+    film = film_of(bearing)
+    # Closer to where the ring stops, r < 1e-9, the array loses digits in 1 − ε.
+    sigma = film.least_sommerfeld * (1.0 + np.geomspace(0.05, 1e10, 40))
+    many = film.speed_ratio(points(bearing, sigma))
+    each = [film.speed_ratio(points(bearing, one)) for one in sigma]
+    np.testing.assert_allclose(each, many, rtol=1e-10)

@@ -142,10 +142,11 @@ class RingFilm:
             Where the load is so heavy that a film does not carry it or the ring does not turn.
         """
         ratio, inner, outer = self.films_at(points)
-        place, place_o, *flows = self.pair.places_and_flows(inner, outer)
-        inside = self.pair.inside.state(replace(points, sommerfeld=inner))
+        inside, outside = self.pair.states(points, inner, outer)
+        place, place_o = inside.position, outside.position
         position = place + self.pair.wider * place_o
-        K, C = synchronous(*self._matrices(points, ratio, inner, outer), self._mass(points))
+        matrices = self._matrices(ratio, inside, outside)
+        K, C = synchronous(*matrices, self._mass(points))
         # At the centre the direction is its limit, which is that of either film.
         centred = np.hypot(position[..., 0], position[..., 1]) < 1e-12
         direction = np.arctan2(position[..., 1], position[..., 0])
@@ -156,7 +157,7 @@ class RingFilm:
             minimum_thickness=np.minimum(thinnest(place), self.pair.wider * thinnest(place_o)),
             stiffness=K,
             damping=C,
-            side_flow=self._flow(ratio, *flows),
+            side_flow=self._flow(ratio, inside.side_flow, outside.side_flow),
             drag=self._drag(points.sommerfeld, ratio, place),
             peak_pressure=(1.0 + ratio) * inside.peak_pressure,
             peak_angle=inside.peak_angle,
@@ -164,7 +165,8 @@ class RingFilm:
 
     def dynamics(self, points: OperatingPoints) -> FilmDynamics:
         """Return stiffness and damping of journal and ring, and the ring's mass."""
-        K, C = self._matrices(points, *self.films_at(points))
+        ratio, inner, outer = self.films_at(points)
+        K, C = self._matrices(ratio, *self.pair.dynamics(points, inner, outer))
         return FilmDynamics(K, C, np.full(2, self.pair.ring.ring_mass))
 
     def drag_and_flow(self, points: OperatingPoints) -> tuple[Array, Array]:
@@ -174,12 +176,12 @@ class RingFilm:
         return self._drag(points.sommerfeld, ratio, place), self._flow(ratio, *flows)
 
     def _matrices(
-        self, points: OperatingPoints, ratio: Array, inner: Array, outer: Array
+        self, ratio: Array, inside: FilmState | FilmDynamics, outside: FilmState | FilmDynamics
     ) -> tuple[Array, Array]:
         """Return stiffness and damping of journal and ring, (..., 4, 4), in film units."""
-        K_i, C_i, K_o, C_o = self.pair.coefficients(points, inner, outer)
-        r, outside = ratio[..., None, None], self.pair.force / self.pair.wider
-        return in_series((1.0 + r) * K_i, outside * r * K_o), in_series(C_i, outside * C_o)
+        r, unit = ratio[..., None, None], self.pair.force / self.pair.wider
+        K = in_series((1.0 + r) * inside.stiffness, unit * r * outside.stiffness)
+        return K, in_series(inside.damping, unit * outside.damping)
 
     def _mass(self, points: OperatingPoints) -> Array:
         """Return the ring's mass times Ω² over the unit of stiffness, (...)."""

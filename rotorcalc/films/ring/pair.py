@@ -13,7 +13,7 @@ and under the load of σ the films are at σ_i = (1 + r)σ and σ_o = q r σ of 
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 import numpy as np
 
@@ -42,6 +42,9 @@ class PlainFilm(Protocol):
     def dynamics(self, points: OperatingPoints) -> FilmDynamics: ...  # noqa: D102
     def accuracy(self, sommerfeld: float) -> Accuracy | None: ...  # noqa: D102
 
+
+# One number or many.
+Number = TypeVar("Number", float, Array)
 
 _FILMS = {"short": ShortFilm, "finite": FiniteFilm, "coarse": CoarseFilm}
 
@@ -86,7 +89,7 @@ class Pair:
         return _FILMS[model](plain)
 
     @property
-    def _alike(self) -> bool:
+    def alike(self) -> bool:
         """Whether both films have one curve over σ: a search for both costs little more."""
         return self.bearing.model == "short"
 
@@ -127,7 +130,7 @@ class Pair:
         """(L/R)²: the unit of force times C over that of torque."""
         return (self.bearing.length / self.bearing.radius) ** 2
 
-    def sommerfeld(self, sigma: Array, ratio: Array) -> tuple[Array, Array]:
+    def sommerfeld(self, sigma: Number, ratio: Number) -> tuple[Number, Number]:
         """Return σ of the two films at σ of the bearing and r."""
         return (1.0 + ratio) * sigma, self.force * ratio * sigma
 
@@ -136,17 +139,17 @@ class Pair:
 
         Places (..., 2) of inner and outer film, then their side flows (...), each in its own units.
         """
-        if self._alike:
+        if self.alike:
             place, flow = self.inside.place_and_flow(np.stack([inner, outer]))
             return place[0], place[1], flow[0], flow[1]
         place, flow = self.inside.place_and_flow(inner)
         place_o, flow_o = self.outside.place_and_flow(outer)
         return place, place_o, flow, flow_o
 
-    def coefficients(
+    def dynamics(
         self, points: OperatingPoints, inner: Array, outer: Array
-    ) -> tuple[Array, Array, Array, Array]:
-        """Return K and C of the inner film, then of the outer one, each in its own units.
+    ) -> tuple[FilmDynamics, FilmDynamics]:
+        """Return K and C of the inner film and of the outer one, each in its own units.
 
         Parameters
         ----------
@@ -157,13 +160,33 @@ class Pair:
 
         Returns
         -------
-        K_i, C_i, K_o, C_o : array, (..., 2, 2)
+        inside, outside : FilmDynamics
             In X, Y.
         """
-        if self._alike:
+        if self.alike:
             both = self.inside.dynamics(replace(points, sommerfeld=np.stack([inner, outer])))
-            (K_i, K_o), (C_i, C_o) = both.stiffness, both.damping
-            return K_i, C_i, K_o, C_o
-        one = self.inside.dynamics(replace(points, sommerfeld=inner))
-        other = self.outside.dynamics(replace(points, sommerfeld=outer))
-        return one.stiffness, one.damping, other.stiffness, other.damping
+            one, other = (
+                replace(both, stiffness=K, damping=C)
+                for K, C in zip(both.stiffness, both.damping, strict=True)
+            )
+            return one, other
+        return (
+            self.inside.dynamics(replace(points, sommerfeld=inner)),
+            self.outside.dynamics(replace(points, sommerfeld=outer)),
+        )
+
+    def states(
+        self, points: OperatingPoints, inner: Array, outer: Array
+    ) -> tuple[FilmState, FilmState]:
+        """Return both films in equilibrium, as `dynamics`; of the outer one all but the drag."""
+        if self.alike:
+            both = self.inside.state(replace(points, sommerfeld=np.stack([inner, outer])))
+            values = {name: value for name, value in vars(both).items() if value is not None}
+            one, other = (
+                replace(both, **{name: value[i] for name, value in values.items()}) for i in (0, 1)
+            )
+            return one, other
+        return (
+            self.inside.state(replace(points, sommerfeld=inner)),
+            self.outside.state(replace(points, sommerfeld=outer)),
+        )

@@ -1,6 +1,7 @@
 """The short bearing in static equilibrium: σ, ε, attitude angle and force (Eqs. 5.5 to 5.8)."""
 
 import functools
+import math
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -100,6 +101,29 @@ def eccentricity_ratio(sigma: ArrayLike) -> Array:
         if np.all(np.abs(step) <= _TOLERANCE):
             w = np.exp(ln_w)
             return w / np.sqrt(1.0 + w * w)
+    raise RuntimeError(f"no eccentricity ratio found within {_MOST_ITERATIONS} iterations")
+
+
+def place_and_root(sigma: float) -> tuple[float, float, float]:
+    """Return x, y [C] and s = √(1 − ε²) at one σ, positive and finite, in plain floats.
+
+    As `eccentricity_ratio`, from a start that needs no table: g of its notes lies above both of its
+    straight ends, so from where the nearer of them is zero Newton's steps descend to the root.
+    """
+    ln_load = -math.log(sigma)
+    ln_w = min(ln_load - math.log(math.pi), 0.25 * (ln_load - math.log(4.0)))
+    for _ in range(_MOST_ITERATIONS):
+        w2 = math.exp(2.0 * ln_w)
+        a, b = 1.0 + w2, math.pi**2 + 16.0 * w2
+        value = ln_w + math.log(a * math.sqrt(b)) - ln_load
+        step = value / (4.0 - 2.0 / a - math.pi**2 / b)
+        ln_w -= step
+        if abs(step) <= _TOLERANCE:
+            w = math.exp(ln_w)
+            s = 1.0 / math.sqrt(1.0 + w * w)
+            # cos φ = 4w/√(16w² + π²) and sin φ = π/√(…), Eq. 5.7 with w = ε/s.
+            share = w * s / math.hypot(4.0 * w, math.pi)
+            return 4.0 * w * share, math.pi * share, s
     raise RuntimeError(f"no eccentricity ratio found within {_MOST_ITERATIONS} iterations")
 
 
