@@ -186,7 +186,7 @@ def limit_cycles(page: Page) -> None:
     units = page.units
     if (branch := on_demand.ask_cycles(page)) is not None:
         on_demand.say_held(branch, page.computed, units)
-        on_demand.say_cycles(branch, units)
+        on_demand.say_cycles(branch, page.computed, units)
         page.alone().chart(
             lambda c, branch=branch: draw.cycles(
                 branch, on_demand.swept(branch, c), c.speed, units

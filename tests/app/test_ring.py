@@ -157,6 +157,7 @@ def test_the_limit_cycle_of_a_ring_is_told_with_its_sizes_and_its_frequency() ->
     chart = orbits.cycles(branch, on_demand.swept(branch, computed), computed.speed, SI)
     assert next(one["name"] for one in chart["data"]).startswith("the ring")
     early = replace(branch, hopf=replace(branch.hopf, speed=1.1 * branch.hopf.speed))
+    assert on_demand.begins_at_rest(branch, computed)
     assert on_demand.swept(early, computed) is None
     plain = orbits.cycles(early, None, computed.speed, SI)
     assert not any("slowly" in one["name"] for one in plain["data"])

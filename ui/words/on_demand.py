@@ -138,12 +138,17 @@ def ask_cycles(page: Page) -> Bifurcation | None:
     )  # fmt: skip
 
 
+def begins_at_rest(branch: Bifurcation, computed: Computed) -> bool:
+    """Return whether the machine rests stably below the branch's onset."""
+    return branch.hopf.speed <= computed.onset.speed * (1.0 + _SAME_ONSET)
+
+
 def swept(branch: Bifurcation, computed: Computed) -> tuple[Array, Array, Array] | None:
     """Return speeds, and the amplitudes as the speed slowly rises and falls through them.
 
     None where the machine whirls already below the branch's onset: no sweep leaves rest there.
     """
-    if branch.hopf.speed > computed.onset.speed * (1.0 + _SAME_ONSET):
+    if not begins_at_rest(branch, computed):
         return None
     onset = branch.hopf.speed
     low, high = min(float(branch.speed.min()), 0.97 * onset), float(branch.speed.max())
@@ -151,8 +156,20 @@ def swept(branch: Bifurcation, computed: Computed) -> tuple[Array, Array, Array]
     return speeds, sweep(branch, speeds), sweep(branch, speeds, down=True)
 
 
-def say_cycles(branch: Bifurcation, units: Units) -> None:
-    """Show whether the onset is subcritical or supercritical."""
+def say_cycles(branch: Bifurcation, computed: Computed, units: Units) -> None:
+    """Show whether the onset is subcritical or supercritical, and how the branch ended."""
+    if begins_at_rest(branch, computed):
+        _say_direction(branch, units)
+    else:
+        st.info(
+            f"This whirl sets in at {amount(units.speed, branch.hopf.speed)}, where the other "
+            "film's whirl grows already: its small cycles are unstable, and no slow change of the "
+            "speed leads to them from rest."
+        )
+    st.caption(f"The branch of limit cycles {branch.ended}.")
+
+
+def _say_direction(branch: Bifurcation, units: Units) -> None:
     found = branch.hopf
     rate = f"ℓ = {'−' if found.lyapunov < 0.0 else ''}{digits(abs(found.lyapunov))} 1/s"
     error = f"± {digits(float(f'{found.lyapunov_error:.1g}'))}"
@@ -177,7 +194,6 @@ def say_cycles(branch: Bifurcation, units: Units) -> None:
             f"Supercritical at {at}: {rate} ({error}). Above the onset a whirl grows gradually "
             "with the speed, and it dies out as the speed falls below the onset."
         )
-    st.caption(f"The branch of limit cycles {branch.ended}.")
 
 
 def say_held(branch: Bifurcation, computed: Computed, units: Units) -> None:
