@@ -77,7 +77,7 @@ class Bifurcation(Result):
     beats : boolean array, (n,)
         Whether the slowest small motion to decay about the cycle has a frequency of its own, half
         the whirl's included. An unstable cycle at which it has one is left for a motion of both
-        frequencies at once; at others the size of the whirl changes.
+        frequencies at once, or for another whirl's cycle; at others the whirl's size changes.
     inner_amplitude : array, (n,)
         Largest distance of a floating ring from its equilibrium [m]; of another film's inner
         coordinates together. 0 where it has none.

@@ -69,7 +69,7 @@ def test_both_onsets_agree_with_the_verdict_which_points_to_the_orbits(film: str
     onset = RESULTS["onset_speed"].shown(unstable, SI).removesuffix(" rpm")
     assert f"| Onset [rpm] | none found | {onset} |" in table
     assert "limit cycle" in table
-    assert "has not been followed yet" in table
+    assert "has not been computed yet" in table
     told = verdict.verdict(unstable, SI)
     assert told.level == "unstable"
     assert told.sentence.endswith(words.BEYOND)

@@ -17,8 +17,8 @@ _REACHES = (1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0)
 _BEYOND = 1.1
 _WHIRL = "orbits_whirl"
 _BOTH = (
-    "a whirl of another frequency grows about the cycle, and the motion has both frequencies at "
-    "once. A release shows it."
+    "a whirl of another frequency grows about the cycle, and the motion leaves it, for one with "
+    "both frequencies at once or for the other whirl's cycle. A release shows which."
 )
 
 followed = cache.Cached(work.cycles, entries=16, megabytes=16)

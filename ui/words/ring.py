@@ -17,7 +17,7 @@ _BEYOND = """
 These are the onsets of small motions. Rotors on floating rings, such as turbochargers, run far
 above them: the whirl grows only up to a limit cycle, on which the nonlinear films hold it.
 """
-_NOT_YET = "How large it is has not been followed yet: see the tab Limit cycles of Orbits."
+_NOT_YET = "How large it is has not been computed yet: the tab Limit cycles of Orbits does it."
 
 
 def whirls(computed: Computed, units: Units) -> Text:
