@@ -26,12 +26,12 @@ def onsets(
     x = style.axis(titled("Onset of whirl", "Ω_on", units.speed.name), 0.0, top)
     y = style.axis(
         "", -0.6, len(order) - 0.4, tickvals=np.arange(len(order), dtype=float),
-        ticktext=[names[i] for i in order], showgrid=False,
+        ticktext=[_named(names[int(i)], float(onset[i])) for i in order], showgrid=False,
     )  # fmt: skip
     mark = style.line([here, here], y["range"], "running speed", style.GREY, dash="dash", width=2.0)
     return style.chart(
         [_bars(np.minimum(ends, top), ends, here), mark], x, y, showlegend=False, bargap=0.25,
-        height=130 + 28 * len(order), margin={"l": 150, "r": 28, "t": 28, "b": 60},
+        height=130 + 28 * len(order), margin={"l": 190, "r": 28, "t": 28, "b": 60},
         annotations=[
             {"text": f"running speed, {here:.0f} {units.speed.name}", "x": here, "y": 1.0,
              "yref": "paper", "yanchor": "bottom", "showarrow": False}
@@ -39,13 +39,17 @@ def onsets(
     )  # fmt: skip
 
 
+def _named(name: str, onset: float) -> str:
+    """Return a bearing's name with its onset, which stands there clear of the running speed."""
+    return f"{name}  <b>{onset:.0f}</b>" if np.isfinite(onset) else name
+
+
 def _bars(lengths: Array, onsets: Array, here: float) -> Trace:
-    words = [f"{onset:.0f}" if np.isfinite(onset) else "does not whirl" for onset in onsets]
+    words = ["" if np.isfinite(onset) else "does not whirl" for onset in onsets]
     return {
         "type": "bar", "orientation": "h", "name": "onset", "hoverinfo": "skip",
         "x": lengths, "y": np.arange(len(lengths), dtype=float), "text": words,
-        "textposition": ["outside" if np.isfinite(onset) else "inside" for onset in onsets],
-        "insidetextanchor": "end", "textangle": 0, "cliponaxis": False, "constraintext": "none",
+        "textposition": "inside", "insidetextanchor": "end", "constraintext": "none",
         "textfont": {"size": 14},
         "marker": {"color": [style.UNSTABLE if onset <= here else style.BLUE for onset in onsets]},
     }  # fmt: skip

@@ -213,7 +213,7 @@ def _load() -> None:
     if given is None:
         return
     try:
-        steps = read(given.getvalue(), _NAMES)
+        steps = read(given.getvalue(), VIEWS)
     except ValueError as error:
         mine.refused = f"{given.name}: {error}."
         return
