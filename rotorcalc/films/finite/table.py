@@ -19,7 +19,6 @@ from rotorcalc.films.finite.results import drag, peak, side_flow
 from rotorcalc.films.finite.reynolds import Films, Mesh, Solution, films, mesh, solved
 from rotorcalc.films.load_splines import CoefficientSplines, LoadSplines, half_whirl
 from rotorcalc.films.pads import NO_POSITION, Pad, are_concentric, gap, have_pockets, resting
-from rotorcalc.numerics.memory import keep_freed_memory
 
 # The thinnest film that the table reaches, in C.
 THINNEST = 0.03
@@ -184,7 +183,6 @@ def table(pads: tuple[Pad, ...], slenderness: float, *, coarse: bool = False) ->
     ValueError
         Where no equilibria are found.
     """
-    keep_freed_memory()
     return _tabulated(pads, slenderness, _resolution(pads, coarse))
 
 

@@ -29,7 +29,6 @@ from rotorcalc.films.foil.mesh import Mesh, mesh
 from rotorcalc.films.foil.results import drag, peak, side_flow
 from rotorcalc.films.foil.reynolds import Films
 from rotorcalc.films.foil.whirl import RATIOS, WhirlRows
-from rotorcalc.numerics.memory import keep_freed_memory
 
 # The thinnest film in the middle plane that a table reaches, in C.
 THINNEST = 0.05
@@ -210,7 +209,6 @@ _Path = Callable[[Array], tuple[Array, Array]]
 
 def _tabulated(foil: FoilShape, path: _Path, easy: float, hard: float) -> FoilTable:
     """Return the table from the easy end of a path as far to the hard one as films reach."""
-    keep_freed_memory()
     rough, fine = foil.meshes()
     known, films = _reached(rough, foil.compliance, path, (easy, hard))
     per_decade, least, most = _COARSE_KNOTS if foil.coarse else _KNOTS

@@ -21,7 +21,6 @@ from numpy.polynomial import chebyshev
 from rotorcalc.arrays import Array, ComplexArray, IntArray
 from rotorcalc.films.hydrostatic.influence import Influence, influence
 from rotorcalc.films.hydrostatic.mesh import Cells, Lands, mesh
-from rotorcalc.numerics.memory import keep_freed_memory
 
 # The thinnest film that is answered for, and that of the outermost ring, in C.
 THINNEST, _OUTERMOST = 0.03, 0.02
@@ -166,7 +165,6 @@ def finer(lands: Lands) -> Table:
 
 def tabulated(lands: Lands, cells: Cells, rings: int) -> Table:
     """Return a table from solutions on a mesh and on a number of rings."""
-    keep_freed_memory()
     # Chebyshev's points of a diameter; the other half follows from the harmonics' symmetry.
     u = _TOP * np.cos(np.pi * (np.arange(rings) + 0.5) / (2 * rings))
     numbers = [_directions(float(one), lands.recesses) for one in u]

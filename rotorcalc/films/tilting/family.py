@@ -28,7 +28,6 @@ from rotorcalc.films.finite.results import drag, peak, side_flow
 from rotorcalc.films.finite.reynolds import Films, Mesh, Solution, films, mesh, solved, stiffness
 from rotorcalc.films.finite.table import carried, settled_pressures
 from rotorcalc.films.pads import Pad, gap, outline
-from rotorcalc.numerics.memory import keep_freed_memory
 
 # The thinnest film of the family, and the lowest ξ, in C.
 THINNEST, _LOWEST = 0.03, -2.0
@@ -208,7 +207,6 @@ def family(arc: float, pivot_offset: float, slenderness: float, *, coarse: bool)
     PadFamily
         In units of the film.
     """
-    keep_freed_memory()
     pad = generic_pad(arc, pivot_offset)
     links, degrees, count = _DRAFT if coarse else _FINE
     rough = mesh((pad,), slenderness, *_ROUGH)

@@ -26,7 +26,6 @@ from rotorcalc.films.finite.reynolds import Films, films, mesh, solved
 from rotorcalc.films.finite.table import carried
 from rotorcalc.films.pads import Pad, gap
 from rotorcalc.films.tilting.family import COLUMNS, columns, film_drag
-from rotorcalc.numerics.memory import keep_freed_memory
 
 # Cells around the pad and pressures along half of it, places between centre and wall, directions.
 _ROUGH, _FINE, _DRAFT = (24, 2), (80, 3, 26, 60), (48, 2, 18, 40)
@@ -178,7 +177,6 @@ def plane(arc: float, slenderness: float, *, coarse: bool) -> PadPlane:
     PadPlane
         In units of the film.
     """
-    keep_freed_memory()
     links, degrees, places, directions = _DRAFT if coarse else _FINE
     shape = PadShape(arc, slenderness)
     half = 0.5 * arc
