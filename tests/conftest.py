@@ -1,12 +1,9 @@
 """Settings of every test."""
 
 import os
-from pathlib import Path
 
 import pytest
 from hypothesis import settings
-
-from tests.order import shared_out
 
 # Before NumPy is imported: tests run side by side, and its threads would only get in their way.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -23,13 +20,3 @@ def pytest_xdist_auto_num_workers() -> int:
     """Run one test more at once than there are cores: half of a test's time it waits for a page."""
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     return (cores or 1) + 1
-
-
-@pytest.hookimpl(trylast=True)
-def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Share the long tests out among the workers, where there are some."""
-    workers = getattr(config, "workerinput", {}).get("workercount", 1)
-    if workers > 1:
-        here = Path(__file__).parent
-        folders = [item.path.parent.name if here in item.path.parents else "" for item in items]
-        items[:] = shared_out(list(zip(items, folders, strict=True)), workers)
