@@ -116,12 +116,6 @@ _OWN = {TABLE: OwnField(TABLE, TABLE, "Coefficients", Rule(Choice(()), True, Non
 
 def kinds() -> Mapping[str, type[Geometry]]:
     """Return the kinds of bearings by their words."""
-    return _kinds(len(Geometry.__subclasses__()))
-
-
-@functools.cache
-def _kinds(_number: int) -> Mapping[str, type[Geometry]]:
-    # Another package may define a kind after the first look: their number tells.
     return Geometry.kinds() | {OWN: UnknownBore}
 
 

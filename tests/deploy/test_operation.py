@@ -115,7 +115,8 @@ def test_an_invalid_setting_is_refused_by_name(
 def test_a_wrong_setting_ends_the_start_with_a_line(
     name: str, word: str, said: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setenv("ROTORCALC_SERVICE_HOST", "10.0.0.1")  # as Kubernetes sets it
+    for own in ("ROTORCALC_SERVICE_HOST", "ROTORCALC_DOCS_PORT", "ROTORCALC_DOCS_SERVICE_HOST"):
+        monkeypatch.setenv(own, "10.0.0.1")  # as Kubernetes sets it
     settings.end_where_wrong()
     monkeypatch.setenv(name, word)
     with pytest.raises(SystemExit, match=said) as found:

@@ -100,7 +100,7 @@ def heading() -> None:
 
 
 def content(page: Page) -> None:
-    """Draw the step: its question, what moves, its numbers, its view, and the answer below."""
+    """Draw the step: its question, what moves, its numbers, its view, and the answer beside it."""
     step, mine = _step(), lecture()
     with st.container(key="lecture_question", horizontal=True, vertical_alignment="center"):
         st.markdown(f"**{step.question}**")

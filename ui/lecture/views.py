@@ -1,4 +1,4 @@
-"""The views that a step may show, by their names: each one chart, or the table of bearings."""
+"""The views that a step may show, by their names: each one chart."""
 
 from collections.abc import Callable
 

@@ -242,7 +242,7 @@ STABILITY: tuple[Result, ...] = (
         _DECISIVE,
     ),
     Result(
-        "natural_frequency", "Mode's frequency |Im\u00a0λ|", "speed",
+        "natural_frequency", "Least damped mode |Im\u00a0λ|", "speed",
         lambda c: abs(least_damped(c).imag), "Im λ", r"\omega_d = |\mathrm{Im}\,\lambda|",
         lambda c: tex(abs(least_damped(c).imag), "rad/s"),
         _DECISIVE,

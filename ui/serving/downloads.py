@@ -7,8 +7,8 @@ from typing import Literal
 import streamlit as st
 from streamlit import runtime
 
-# As many as browsers of a full server ask for while one of them waits for its own.
-KEPT = 16
+# More files than a full server makes while a browser fetches its own; a report has 6 MB.
+KEPT = 8
 
 _made = count()
 

@@ -56,7 +56,8 @@ class NamedReplica:
 def routes() -> list[Route]:
     """Return the routes beside the pages: health, previews, and addresses in lower case."""
     base = st.get_option("server.baseUrlPath") or ""
-    names = [path.stem.partition("_")[2] for path in _PAGES.glob("*_*.py")]
+    stems = (path.stem.partition("_")[2] for path in _PAGES.glob("*_*.py"))
+    names = [name for name in stems if name != name.lower()]
     beside = [
         Route(make_url_path(base, "healthz"), answer_health),
         *(Route(make_url_path(base, name.lower()), _leading_to(name)) for name in names),
@@ -107,7 +108,6 @@ async def answer_health(_: Request) -> JSONResponse:
 async def life(_: st.App) -> AsyncIterator[None]:
     """Start where all is well, and look after it until the end; log the first line and the last."""
     log.begin()
-    settings.check()
     spare.begin()
     await asyncio.to_thread(_warm)
     if faults := await PULSE.look(pulse.AT_START):

@@ -29,8 +29,8 @@ import sys
 from dataclasses import asdict, dataclass
 
 _PREFIX = "ROTORCALC_"
-# What Kubernetes sets in every container beside a service of that name.
-_OF_A_SERVICE = re.compile(r"ROTORCALC_(SERVICE|PORT)(_|$)")
+# What Kubernetes sets in every container beside a service of that name, or of one that begins so.
+_OF_A_SERVICE = re.compile(r"ROTORCALC_(\w+_)?(SERVICE_(HOST|PORT)|PORT)(_|$)")
 _LIVE = ("drag", "release", "off")
 _LOG = ("text", "json")
 
