@@ -206,9 +206,12 @@ def tolerance_result(
             case.machine, spread.spreads, spread.samples, spread.seed, executor,
             speed=speed, progress=progress,
         )  # fmt: skip
-        onset = onset_speed(case.machine).speed
     except ValueError as error:
         return CaseResult(case.line, case.name, refusal=str(error))
+    try:
+        onset = onset_speed(case.machine).speed
+    except _NO_ANSWER:  # the study has answers beside the nominal machine
+        onset = math.nan
     known = found.onset[~np.isnan(found.onset)]
     quantiles = np.quantile(known, _SHARES, method="inverted_cdf") if known.size else [math.nan] * 3
     values = {

@@ -2,6 +2,7 @@
 
 import contextlib
 import csv
+import importlib
 import io
 import json
 import math
@@ -477,6 +478,22 @@ def test_tolerances_from_the_command_line(machines: Path, tmp_path: Path) -> Non
     assert found["validity"] == plain.validity != ""
     index = {one.field: one.index for one in expected.influences}
     assert found["influence_temperature [-]"] == pytest.approx(index["temperature"], abs=1e-9)
+
+
+@pytest.mark.parametrize("error", [ValueError, RuntimeError])
+def test_a_study_is_kept_where_the_nominal_machine_has_no_onset(
+    error: type[Exception], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuses(_: rc.Machine) -> None:
+        raise error("no answer")
+
+    module = importlib.import_module("rotorcalc.batch.results")
+    spread = module.Spread({"temperature": ("normal", 60.0, 5.0)}, 100, 5)
+    whole = module.tolerance_result(only(TABLE), spread)
+    monkeypatch.setattr(module, "onset_speed", refuses)
+    found = module.tolerance_result(only(TABLE), spread)
+    assert found.values == whole.values != {}
+    assert found.refusal == ""
 
 
 @pytest.mark.parametrize(
