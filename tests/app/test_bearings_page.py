@@ -2,6 +2,8 @@
 
 import math
 import re
+import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -17,10 +19,11 @@ from rotorcalc.units import SI, US
 from tests.app.session import BEARINGS_PAGE, faults, session_of, visit
 from ui.bearing import defaults_of
 from ui.bores import NAMES
-from ui.inputs import machine_of, speeds_of
+from ui.inputs import PRESET_VALUES, machine_of, speeds_of
 from ui.session import Session
 from ui.words import bearings as words
 
+SHEET = PRESET_VALUES["sheet-1e8"]
 HEAVY = {"load": "2e6", "D": "30", "L": "10", "C": "200"}
 
 
@@ -234,6 +237,26 @@ def test_the_slow_kinds_come_from_another_process_while_that_is_free(
         [1e-3 * one.power_loss for one in expected[:-1]]
     )
     assert faults(at) == []
+
+
+def test_a_slow_first_result_is_awaited_without_looking_all_the_time(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    looks: list[bool] = []
+    helper = threading.Thread(target=time.sleep, args=(0.35,))
+
+    def known(*_: object) -> str | None:
+        looks.append(helper.is_alive())
+        return None if looks[-1] else "there"
+
+    stand_in = SimpleNamespace(known=known, several=lambda *_: 0)
+    monkeypatch.setattr(words, "_results", stand_in)
+    monkeypatch.setattr(words, "_helper", lambda _: helper)
+    monkeypatch.setattr(words, "_PATIENCE", 0.0)
+    helper.start()
+    machine, (speed, _) = machine_of(SHEET), speeds_of(SHEET)
+    assert words._next(words._asked(machine, speed)[-1:]) == ["there"]
+    assert len(looks) < 10
 
 
 def test_what_no_result_depends_on_makes_nothing_new() -> None:

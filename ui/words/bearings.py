@@ -38,6 +38,8 @@ _OWN, _CLICKED = "This machine", "use_in_table"
 _A_ROW = 4
 # Seconds after which the results so far are shown.
 _PATIENCE = 0.6
+# Seconds between two looks for the first result, where it takes longer than that.
+_A_LOOK = 0.1
 # Kinds that take about as long as all the others together.
 _SLOW = ("tilting-pads", "hydrostatic")
 
@@ -207,7 +209,7 @@ def _next(asked: Sequence[_Asked]) -> list[BearingResult]:
                 if helper is None:  # under way for another visitor
                     _results(*rest[0])
                 else:
-                    helper.join(max(left, 0.0))
+                    helper.join(left if left > 0.0 else _A_LOOK)
                     helper = helper if helper.is_alive() else None
             found += _known(rest)
     return found
