@@ -213,8 +213,9 @@ def _stability(machine: Machine, speed: float, anticipated: float | None) -> lis
             name="Log decrement of the first forward mode "
             + ("at Q_A" if anticipated else "without cross-coupling"),
             # A machine that is unstable by itself never meets it, whichever way it whirls.
-            value=backward if backward < 0.0 else forward, limit=LEAST_DECREMENT, kind="number",
-            source=_LEVEL_ONE, remark=_of_modes(found) or unknown,
+            value=min(forward, backward) if backward < 0.0 else forward,
+            limit=LEAST_DECREMENT, kind="number", source=_LEVEL_ONE,
+            remark=_of_modes(found) or unknown,
         ),
         Criterion(
             name="Q_0/Q_A", value=Q_0 / anticipated if anticipated else math.nan,
@@ -228,7 +229,7 @@ def _of_modes(found: LevelOne) -> str:
     backward = float(found.backward_decrement)
     if backward == -math.inf:
         return "The machine is unstable: a mode grows without oscillating."
-    if backward < 0.0:
+    if backward < min(found.log_decrement, 0.0):
         return "The machine is unstable: a backward mode grows, of which the value is."
     if found.whirl_frequency == 0.0:
         return "No forward mode oscillates."

@@ -159,6 +159,20 @@ def test_a_machine_that_a_backward_mode_makes_unstable_never_passes():
     assert "a backward mode grows" in row.remark
 
 
+def test_of_two_modes_that_grow_the_faster_one_is_the_value():
+    # A film that drives every motion: without Q both modes grow, and Q feeds the forward one.
+    I = np.eye(2)  # noqa: E741 - the unit matrix
+    table = CoefficientTable(
+        speed=np.array([100.0, 1000.0]), stiffness=[1e8 * I] * 2, damping=[-1e4 * I] * 2
+    )
+    machine = replace(SOFT, bearing=table)
+    found = level_one(machine, 500.0, 1e4)
+    assert found.log_decrement < found.backward_decrement < 0.0
+    row = named(criteria.checks(machine, 500.0, cross_coupling=1e4), "Log")
+    assert row.value == found.log_decrement
+    assert "backward" not in row.remark
+
+
 @pytest.mark.parametrize("geometry", GEOMETRIES.values(), ids=GEOMETRIES)
 def test_other_bores_are_judged_too(geometry):
     rows = criteria.checks(on(geometry, SOFT.rotor), 2000 * rpm, cross_coupling=1e5)
