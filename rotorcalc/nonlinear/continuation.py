@@ -34,6 +34,8 @@ _FEW, _LONGER, _SHORTER = 6, 1.5, 0.4
 _TURNS, _NO_JUMP = 1.1, 1e-3
 # Minimum film over clearance at which a branch ends: the limit that `validity` sets.
 _NEAREST_WALL = 0.03
+# Why a branch ended that has no cycles beyond its last one.
+AT_REST = "shrank to rest at another onset"
 # Known branches have fewer cycles; the bound only stops a branch that never ends.
 _MOST_CYCLES = 2000
 
@@ -109,7 +111,7 @@ class Branch:
             if found is None or (step > _NO_JUMP and _length_between(cycle, found) > _TURNS * step):
                 step *= _SHORTER
             elif _through_rest(cycle, found):
-                self.ended = "shrank to rest at another onset"
+                self.ended = AT_REST
                 return None, step
             else:
                 return found, min(_LONGER * step, _LONGEST_STEP) if steps <= _FEW else step

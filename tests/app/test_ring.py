@@ -3,6 +3,7 @@
 import math
 import re
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 from streamlit.testing.v1 import AppTest
@@ -10,6 +11,7 @@ from streamlit.testing.v1 import AppTest
 from rotorcalc import bifurcation
 from rotorcalc.figures import orbits
 from rotorcalc.figures import ring as figures
+from rotorcalc.nonlinear.continuation import AT_REST
 from rotorcalc.units import SI
 from tests.app.session import (
     HOME,
@@ -152,7 +154,11 @@ def test_the_limit_cycle_of_a_ring_is_told_with_its_sizes_and_its_frequency() ->
     assert "has no cycle" in limit_cycles.held(branch, 0.5 * computed.speed, SI)[0]
     # Where another whirl grows about the cycle it is said.
     two = replace(branch, stable=~branch.stable, beats=~branch.beats)
-    assert "both frequencies" in limit_cycles.held(two, computed.speed, SI)[0]
+    assert "a second whirl" in limit_cycles.held(two, computed.speed, SI)[0]
+    # Beyond the last cycle none was looked for, unless there the branch came to rest.
+    assert "followed up to" in limit_cycles.held(branch, 1.1 * computed.speed, SI)[0]
+    gone = replace(branch, ended=AT_REST)
+    assert "has no cycle" in limit_cycles.held(gone, 1.1 * computed.speed, SI)[0]
     # Two sweeps, as the machine rests below this onset, and the ring's own line.
     chart = orbits.cycles(branch, on_demand.swept(branch, computed), computed.speed, SI)
     assert next(one["name"] for one in chart["data"]).startswith("the ring")
@@ -161,8 +167,17 @@ def test_the_limit_cycle_of_a_ring_is_told_with_its_sizes_and_its_frequency() ->
     assert on_demand.swept(early, computed) is None
     plain = orbits.cycles(early, None, computed.speed, SI)
     assert not any("slowly" in one["name"] for one in plain["data"])
+
+
+def test_cycles_known_farther_than_needed_are_not_followed_anew(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     fast = shown(film="short", rpm=39000.0, rpm_max=40000.0)
     assert limit_cycles.branch_of(fast).highest == 3.0
+    far = SimpleNamespace(known=lambda *asked: "known" if asked[-1] in {1.5, 4.0} else None)
+    monkeypatch.setattr(limit_cycles, "followed", far)
+    assert limit_cycles.branch_of(fast).highest == 4.0
+    assert limit_cycles.known(fast) == "known"
 
 
 def test_the_report_says_that_closed_forms_miss_the_onset_of_a_ring() -> None:

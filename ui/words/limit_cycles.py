@@ -6,6 +6,7 @@ import numpy as np
 
 from rotorcalc import Bifurcation, Machine, ModeOnset
 from rotorcalc.figures import Units
+from rotorcalc.nonlinear.continuation import AT_REST
 from ui import ring
 from ui.choices import choices, choose
 from ui.computed import Computed
@@ -17,8 +18,8 @@ _REACHES = (1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0)
 _BEYOND = 1.1
 _WHIRL = "orbits_whirl"
 _BOTH = (
-    "a whirl of another frequency grows about the cycle, and the motion leaves it, for one with "
-    "both frequencies at once or for the other whirl's cycle. A release shows which."
+    "a second whirl of another frequency grows; the machine ends with both at once or on the "
+    "other whirl's cycle. A release shows which."
 )
 
 followed = cache.Cached(work.cycles, entries=16, megabytes=16)
@@ -39,7 +40,10 @@ class Branch:
 
 
 def branch_of(computed: Computed) -> Branch:
-    """Return the branch that is asked for: on a ring that of the whirl chosen, up past Ω."""
+    """Return the branch that is asked for: on a ring that of the whirl chosen, up past Ω.
+
+    One that is known farther than needed serves as well.
+    """
     machine = balanced(computed.machine)
     found = ring.onsets(computed) if ring.has_ring(computed) else ()
     if not found:
@@ -47,7 +51,10 @@ def branch_of(computed: Computed) -> Branch:
     modes = {one.mode: one for one in found}
     onset = modes.get(str(choices().chosen.get(_WHIRL, "")), found[0])
     needed = _BEYOND * computed.speed / onset.speed
-    return Branch(machine, onset, next((one for one in _REACHES if one >= needed), _REACHES[-1]))
+    reaches = [one for one in _REACHES if one >= needed] or [_REACHES[-1]]
+    enough = [Branch(machine, onset, reach) for reach in reaches]
+    found_already = (one for one in reversed(enough) if followed.known(*one.asked) is not None)
+    return next(found_already, enough[0])
 
 
 def choose_whirl(computed: Computed) -> None:
@@ -75,6 +82,8 @@ def held(branch: Bifurcation, speed: float, units: Units) -> tuple[str, ...]:
             f"{digits(cycle.whirl_frequency / speed)} of the running speed; the thinnest film is "
             f"{digits(cycle.thinnest)} of its clearance."
         )
+    elif speed > high and _leads_on(branch):
+        first = f"The cycles were followed up to {amount(units.speed, high)} only."
     elif not low <= speed <= high:
         first = f"At {at} this branch has no cycle."
     elif branch.beats[np.argmin(np.abs(branch.speed - speed))]:
@@ -84,6 +93,11 @@ def held(branch: Bifurcation, speed: float, units: Units) -> tuple[str, ...]:
     if (branch.beats & ~branch.stable).any():
         return first, f"On parts of the dashed line {_BOTH}"
     return (first,)
+
+
+def _leads_on(branch: Bifurcation) -> bool:
+    """Return whether its last cycle is the fastest, and none beyond it was looked for."""
+    return bool(branch.speed[-1] == branch.speed.max()) and branch.ended != AT_REST
 
 
 def balanced(machine: Machine) -> Machine:
