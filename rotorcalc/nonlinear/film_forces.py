@@ -90,7 +90,20 @@ def _with_inner(forces: AllForces, smooth: Smooth, mu: float, speed: float) -> F
 
 
 def rest_of(machine: Machine, speed: float) -> Array:
-    """Return the places of journal and inner coordinates in static equilibrium, (d,), in C."""
+    """Return where journal and inner coordinates are in static equilibrium.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine.
+    speed : float
+        Running speed, Ω [rad/s].
+
+    Returns
+    -------
+    array, (d,)
+        Their places, in C.
+    """
     film = film_of(machine.bearing)
     place = equilibrium(machine, speed).film.position
     motion = film.motion()
@@ -100,7 +113,18 @@ def rest_of(machine: Machine, speed: float) -> Array:
 
 
 def inertia_of(bearing: Bearing) -> Array:
-    """Return the masses of the film's inner coordinates [kg], (d − 2,)."""
+    """Return the inertia of the film's inner coordinates.
+
+    Parameters
+    ----------
+    bearing : JournalBearing or CoefficientTable
+        The bearing.
+
+    Returns
+    -------
+    array, (d − 2,)
+        Of a ring its mass in X and in Y [kg].
+    """
     film = film_of(bearing)
     if film.inner == 0:
         return NO_INERTIA
@@ -110,12 +134,42 @@ def inertia_of(bearing: Bearing) -> Array:
 
 
 def has_forces(bearing: Bearing) -> bool:
-    """Return whether the film gives the forces from which limit cycles are found."""
+    """Return whether the film gives the forces from which limit cycles are found.
+
+    Parameters
+    ----------
+    bearing : JournalBearing or CoefficientTable
+        The bearing.
+
+    Returns
+    -------
+    bool
+        False where parts of it move on their own and their forces are not given.
+
+    Raises
+    ------
+    ValueError
+        Where the film's force on a moving journal is not known at all.
+    """
     motion = film_of(bearing).motion()
     return not isinstance(motion, InnerMotion) or motion.states == 0 or motion.forces is not None
 
 
 def refuse_unknown(bearing: Bearing) -> None:
-    """Refuse a film that does not give them, with a ValueError."""
+    """Refuse a film that does not give the forces from which limit cycles are found.
+
+    Parameters
+    ----------
+    bearing : JournalBearing or CoefficientTable
+        The bearing.
+
+    Raises
+    ------
+    ValueError
+        Where it does not.
+    """
     if not has_forces(bearing):
-        journal_motion(bearing, viscosity=1.0, speed=1.0)
+        raise ValueError(
+            f"bearing = {bearing.geometry.kind}: its film does not give the forces on its inner "
+            "coordinates, parts that move on their own, from which limit cycles are found"
+        )

@@ -126,7 +126,7 @@ def test_another_film_has_the_coefficient_of_its_limit_cycles(spring, stiffness)
 
 @pytest.mark.parametrize("name", ["ringed", "ringed, heavy"])
 def test_films_with_inner_coordinates_are_refused(name):
-    with pytest.raises(ValueError, match="inner coordinates"):
+    with pytest.raises(ValueError, match="does not give the forces on its inner coordinates"):
         hopf(replace(SHEET, bearing=BEARINGS[name]))
 
 
