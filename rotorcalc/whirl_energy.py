@@ -229,8 +229,8 @@ def whirl_energy(machine: Machine, speed: ArrayLike, orbit: WhirlOrbit) -> Whirl
 def _film(machine: Machine, speed: Array, frequency: float) -> tuple[Array, Array]:
     """Return the film's K and C at speeds (...) for a whirl at a frequency, (..., 2, 2).
 
-    Pads, rings and gases answer each frequency in another way. An infinitely slow whirl, as
-    without load, has the coefficients of a synchronous one.
+    Pads, rings and gases answer each frequency in another way. Frequency 0, as without load, has
+    no ratio: the synchronous coefficients stand in.
     """
     ratio = frequency / speed if frequency > 0.0 else 1.0
     return stiffness_and_damping(machine, speed, whirl_ratio=ratio)
