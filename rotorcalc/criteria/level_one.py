@@ -62,8 +62,8 @@ class LevelOne(Result):
         Frequency of that mode [rad/s]; 0 where there is none.
     backward_decrement : array, (...)
         δ of the least damped of the other modes [-], in which the disk turns against the shaft.
-        Minus infinity where a mode grows without oscillating, infinite
-        where there is no other mode.
+        Minus infinity where a mode grows without oscillating, infinite where there is no other
+        mode.
     zero_decrement : float
         Q_0, the smallest Q at which δ vanishes [N/m]; 0 where the machine is unstable without any,
         infinite where no Q makes it unstable.

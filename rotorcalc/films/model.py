@@ -73,7 +73,8 @@ InnerRates: TypeAlias = Callable[
 # Places of journal and inner coordinates in C, their velocities in CΩ, viscosity [Pa·s] and speed
 # [rad/s] → the film's forces on all of them, in μΩRL³/C².
 AllForces: TypeAlias = Callable[[list[float], list[float], float, float], list[float]]
-# Places and velocities over time, (m, 2 + n) each, viscosity and speed → (m,).
+# Places [C] and velocities [CΩ] over time, (m, 2 + n) each, viscosity [Pa·s] and speed [rad/s]
+# → how far each is from where the forces have no derivative, (m,), in C and CΩ, taken together.
 Smooth: TypeAlias = Callable[[Array, Array, float, float], Array]
 
 

@@ -75,9 +75,10 @@ class Bifurcation(Result):
     paths : tuple of arrays, (m, 2)
         The journal's positions in X, Y around each cycle, from the bearing's centre [m].
     beats : boolean array, (n,)
-        Whether the slowest small motion to decay about the cycle has a frequency of its own, half
-        the whirl's included. An unstable cycle at which it has one is left for a motion of both
-        frequencies at once, or for another whirl's cycle; at others the whirl's size changes.
+        Whether the slowest small motion to decay about the cycle has a frequency of its own; a
+        period doubling, at half the whirl's frequency, is included. An unstable cycle at which it
+        has one is left for a motion of both frequencies at once, or for another whirl's cycle; at
+        others the whirl's size changes.
     inner_amplitude : array, (n,)
         Largest distance of a floating ring from its equilibrium [m]; of another film's inner
         coordinates together. 0 where it has none.
