@@ -69,6 +69,7 @@ def speed_ratio(pair: Pair, sigma: Array) -> Array:
     high = np.zeros_like(low)
     z = np.maximum(np.full_like(low, math.log(unloaded(pair))), 0.5 * low)
     settled = np.zeros(np.shape(z), dtype=bool)
+    # The same steps as in `_of_one`: a change of one is a change of both.
     for _ in range(_MOST_STEPS):
         value, beside = _excess(pair, sigma, np.stack([z, z + _BESIDE]))
         low, high = np.where(value > 0.0, z, low), np.where(value < 0.0, z, high)
@@ -96,6 +97,7 @@ def _of_one(pair: Pair, sigma: float) -> float:
     slowest = pair.outside.least_sommerfeld * _INSIDE / (pair.force * sigma)
     low, high = math.log(min(max(slowest, _LEAST), 0.999)), 0.0
     z = max(math.log(unloaded(pair)), 0.5 * low)
+    # The same steps as in `speed_ratio`: a change of one is a change of both.
     for _ in range(_MOST_STEPS):
         value, beside = excess(z), excess(z + _BESIDE)
         low, high = (z if value > 0.0 else low), (z if value < 0.0 else high)

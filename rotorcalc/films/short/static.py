@@ -94,6 +94,7 @@ def eccentricity_ratio(sigma: ArrayLike) -> Array:
     with np.errstate(divide="ignore"):  # at the curve's ends ε rounds to 0 and 1
         ln_load = np.minimum(np.maximum(-np.log(sigma), curve[0]), curve[-1])
     ln_w = np.interp(ln_load, curve, _LN_W)
+    # The same steps as in `place_and_root`: a change of one is a change of both.
     for _ in range(_MOST_ITERATIONS):
         value, slope = _ln_load(ln_w)
         step = (value - ln_load) / slope
@@ -112,6 +113,7 @@ def place_and_root(sigma: float) -> tuple[float, float, float]:
     """
     ln_load = -math.log(sigma)
     ln_w = min(ln_load - math.log(math.pi), 0.25 * (ln_load - math.log(4.0)))
+    # The same steps as in `eccentricity_ratio`: a change of one is a change of both.
     for _ in range(_MOST_ITERATIONS):
         w2 = math.exp(2.0 * ln_w)
         a, b = 1.0 + w2, math.pi**2 + 16.0 * w2
