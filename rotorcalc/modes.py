@@ -24,6 +24,7 @@ from rotorcalc.branches import follow_branches as follow_branches  # noqa: PLC04
 from rotorcalc.display import Result
 from rotorcalc.films.dynamics import NO_INERTIA
 from rotorcalc.machine import Rotor
+from rotorcalc.wide_spectra import inner_eigenpairs, inner_eigenvalues
 
 _I = np.eye(2)
 # Newton's steps from a good first guess, at most, and the size of the last step relative to λ:
@@ -129,6 +130,9 @@ def eigenvalues(
     complex array, (..., n)
         λ [1/s], in no particular order; n as in `state_matrix`.
     """
+    if K.shape[-1] > 2:
+        bends = flexible and not rotor.is_rigid
+        return inner_eigenvalues(rotor, K, C, inertia, bends=bends)
     A = state_matrix(rotor, K, C, inertia=inertia, flexible=flexible)
     return np.linalg.eigvals(A).astype(complex)
 
@@ -155,9 +159,11 @@ def mode_shapes(
     ModeShapes
         In no particular order; n as in `state_matrix`.
     """
-    A = state_matrix(rotor, K, C, inertia=inertia, flexible=flexible)
-    values, vectors = np.linalg.eig(A)
     rigid = rotor.is_rigid or not flexible
+    if K.shape[-1] > 2:
+        values, vectors = inner_eigenpairs(rotor, K, C, inertia, bends=not rigid)
+    else:
+        values, vectors = np.linalg.eig(state_matrix(rotor, K, C, flexible=flexible))
     # Scaled by displacements alone: velocities are λ times as large, in another unit.
     positions = vectors[..., : K.shape[-1] + (0 if rigid else 2), :]
     largest = np.argmax(np.abs(positions), axis=-2)[..., None, :]
@@ -472,9 +478,11 @@ def _impedance(
     if K.shape[-1] == 2:
         return Z, dZ
     # Where inner coordinates alone swing, as pads that balance one another, the journal's Z has a
-    # pole: it is taken just beside that.
+    # pole: it is taken just beside that. Rounding may find it in the transposed matrix alone.
     inner = Z[..., 2:, 2:]
-    aside = _BESIDE * np.abs(inner).max(axis=(-2, -1)) * (np.linalg.det(inner) == 0.0)
+    turned = inner.swapaxes(-1, -2)
+    at_pole = (np.linalg.det(inner) == 0.0) | (np.linalg.det(turned) == 0.0)
+    aside = _BESIDE * np.abs(inner).max(axis=(-2, -1)) * at_pole
     inner = inner + aside[..., None, None] * np.eye(inner.shape[-1])
     # Derivative of Z_qq − Z_qi Z_ii⁻¹ Z_iq, with `drives` = −Z_qi Z_ii⁻¹.
     follows = -np.linalg.solve(inner, Z[..., 2:, :2])

@@ -6,7 +6,7 @@ of those of them that have a mass; a rigid rotor's journal is its disk.
 
 import numpy as np
 
-from rotorcalc.arrays import Array
+from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.machine import Rotor
 
 _I = np.eye(2)
@@ -90,6 +90,29 @@ def with_inner(rotor: Rotor, K: Array, C: Array, inertia: Array, *, bends: bool)
     of_velocity = -(resists @ S) * over_mass
     below = np.concatenate([of_place, of_velocity], axis=-1)
     return np.concatenate([np.concatenate([R, S], axis=-1), below], axis=-2)
+
+
+def inverse_with_inner(rotor: Rotor, K: Array, C: Array, inertia: Array, *, bends: bool) -> Array:
+    """Return A⁻¹ of `with_inner`, (..., p, p), from K⁻¹; K of rotor and film is regular.
+
+    q = −K⁻¹(C q̇ + M v̇) and v = q̇ give the state from its rates.
+    """
+    mass, stiffness, damping = (_coupled if bends else _rigidly)(rotor, K, C, inertia)
+    heavy = np.flatnonzero(mass > 0.0)
+    n, m = len(mass), len(heavy)
+    momentum = np.broadcast_to(np.diag(mass)[:, heavy], (*K.shape[:-2], n, m))
+    inverse = np.zeros((*K.shape[:-2], n + m, n + m))
+    rates = np.concatenate([damping, momentum], axis=-1)
+    inverse[..., :n, :] = -np.linalg.solve(stiffness, rates)
+    inverse[..., n + np.arange(m), heavy] = 1.0
+    return inverse
+
+
+def resists(rotor: Rotor, K: Array, *, bends: bool) -> BoolArray:
+    """Return whether K of a rotor in a film with inner coordinates is regular, (...)."""
+    nothing = np.zeros(K.shape[-1] - 2)
+    stiffness = (_coupled if bends else _rigidly)(rotor, K, np.zeros_like(K), nothing)[1]
+    return np.asarray(np.linalg.slogdet(stiffness)[0] != 0.0)
 
 
 def _rigidly(rotor: Rotor, K: Array, C: Array, inertia: Array) -> tuple[Array, Array, Array]:
