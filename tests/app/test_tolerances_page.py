@@ -68,6 +68,18 @@ def test_the_answer_is_the_cores_with_the_same_seed(units) -> None:
     assert named.startswith("**Radial clearance C**")
 
 
+def test_quantiles_are_of_all_machines_those_without_an_onset_too() -> None:
+    found = rc.tolerance(SHEET, USUAL, 20, 7, speed=8700 * RPM)
+    onset = np.where(np.arange(20) < 7, RPM * (1001.0 + np.arange(20)), math.inf)
+    words = said(replace(found, onset=onset), SI)
+    assert "Onset: median no limit; 5 % quantile 1001 rpm, 95 % quantile no limit." in words
+    assert words.endswith("For 13 of them no onset was found.")
+    assert "quantile" not in said(replace(found, onset=np.full(20, math.inf)), SI)
+    # One without an answer is left out, as the command line does.
+    onset = np.array([math.nan, *RPM * (1001.0 + np.arange(19))])
+    assert "median 1010 rpm" in said(replace(found, onset=onset), SI)
+
+
 def test_a_link_draws_the_same_machines_and_a_seed_others() -> None:
     at = study(rpm="8700")
     field(at, "Seed").set_value("5").run()

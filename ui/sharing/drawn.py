@@ -20,7 +20,7 @@ def columns(
     """Return the columns of a table by their heads: inputs, onset, margin, stability.
 
     `quantities` are the inputs by the core's names; `first` bounds the rows. None stands where a
-    machine has no number: it never whirls, or has no answer.
+    machine has no number: no onset was found, or it has no answer.
     """
     drawn = {
         _head(quantities[field]): quantities[field].unit.of(found.values[:first, i])

@@ -227,15 +227,17 @@ def _share(value: float) -> str:
 
 
 def _onsets(found: Tolerance, units: Units) -> str:
-    finite = found.onset[np.isfinite(found.onset)]
-    never = int(np.count_nonzero(found.onset == math.inf))
-    without = f"{never} of them never whirl." if never else ""
-    if not finite.size:
-        return without
+    # Of all machines with an answer, as the command line has them: those without an onset too.
+    known = found.onset[~np.isnan(found.onset)]
+    without = int(np.count_nonzero(known == math.inf))
+    words = f"For {without} of them no onset was found." if without else ""
+    if without == known.size:
+        return words
     low, middle, high = (
-        amount(units.speed, speed) for speed in np.quantile(finite, (0.05, 0.5, 0.95))
+        amount(units.speed, speed) if math.isfinite(speed) else "no limit"
+        for speed in np.quantile(known, (0.05, 0.5, 0.95), method="inverted_cdf")
     )
-    return f"Onset: median {middle}; 5 % lie below {low}, 5 % above {high}. {without}".rstrip()
+    return f"Onset: median {middle}; 5 % quantile {low}, 95 % quantile {high}. {words}".rstrip()
 
 
 def _unanswered(found: Tolerance, units: Units) -> str:
@@ -268,8 +270,8 @@ def matters(found: Tolerance, names: Mapping[str, str]) -> str:
     known = [one for one in found.influences if not math.isnan(one.index)]
     if not known:
         return (
-            "No input can be ranked: the onsets have no finite variance, as some machine never "
-            f"whirls or has no answer, all are alike, or fewer than {FEWEST} were drawn."
+            "No input can be ranked: the onsets have no finite variance, as some machine has no "
+            f"onset or no answer, all are alike, or fewer than {FEWEST} were drawn."
         )
     first, rest = known[0], 1.0 - sum(max(one.index, 0.0) for one in known)
     share = min(max(100.0 * first.index, 0.0), 100.0)
@@ -297,7 +299,7 @@ def table(study: Study, found: Tolerance, units: Units) -> None:
     )
     number = len(found.onset)
     among = f"The first {_ROWS} of {number}" if number > _ROWS else f"All {number}"
-    st.caption(f"{among}; without a number where no speed makes a machine whirl.")
+    st.caption(f"{among}; without a number where no onset was found.")
     offer(
         "All machines drawn (CSV)",
         lambda: files.drawn_csv(found, study.spreads, quantities, units),
