@@ -151,8 +151,7 @@ def follower_force(page: Page) -> None:
             "energy",
             alt="Energy fed in and dissipated in the whirl orbit over running speed; the "
             "two lines meet at the onset.",
-            caption="The follower force grows with speed, the damping does not: past the "
-            "onset more is fed in than dissipated, and the orbit grows.",
+            caption=ask.energies_over_speed,
         )
     st.latex(ask.WORK)
     st.caption(ask.WORK_WORDS)

@@ -5,12 +5,15 @@ from dataclasses import replace
 
 import pytest
 
+from rotorcalc.units import SI
 from tests.app.test_bearings import SPEED, TOP
 from tests.films.models import BEARINGS
 from tests.machines import SHEET
+from ui.bearing import defaults_of
 from ui.computed import Computed, computed_from
-from ui.inputs import values_of
-from ui.words import stability
+from ui.format import amount
+from ui.inputs import PRESET_VALUES, values_of
+from ui.words import citation, stability, verdict
 
 
 def shown(bearing: str = "short", **rotor: float) -> Computed:
@@ -60,3 +63,48 @@ def test_no_end_of_whirl_is_read_from_coefficients_at_another_frequency(bearing:
     assert "none above" not in stability.ends_of_whirl(computed)
     assert stability.lowest_threshold(computed) == ""
     assert stability.film_figure(computed).limit is None
+
+
+def test_where_the_search_ended_at_a_speed_no_word_claims_more() -> None:
+    values = PRESET_VALUES["sheet-1e8"]
+    pads = computed_from(values | defaults_of("tilting-pads", values))
+    told = verdict.verdict(pads, SI).sentence
+    limit = amount(SI.speed, pads.onset.searched_to)
+    assert told.endswith(f"no whirl up to {limit}, the highest speed searched.")
+    assert citation.without_onset(pads).startswith("Up to the highest speed searched")
+    # A film that cannot whirl proves it.
+    proved = replace(SHEET, rotor=replace(SHEET.rotor, disk_damping=1e5))
+    never = computed_from(values_of(proved, SPEED, TOP))
+    assert math.isinf(never.onset.searched_to)
+    assert "no speed makes this machine whirl" in verdict.verdict(never, SI).sentence
+
+
+@pytest.mark.parametrize("speed", [0.8, 1.2, 4.0])
+@pytest.mark.parametrize("decays", [False, True])
+def test_the_orbit_of_the_onset_decides_only_where_the_growth_rate_does_not_deny_it(
+    speed: float, decays: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    onset = shown().onset.speed
+    machine = replace(SHEET, bearing=BEARINGS["short"])
+    case = computed_from(values_of(machine, speed * onset, max(TOP, speed * onset)))
+    found = stability.energies(case)
+    lost = found.here.fed_in * (1.1 if decays else 0.9)
+    here = replace(found.here, film_loss=lost, disk_loss=0.0 * lost)
+    monkeypatch.setattr(stability, "energies", lambda _: replace(found, here=here))
+    words = stability.balance(case, SI)
+    assert ("the whirl" in words) == (decays == case.is_stable)
+    assert ("the whirl decays" in words) == (decays and case.is_stable)
+    assert ("on this orbit, that of the onset" in words) == (decays != case.is_stable)
+
+
+def test_the_caption_of_the_energies_says_no_more_than_the_chart(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    case = shown()
+    assert case.onset.speed < case.top_speed
+    assert "past the onset more is fed in" in stability.energies_over_speed(case)
+    found = stability.energies(case)
+    over = replace(found.over, fed_in=0.5 * found.over.fed_in)
+    monkeypatch.setattr(stability, "energies", lambda _: replace(found, over=over))
+    assert "the orbit of the onset, where the two meet" in stability.energies_over_speed(case)
+    assert "more is fed in" not in stability.energies_over_speed(case)

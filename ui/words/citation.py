@@ -79,8 +79,12 @@ def is_stiff_unloaded(computed: Computed) -> bool:
 
 def without_onset(computed: Computed) -> str:
     """Return why a machine has no onset, the beginning of a sentence."""
+    if computed.has_own:
+        return "As far as its own coefficients go, this machine does not whirl"
     if computed.onset_is_unknown:
         return "As far as the oil supplied carries the heat, this machine does not whirl"
+    if math.isfinite(computed.onset.searched_to):
+        return "Up to the highest speed searched, this machine does not whirl"
     return "No speed makes this machine whirl"
 
 

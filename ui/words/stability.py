@@ -208,11 +208,32 @@ def balance(computed: Computed, units: Units) -> str:
         )
     ratio = float((here.film_loss + here.disk_loss) / here.fed_in)
     whirl = amount(units.speed, computed.onset.whirl_frequency)
-    outcome = "decays" if ratio > 1.0 else "grows"
+    level = "stable" if computed.is_stable else "unstable"
+    # The orbit is kept as at the onset: far from there the machine's own is another.
+    outcome = (
+        f": the whirl {'decays' if ratio > 1.0 else 'grows'}."
+        if (ratio > 1.0) == computed.is_stable
+        else f". That holds on this orbit, that of the onset; on its own the machine is {level}."
+    )
     return (
         f"At its onset this machine whirls at {whirl}. On that orbit, but at a running "
         f"speed of {running}, damping dissipates **{ratio:.3g} times** what cross-coupling feeds "
-        f"in: the whirl {outcome}."
+        f"in{outcome}"
+    )
+
+
+def energies_over_speed(computed: Computed) -> str:
+    """Return the caption of the energies over speed, which says no more than the chart shows."""
+    over = energies(computed).over
+    past = computed.sweep.speed > computed.onset.speed
+    if np.all((over.fed_in > over.film_loss + over.disk_loss)[past]):
+        return (
+            "The follower force grows with speed, the damping does not: past the onset more is fed "
+            "in than dissipated, and the orbit grows."
+        )
+    return (
+        "On the orbit of the onset, where the two meet. Farther off the machine whirls on another "
+        "orbit, so this balance does not tell there whether the whirl grows."
     )
 
 
