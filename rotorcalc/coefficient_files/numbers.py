@@ -136,9 +136,11 @@ def _units(
 def _dimensionless(sheet: Sheet, header: Header, heading: Heading) -> tuple[Unit, str]:
     if heading.unit and known.unit_of("number", heading.unit) is None:
         place = sheet.place(sheet.rows[header.row], heading.place)
+        unknown = ", ".join(map(repr, header.unknown))[:200]
+        others = f" (columns not known: {unknown})" if unknown else ""
         raise ValueError(
-            f"{place}: {heading.words!r} names a unit, but there is no column of speed; a table "
-            "over a Sommerfeld number is dimensionless"
+            f"{place}: {heading.words!r} names a unit, but there is no column of speed{others}; a "
+            "table over a Sommerfeld number is dimensionless"
         )
     return Unit("-"), "over a Sommerfeld number"
 
@@ -274,10 +276,16 @@ def _complete(read: Numbers) -> None:
         for key in missing:
             values[key] = values[keys[0]] if key == keys[3] else np.zeros(len(read.rows))
         if missing:
-            read.notes.append(
-                f"Not in the file: {', '.join(SHOWN[key] for key in missing)}. As in ROSS, "
-                f"{SHOWN[keys[3]]} is {SHOWN[keys[0]]} then, and cross terms are zero."
-            )
+            read.notes.append(_left_out(keys, missing))
+
+
+def _left_out(keys: Sequence[str], missing: Sequence[str]) -> str:
+    """Return which coefficients a file leaves out, and what they are taken to be."""
+    cross = [SHOWN[key] for key in missing if key != keys[3]]
+    direct = [f"{SHOWN[keys[3]]} is {SHOWN[keys[0]]}"] if keys[3] in missing else []
+    zero = [f"{' and '.join(cross)} {'is' if len(cross) == 1 else 'are'} zero"] if cross else []
+    named = ", ".join(SHOWN[key] for key in missing)
+    return f"Not in the file: {named}. As in ROSS, {', and '.join([*direct, *zero])}."
 
 
 def _turn_degrees(read: Numbers, units: Mapping[str, Unit]) -> None:

@@ -144,6 +144,8 @@ def _checked(units: Mapping[str, str] | None) -> Mapping[str, str]:
 
 
 def _sheet(source: object, name: str) -> Sheet:
+    if isinstance(source, bytes | str) and not source.strip():
+        raise ValueError("the file is empty, or its name: a table of coefficients is needed")
     if isinstance(source, bytes) or (isinstance(source, str) and re.search(r"[\r\n]", source)):
         raw = source
     else:
@@ -160,6 +162,8 @@ def _sheet(source: object, name: str) -> Sheet:
 def _loaded(source: object) -> bytes:
     if not isinstance(source, str | Path):
         raise ValueError(f"source = {shown(source)}: must be bytes, a text or a path")
+    if Path(source).is_dir():
+        raise ValueError(f"source = {shown(source)}: is a folder; name a file in it")
     try:
         with Path(source).open("rb") as file:
             return file.read(MOST_BYTES + 1)

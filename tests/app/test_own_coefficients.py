@@ -79,6 +79,11 @@ def test_a_refusal_names_the_place_and_what_the_file_has_is_no_markup() -> None:
     assert r"\:red\[x\] \_y\_" in said
 
 
+def test_an_empty_file_is_refused_in_words() -> None:
+    [said] = [error.value for error in given("").error]
+    assert "was not read: `the file is empty" in said
+
+
 def test_a_dimensionless_table_takes_the_machines_own_bearing_at_first() -> None:
     at = given(HANDBOOK)
     assert any("dimensionless" in words for words in texts(at))

@@ -147,6 +147,15 @@ def test_what_a_table_may_leave_out_is_as_in_ross_and_said():
     np.testing.assert_array_equal(read.stiffness[1], 4e8 * np.eye(2))
     np.testing.assert_array_equal(read.damping[0], 3e5 * np.eye(2))
     assert sum("Not in the file" in words for words in read.notes) == 2
+    # What is there is not said to be assumed.
+    [note] = read_coefficients(
+        "rpm,kxx,kxy,kyx,kyy,cxx,cxy,cyx\n1,2,0,0,2,3,1,1\n2,2,0,0,2,3,1,1\n",
+        units={"speed": "rpm", "stiffness": "N/m", "damping": "N·s/m"},
+    ).notes
+    assert note == "Not in the file: C_yy. As in ROSS, C_yy is C_xx."
+    notes = read_coefficients("rpm,kxx,kxy,kyy,cxx\n1,2,1,2,3\n2,2,1,2,3\n").notes
+    assert "Not in the file: K_yx. As in ROSS, K_yx is zero." in notes
+    assert any("C_yy is C_xx, and C_xy and C_yx are zero." in one for one in notes)
 
 
 def test_remarks_comments_order_and_numbers_of_old_programs():

@@ -102,6 +102,8 @@ def test_what_is_missing_or_no_bearing_is_refused():
     page = table("classical").replace("Kxx", "Kxx [N/m]")
     with pytest.raises(ValueError, match=r"column 4: 'Kxx \[N/m\]' names a unit, but"):
         read_coefficients(page, scale=Scale(**OF_BEARING))
+    with pytest.raises(ValueError, match=r"no column of speed \(columns not known: 'Drehzahl"):
+        read_coefficients("Drehzahl [rpm],Kxx [MN/m],Cxx\n1,2,3\n2,3,4\n")
     rows = [(0.1, 1.2, 40.0, *[1.0] * 8), (0.2, 0.6, 40.0, *[1.0] * 8)]
     page = text(header=("S", "eps", "phi", *NAMES), rows=rows)
     with pytest.raises(ValueError, match=r"^line 2, column 2 \(ε\): 1.2: must be from 0 to below"):

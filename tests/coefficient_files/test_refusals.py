@@ -3,6 +3,7 @@
 import io
 import os
 import zipfile
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -27,8 +28,10 @@ def _with(old, new, separator=","):
 @pytest.mark.parametrize(
     ("source", "words"),
     [
-        ("", "source = '': no file that can be read"),
+        ("", "the file is empty, or its name"),
         ("\n", "the file is empty"),
+        (b"", "the file is empty"),
+        (Path(), r"source = .*: is a folder"),
         ("Kxx\n", "no column of speed|at least two rows"),
         ("one\ntwo\n", "no table found: it needs a header with kxx"),
         ("1 2 3\n4 5 6\n", "line 1: has 3 numbers and no header above"),

@@ -82,7 +82,7 @@ def draw(page: Page) -> None:
         )  # fmt: skip
         _offer_sample(page)
     raw = upload.getvalue() if upload is not None else b""
-    first = own_file.read(raw, (None, None), scale=_scale_of(page)) if raw else None
+    first = own_file.read(raw, (None, None), scale=_scale_of(page)) if upload is not None else None
     said = first.table.said_axes if first and first.table else None
     with middle:
         axes = _axes(said)
