@@ -229,8 +229,15 @@ def tolerance_result(
     for one in found.influences:
         values[f"influence_{one.field} [-]"] = one.index
         values[f"influence_error_{one.field} [-]"] = one.error
-    told = "; ".join(found.refusals)
-    return CaseResult(case.line, case.name, values, told, _validity(case, onset))
+    return CaseResult(
+        case.line, case.name, values, _in_short(found.refusals), _validity(case, onset)
+    )
+
+
+def _in_short(refusals: Sequence[str]) -> str:
+    """Return the first of many refusals, nearly alike, and how many more there are."""
+    more = f"; and {len(refusals) - 1} more" if len(refusals) > 1 else ""
+    return f"{refusals[0]}{more}" if refusals else ""
 
 
 @checked

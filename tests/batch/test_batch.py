@@ -496,6 +496,19 @@ def test_a_study_is_kept_where_the_nominal_machine_has_no_onset(
     assert found.refusal == ""
 
 
+def test_of_many_refused_samples_the_first_is_told_and_how_many_more(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    module = importlib.import_module("rotorcalc.batch.results")
+    drawn = rc.tolerance(SHEET, {"temperature": ("normal", 60.0, 5.0)}, 100, 5, speed=600.0)
+    told = tuple(f"at {number} rpm no answer" for number in range(99))
+    monkeypatch.setattr(module, "tolerance", lambda *_, **__: replace(drawn, refusals=told))
+    spread = module.Spread({}, 100, 5)
+    assert module.tolerance_result(only(TABLE), spread).refusal == (
+        "at 0 rpm no answer; and 98 more"
+    )
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
