@@ -113,6 +113,7 @@ def test_orbits_follow_a_ring_on_films_of_finite_length_once_asked() -> None:
     at = visit(ORBITS, **RINGED)
     assert not at.error
     assert re.search(r"tabulated once .* about \d+ s", said(at)), said(at)
+    assert not re.search(r"tabulated once .*(\bpad|preload)", said(at))
     at.button(key="orbits_slow_release").click().run()
     assert set(charts(at)) == {"chart_orbits_path", "chart_orbits_time"}
     assert not faults(at)

@@ -53,12 +53,13 @@ _results = cache.Cached(work.bearing, entries=256, megabytes=4, turns=ROWS)
 class Claim:
     """What is said of a bearing and can be asked of its numbers.
 
-    `words` end before the numbers that are compared: those of `attribute`, in the unit `kind`, of
-    the bearing and of the plain bore, or of the plain bore and of the lowest of the others. `more`
-    tells whether the bearing's is said to be the greater.
+    `words`, and `denied` where they are false, end before the numbers that are compared: those of
+    `attribute`, in the unit `kind`, of the bearing and of the plain bore, or of the plain bore and
+    of the lowest of the others. `more` tells whether the bearing's is said to be the greater.
     """
 
     words: str
+    denied: str
     attribute: str
     kind: str
     more: bool
@@ -81,29 +82,44 @@ class Judgement:
     claims: tuple[Claim, ...]
 
 
-_LATER = Claim("Its onset is higher than the plain bore's", "onset", "speed", more=True)
+_LATER = Claim(
+    "Its onset is higher than the plain bore's", "Its onset is not higher than the plain bore's",
+    "onset", "speed", more=True,
+)  # fmt: skip
+_LESS_POWER = Claim(
+    "It loses less power than the plain bore", "It does not lose less power than the plain bore",
+    "power_loss", "power", more=False,
+)  # fmt: skip
+_HIGHER_PEAK = Claim(
+    "Its peak response is higher", "Its peak response is not higher", "peak_response", "amplitude",
+    more=True,
+)  # fmt: skip
 _JUDGEMENTS = {
     "plain": Judgement(
         "Simple to turn and cheap, but of all bores the one that whirls most readily.",
-        (Claim("Its onset is the lowest of all", "onset", "speed", more=False),),
+        (
+            Claim("Its onset is the lowest of all", "Its onset is not the lowest of all", "onset",
+                  "speed", more=False),
+        ),
     ),
     "partial-arc": Judgement(
         "Simple, with little friction, as much of its film is missing; it resists vibration less.",
-        (
-            Claim("It loses less power than the plain bore", "power_loss", "power", more=False),
-            Claim("Its peak response is higher", "peak_response", "amplitude", more=True),
-        ),
+        (_LESS_POWER, _HIGHER_PEAK),
     ),
     "axial-grooves": Judgement(
         "Simple and cheap, and oil comes where it is needed; it whirls as readily as a plain bore.",
-        (Claim("Its onset is no higher than the plain bore's", "onset", "speed", more=False),),
+        (
+            Claim("Its onset is no higher than the plain bore's",
+                  "Its onset is higher than the plain bore's", "onset", "speed", more=False),
+        ),
     ),
     "elliptical": Judgement(
         "Simple, and it damps critical speeds well; it must be set to the load's direction, and "
         "it whirls at high speed.",
         (
-            Claim("Its peak response is lower than the plain bore's", "peak_response", "amplitude",
-                  more=False),
+            Claim("Its peak response is lower than the plain bore's",
+                  "Its peak response is not lower than the plain bore's", "peak_response",
+                  "amplitude", more=False),
             _LATER,
         ),
     ),
@@ -129,33 +145,26 @@ _JUDGEMENTS = {
     "tilting-pads": Judgement(
         "Each pad takes its own position, which leaves almost no cross-coupling to feed a whirl; "
         "costly, hard to set to a clearance, and it damps critical speeds poorly.",
-        (
-            _LATER,
-            Claim("Its peak response is higher", "peak_response", "amplitude", more=True),
-        ),
+        (_LATER, _HIGHER_PEAK),
     ),
     "floating-ring": Judgement(
         "Easy to make and cheap, for turbochargers above all; each of its two films feeds a whirl, "
         "and such machines run on limit cycles, far above their onset.",
         (
-            Claim("It loses less power than the plain bore", "power_loss", "power", more=False),
-            Claim("It whirls below the plain bore's onset", "onset", "speed", more=False),
+            _LESS_POWER,
+            Claim("It whirls below the plain bore's onset",
+                  "It does not whirl below the plain bore's onset", "onset", "speed", more=False),
         ),
     ),
     "hydrostatic": Judgement(
         "Stiff from rest on, with many dimensions to choose, and it suppresses whirl; it needs oil "
         "at high pressure and damps critical speeds poorly.",
-        (
-            _LATER,
-            Claim("Its peak response is higher", "peak_response", "amplitude", more=True),
-        ),
+        (_LATER, _HIGHER_PEAK),
     ),
     "foil": Judgement(
         "Runs on air, without oil, and bears misalignment; costly, for light loads at high speed, "
         "and prone to whirl below running speed.",
-        (
-            Claim("It loses less power than the plain bore", "power_loss", "power", more=False),
-        ),
+        (_LESS_POWER,),
     ),
 }  # fmt: skip
 
@@ -306,7 +315,7 @@ class _Column:
 
 _COLUMNS = (
     _Column("Onset", "onset", "speed", 0, 88, "Speed at which the rotor begins to whirl; "
-            "without a number, no speed does.", bars=True),
+            "without a number, none was found.", bars=True),
     _Column("Margin", "margin", "percent", 0, 70, "Onset over running speed, less one."),
     _Column("Whirl", "whirl_ratio", "number", 3, 54, "Whirl ratio at the running speed; without a "
             "number, the film feeds no whirl there."),
@@ -466,4 +475,4 @@ def _judged(claim: Claim, one: BearingResult, other: BearingResult, units: Units
     holds = value > to if claim.more else value <= to
     badge = ":green-badge[borne out]" if holds else ":orange-badge[not here]"
     numbers = f"{claim.shown(one, units)} against {claim.shown(other, units)}"
-    return f"{badge} {claim.words}: {numbers}."
+    return f"{badge} {claim.words if holds else claim.denied}: {numbers}."

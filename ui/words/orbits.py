@@ -18,6 +18,7 @@ from ui.inputs import INPUTS, PRESET_VALUES
 from ui.jobs import cache, queue, work
 from ui.jobs.work import Progress
 from ui.preview import Preview, Text, not_at_once
+from ui.ring import has_ring
 from ui.session import session
 from ui.words.on_demand import Job, on_demand, slow_film
 
@@ -42,9 +43,11 @@ Demo = Literal["below", "above", "small", "big"]
 # What a film has whose motion comes by tables, or by a solution at each step.
 _TABULATED = (
     "The force of this film in any motion comes from solutions of Reynolds' equation, tabulated "
-    "once for each pad's arc and L/D. With this release that takes about {} s; then other loads, "
-    "speeds, clearances and preloads follow at once."
+    "once for {}. With this release that takes about {} s; then other loads, speeds{} follow at "
+    "once."
 )
+_OF_PADS = "each pad's arc and L/D", ", clearances and preloads"
+_OF_RING = "the L/D of its films", " and clearances"
 _BALANCED = (
     "At each step the tilts of the pads are balanced with their films, whose forces are tabulated. "
     "This release takes about {} s."
@@ -224,7 +227,8 @@ def _asked_for(page: Page, ask: Ask) -> bool:
         how = (_SOLVED if film.tables is None else _BALANCED).format(seconds)
         about = "release", page.computed.machine, page.computed.speed, ask
     else:
-        how, about = _TABULATED.format(seconds), ("tables", film.tables)
+        once, others = _OF_RING if has_ring(page.computed) else _OF_PADS
+        how, about = _TABULATED.format(once, seconds, others), ("tables", film.tables)
     # An error comes again, and is shown, where the release is asked for anew.
     asked = on_demand(
         page, Job("Release the journal", "orbits_slow_release", how), about,
@@ -253,7 +257,7 @@ def _can_let_go(computed: Computed, ask: Ask, tell: Progress | None = None) -> b
 
 def of_ring(computed: Computed) -> str:
     """Return what the chart of a path shows of a floating ring, for its caption."""
-    if computed.machine.bearing.geometry.kind != "floating-ring":
+    if not has_ring(computed):
         return ""
     return " Ochre: the ring's centre; dotted, the clearance in the ring, in which the journal is."
 
