@@ -351,11 +351,18 @@ def least_damped(eigenvalues: ArrayLike) -> ComplexArray:
         The one with Im λ > 0 of the smallest −Re λ/|Im λ|; NaN where none oscillates.
     """
     values = complex_array("eigenvalues", eigenvalues)
-    waves = values.imag > 0.0
-    decrement = logarithmic_decrement(np.where(waves, values, 1j))
-    place = np.argmin(np.where(waves, decrement, np.inf), axis=-1)[..., None]
+    place = least_damped_place(values)[..., None]
     value: ComplexArray = np.take_along_axis(values, place, axis=-1)[..., 0]
     return np.where(value.imag > 0.0, value, complex(np.nan, np.nan))
+
+
+@checked
+def least_damped_place(eigenvalues: ComplexArray) -> IntArray:
+    """Return the index of `least_damped`, (...); of the largest real part where none oscillates."""
+    waves = eigenvalues.imag > 0.0
+    decrement = logarithmic_decrement(np.where(waves, eigenvalues, 1j))
+    place = np.argmin(np.where(waves, decrement, np.inf), axis=-1)
+    return np.where(np.any(waves, axis=-1), place, leading_place(eigenvalues))
 
 
 def damped_frequency(eigenvalue: ArrayLike) -> Array:

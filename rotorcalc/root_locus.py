@@ -16,7 +16,7 @@ from rotorcalc.arrays import Array, ComplexArray
 from rotorcalc.display import Result
 from rotorcalc.machine import Bearing
 from rotorcalc.mode_names import mode_names
-from rotorcalc.modes import ModeShapes, leading_place
+from rotorcalc.modes import ModeShapes, least_damped_place
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,9 +52,9 @@ class Locus(Result):
         return f"mode {mode + 1}" + (f", {part}" if part else "")
 
     @property
-    def leading(self) -> int:
-        """Index of the oscillating mode that decays slowest, or grows fastest, at that speed."""
-        return int(leading_place(self.here.eigenvalues))
+    def least_damped(self) -> int:
+        """Index of the oscillating mode with the smallest log decrement at that speed."""
+        return int(least_damped_place(self.here.eigenvalues))
 
 
 @checked

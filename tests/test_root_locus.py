@@ -131,11 +131,11 @@ def test_two_real_eigenvalues_that_meet_continue_as_one_oscillating_mode():
     assert np.isnan(third[-1])
 
 
-def test_the_leading_mode_is_the_one_that_becomes_unstable():
+def test_the_least_damped_mode_is_the_one_that_becomes_unstable():
     machine = PRESETS["sheet-1e7"].machine
     onset = onset_speed(machine)
     locus = locus_of(machine, onset.speed, 2 * onset.speed)
-    lead = locus.here.eigenvalues[locus.leading]
+    lead = locus.here.eigenvalues[locus.least_damped]
     assert lead.imag == pytest.approx(onset.whirl_frequency)
     assert lead.real == pytest.approx(0.0, abs=1e-9 * lead.imag)
 

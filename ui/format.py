@@ -113,22 +113,32 @@ def typed_number(word: object) -> float:
     A decimal comma and separators of thousands are understood where only one number can be meant.
     One dot alone is a decimal point, as everywhere in this program.
     """
+    meant = numbers_meant(word)
+    if len(meant) > 1:
+        raise ValueError(f"can mean {' or '.join(meant)}: type the one you mean")
+    (written,) = meant
+    value = float(written)
+    if math.isinf(value) and "inf" not in written.lower():  # 1e999, for a shaft it would be rigid
+        raise ValueError("is too large a number for this program")
+    if value == 0.0 and re.search("[1-9]", written.lower().partition("e")[0]):
+        raise ValueError("is too small a number for this program")
+    return value
+
+
+def numbers_meant(word: object) -> list[str]:
+    """Return the numbers that a visitor's input can mean, as Python writes them.
+
+    "2,785" means 2.785 to some readers and 2785 to others.
+    """
     text = re.sub(r"\s", " ", str(word).strip()).replace("\N{MINUS SIGN}", "-")
     if text.lower().lstrip("+-") in ("inf", "infinity", "nan"):
-        return float(text)
+        return [text]
     found = _NUMBER.fullmatch(text)
     sign, mantissa, power = found.groups(default="") if found else ("", "", "")
     meant = sorted(f"{sign}{reading}{power}" for reading in _readings(mantissa))
     if not meant:
         raise ValueError("is not a number")
-    if len(meant) > 1:
-        raise ValueError(f"can mean {' or '.join(meant)}: type the one you mean")
-    value = float(meant[0])
-    if math.isinf(value):  # 1e999, which for a shaft would mean rigid
-        raise ValueError("is too large a number for this program")
-    if value == 0.0 and re.search("[1-9]", mantissa):
-        raise ValueError("is too small a number for this program")
-    return value
+    return meant
 
 
 _NUMBER = re.compile(r"([+-]?)([0-9.,' ’_]+)(e[+-]?[0-9]+)?", re.IGNORECASE)

@@ -159,7 +159,7 @@ def _damping_range(locus: Locus) -> tuple[float, float]:
     """Return damping ratios between which the whirling modes lie at the higher speeds and here."""
     higher = modes.damping_ratio(locus.branches[len(locus.speed) // 2 :])
     here = modes.damping_ratio(locus.here.eigenvalues)
-    ratio = np.append(higher[higher < HARDLY_SWINGS], here[locus.leading])
+    ratio = np.append(higher[higher < HARDLY_SWINGS], here[locus.least_damped])
     high = min(style.ceiling(ratio, least=0.05), 1.05)
     low = style.ceiling(-ratio) if np.any(ratio < 0.0) else 0.0
     return -max(low, high / 4.0), high

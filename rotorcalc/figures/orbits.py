@@ -186,7 +186,7 @@ def cycles(
     here = float(units.speed.of(running_speed))
     ends = min(low - room, 0.97 * onset), max(high, 1.03 * onset)
     x = style.axis(titled("Running speed", "Ω", units.speed.name), *ends)
-    y = style.axis("Largest distance from rest, a/C [-]", 0.0, _top(size))
+    y = style.axis("Largest distance a/C [-]", 0.0, _top(size))
     traces = [
         *_of_ring(at, branch),
         *branch_lines(at, size, branch),

@@ -131,12 +131,12 @@ def whirl_frequency(eigenvalue: ComplexArray | complex, units: Units) -> Array:
 
 
 def points(locus: Locus, x: Array, y: Array, x_axis: Axis, y_axis: Axis) -> list[Trace]:
-    """Return the running speed's points in view, that of the mode slowest to decay with guides."""
+    """Return the running speed's points in view, that of the least damped mode with guides."""
     (left, right), (low, high) = x_axis["range"], y_axis["range"]
     shown = np.flatnonzero((x >= left) & (x <= right) & (y >= low) & (y <= high))
     if not len(shown):
         return []
-    lead = locus.leading if locus.leading in shown else int(shown[0])
+    lead = locus.least_damped if locus.least_damped in shown else int(shown[0])
     rest = shown[shown != lead]
     others = style.mark(x[rest], y[rest], "running speed", showlegend=False)
     return [

@@ -321,3 +321,11 @@ def test_a_lecturers_own_steps_replace_the_notes_and_go_again() -> None:
 def test_the_file_that_is_offered_is_the_one_that_is_read() -> None:
     assert read(OWN.read_bytes(), VIEWS) == STEPS
     assert all(isinstance(step, Step) for step in STEPS)
+
+
+def test_a_page_loaded_again_after_the_answer_still_shows_it() -> None:
+    first = visit(LECTURE, step="8")
+    first.button(key="lecture_show").click().run()
+    again = visit(LECTURE, **dict(first.query_params))
+    assert [box.value for box in again.success] == [box.value for box in first.success] != []
+    assert not visit(LECTURE, step="8").success

@@ -169,7 +169,7 @@ def test_modes_outside_the_chart_are_mentioned():
 
 def test_the_running_speed_is_marked_on_every_chart_over_speed():
     shown, rigid, shaft = shown_of(PRESETS["sheet-1e8"])
-    lead = shown.locus.here.eigenvalues[shown.locus.leading]
+    lead = shown.locus.here.eigenvalues[shown.locus.least_damped]
     for chart, value in (
         (figures.growth(shown), lead.real),
         (figures.frequency(shown), lead.imag * 30 / np.pi),
@@ -212,7 +212,7 @@ def test_a_floating_rings_orbit_stands_in_the_shape_beside_the_shaft():
 
 def test_the_spiral_shrinks_by_the_decrement():
     shown, *_ = shown_of(PRESETS["sheet-1e8"])
-    here, lead = shown.locus.here, shown.locus.leading
+    here, lead = shown.locus.here, shown.locus.least_damped
     orbit = figures.shape(here, lead, rigid=False, spiral=True)["data"][0]
     turn = (len(orbit["x"]) - 1) // 3
     ratio = np.hypot(orbit["x"][turn], orbit["y"][turn]) / np.hypot(orbit["x"][0], orbit["y"][0])

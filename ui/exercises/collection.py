@@ -7,11 +7,12 @@ needs, and the answers are results of that machine, computed by the code behind 
 import math
 import random
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from rotorcalc import criteria, orbit_ellipse, rpm
 from ui.bores import Values
 from ui.computed import Computed, computed_from
+from ui.criteria import GRADE
 from ui.format import digits
 from ui.inputs import PRESET_VALUES
 from ui.results.stability import least_damped
@@ -43,6 +44,8 @@ class Exercise:
     solution: str
     preset: str = "friswell-5-5-1"
     known: Callable[[Computed], Mapping[str, str]] = lambda _: {}
+    # What its page is to show, by the keys of the choices there.
+    chosen: Mapping[str, str] = field(default_factory=dict)
 
     def values(self, seed: int) -> Values:
         """Return the kept values of a student's machine."""
@@ -271,8 +274,9 @@ EXERCISES: tuple[Exercise, ...] = (
     ),
     Exercise(
         "How fast a mode decays",
-        "At {rpm} rpm the least damped mode of a rotor has the eigenvalue λ = −{real} + {imag} j, "
-        "in 1/s and rad/s. What are its damping ratio and its logarithmic decrement?",
+        "At {rpm} rpm the mode of a rotor with the smallest damping ratio has the eigenvalue "
+        "λ = −{real} + {imag} j, in 1/s and rad/s. What are its damping ratio and its logarithmic "
+        "decrement?",
         _sheet(2500, 8000),
         (
             Ask("Damping ratio ζ", "-", lambda c: -least_damped(c).real / abs(least_damped(c))),
@@ -298,5 +302,6 @@ EXERCISES: tuple[Exercise, ...] = (
         ),
         "The number of the grade is the speed of the mass centre, in mm/s.",
         "pages/10_Criteria.py", r"$e = G/\Omega$ with $G$ = 2.5 mm/s.",
+        chosen={GRADE: "G 2.5"},
     ),
 )  # fmt: skip

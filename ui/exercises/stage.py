@@ -8,7 +8,7 @@ from string import Template
 import streamlit as st
 from latex2mathml.converter import convert
 
-from ui.choices import choice
+from ui.choices import choice, choices
 from ui.exercises.collection import (
     EXERCISES,
     TOLERANCE,
@@ -17,13 +17,13 @@ from ui.exercises.collection import (
     is_right,
     of_student,
 )
-from ui.format import digits, typed_number
+from ui.format import digits, numbers_meant
 from ui.frame.page import HOME, PAGES, Page
 from ui.serving.downloads import offer
 from ui.session import session
 
 _NUMBER, _SEED = "exercises_exercise", "exercises_seed"
-MOST = 999_999
+MOST = 9_999_999_999
 _SHEET = Template(Path(__file__).with_name("sheet.html").read_text(encoding="utf-8"))
 
 
@@ -48,7 +48,7 @@ def sidebar() -> None:
         MOST,
         key=_SEED,
         step=1,
-        help="Each number, such as that of a matriculation, has its own values. It is in the link.",
+        help="Each number, such as a matriculation number, has its own values. It is in the link.",
     )
     seed = _seed()  # the file is made outside the session, when it is asked for
     for label, solved in (("Sheet for print", False), ("Sheet with solutions", True)):
@@ -74,12 +74,15 @@ def content(page: Page) -> None:
         st.text_input(f"{ask.words}{_in(ask)}", key=f"answer_{name}_{i}", width=280)
         for i, ask in enumerate(exercise.asks)
     ]
-    st.caption(f"An answer is right within {100 * TOLERANCE:g}\u00a0%.")
+    st.caption(
+        f"The numbers of student {_seed()}. An answer is right within {100 * TOLERANCE:g}\u00a0%."
+    )
     right = [_judge(ask, word, page) for ask, word in zip(exercise.asks, given, strict=True)]
     with st.expander("Hint"):
         st.markdown(exercise.hint)
         if st.button(f"Open this machine on the page {PAGES[exercise.page]}"):
             session().adopt()
+            choices().restore(exercise.chosen)
             st.switch_page(exercise.page)
     if all(right) or st.toggle("Show the solution", key=f"exercises_solved_{name}"):
         st.markdown(f"**Solution.** {exercise.solution}")
@@ -139,11 +142,13 @@ def _judge(ask: Ask, word: str, page: Page) -> bool:
     if not word.strip():
         return False
     try:
-        given = typed_number(word)
+        # Each reading counts: a decimal comma and a separator of thousands look alike.
+        given = [float(number) for number in numbers_meant(word)]
     except ValueError as error:
         st.warning(f"{ask.words}: {word} {error}.")
         return False
-    right = math.isfinite(given) and is_right(given, ask.value(page.computed))
+    expected = ask.value(page.computed)
+    right = any(math.isfinite(number) and is_right(number, expected) for number in given)
     say = st.success if right else st.error
     say(f"{ask.words}: {word} is {'right' if right else 'not right'}.")
     return right

@@ -11,7 +11,7 @@ import streamlit as st
 from ui.choices import choice
 from ui.computed import Computed, answered_from, computed_from
 from ui.frame.page import HOME, Page
-from ui.inputs import inputs_of
+from ui.inputs import Values, inputs_of
 from ui.lecture.steps import OWN, Step, own_steps, read
 from ui.lecture.views import VIEWS
 from ui.session import session
@@ -58,7 +58,7 @@ def arrive() -> None:
     moved = "step" in st.query_params and bool(visitor.changed())
     if visitor.frame == 1 and (moved or visitor.borrowed):  # by its link, or by a server before
         visitor.lend(dict(visitor.values), visitor.preset)
-        mine.taken = _at()
+        mine.taken, mine.answered = _at(), _is_shown(visitor.values)
     elif visitor.arriving or mine.taken != _at():  # exercises have lent another machine
         _take()
 
@@ -158,6 +158,12 @@ def _step() -> Step:
 def _go(by: int) -> None:
     st.session_state[_STEP] = min(max(_at() + by, 1), len(lecture().steps))
     _take()
+
+
+def _is_shown(values: Values) -> bool:
+    """Tell whether a machine is as the step's answer leaves it, as after a reload."""
+    changed = _step().changed
+    return bool(changed) and changed.items() <= values.items()
 
 
 def _take() -> None:

@@ -65,6 +65,7 @@ class Track {
     Object.assign(this, { data, log: !span, first: least ? ROOM : 0, last: beyond ? 1 - ROOM : 1 });
     if (window.length) {
       [this.low, this.high] = window;
+      [this.first, this.last] = [0, 1]; // it ends where the window does
       return;
     }
     const start = least || low;

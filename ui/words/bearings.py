@@ -416,8 +416,10 @@ def onsets(found: Sequence[BearingResult], page: Page, *, done: bool) -> None:
 
 def _left_out(found: Sequence[BearingResult]) -> str:
     names = ", ".join(lower(name_of(one.bearing.geometry.kind)) for one in found if one.refusal)
-    usual = "Each kind at its usual shape. Red: it whirls at this speed."
-    return f"{usual} No answer: {names}." if names else usual
+    usual = (
+        "Each kind at its usual shape, on the film of finite length. Red: it whirls at this speed."
+    )
+    return f"{usual} Without a result: {names}." if names else usual
 
 
 def say_unanswered(problem: str) -> None:

@@ -105,16 +105,16 @@ def choose_mode(locus: Locus) -> int:
     chosen = st.selectbox(
         "Mode",
         range(len(locus.here.eigenvalues)),
-        index=locus.leading,
+        index=locus.least_damped,
         format_func=lambda i: locus.name(i).removeprefix("mode "),
         key="locus_mode",
     )
-    return locus.leading if chosen is None else chosen
+    return locus.least_damped if chosen is None else chosen
 
 
 def same_mode(locus: Locus, mode: int | None) -> int:
-    """Return a mode's index in another locus: the slowest to decay where it has no such mode."""
-    return locus.leading if mode is None or mode >= len(locus.here.eigenvalues) else mode
+    """Return a mode's index in another locus: the least damped one's where it has no such mode."""
+    return locus.least_damped if mode is None or mode >= len(locus.here.eigenvalues) else mode
 
 
 def table(locus: Locus, units: Units) -> str:
