@@ -77,7 +77,7 @@ class Sweep(Result):
         ω̄ [-] (Eq. 5.46); 0 where the film cannot whirl.
     critical_mass : array, (n,)
         M_c [kg], per bearing: a heavier rotor is unstable at this speed; infinite where the
-        film cannot whirl.
+        film cannot whirl, NaN where it whirls and K_eq is negative: any mass is unstable then.
     rigid_threshold, flexible_threshold : array, (n,)
         Ω_s and Ω_sf [rad/s] (Eqs. 5.45 to 5.50) at this speed's equilibrium; the machine is
         unstable where its speed lies above. Without midspan damping and journal mass, and with the
@@ -254,7 +254,9 @@ def analyse(machine: Machine, speed: ArrayLike) -> Sweep:
         damping=C,
         equivalent_stiffness=K_eq,
         whirl_ratio=onset.whirl_ratio,
-        critical_mass=onset.critical_mass / state.speed**2,
+        # A negative K_eq leaves no mass that is stable; what the formula gives is none.
+        critical_mass=np.where(onset.critical_mass < 0.0, np.nan, onset.critical_mass)
+        / state.speed**2,
         rigid_threshold=rigid_threshold,
         # k_eq Γ/C = K_eq/K_rot (Eq. 5.50): 1/K_rot stands for the sag, 0 for a rigid shaft.
         flexible_threshold=flexible_threshold(rigid_threshold, K_eq, 1.0 / rotor.shaft_stiffness),

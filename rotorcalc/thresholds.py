@@ -79,7 +79,7 @@ def at_each_speed(sweep: Sweep) -> Thresholds:
     rigid_frequency = modes.undamped_frequency(K_eq, rotor.half_mass)
     frequency = modes.undamped_frequency(series, rotor.half_mass)
     # A negative K_eq leaves no critical mass: unstable at any speed, so the ratio is 0.
-    ratio = np.sqrt(np.maximum(M_c / rotor.half_mass, 0.0))  # Ω_s/Ω
+    ratio = np.sqrt(np.where(np.isnan(M_c), 0.0, M_c) / rotor.half_mass)  # Ω_s/Ω
     return Thresholds(
         speed=sweep.speed,
         flexible=sweep.flexible_threshold,

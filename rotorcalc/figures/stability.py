@@ -174,6 +174,7 @@ def threshold_speed(figure: FilmFigure) -> Chart:
 def critical_mass_number(figure: FilmFigure) -> Chart:
     """Return the dimensionless critical mass over σ or ε (Fig. 5.9)."""
     now = math.nan if figure.here is None else float(figure.here.onset.critical_mass)
+    now = math.nan if now < 0.0 else now  # of a negative k_eq: there is no such mass
     y = style.axis(
         titled("Critical mass", "p_s²", "-"), 0.0, style.ceiling([30.0, min(now, 900.0)])
     )

@@ -3,8 +3,10 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
+from rotorcalc import CoefficientTable, thresholds
 from rotorcalc.units import SI
 from tests.app.test_bearings import SPEED, TOP
 from tests.films.models import BEARINGS
@@ -13,7 +15,8 @@ from ui.bearing import defaults_of
 from ui.computed import Computed, computed_from
 from ui.format import amount
 from ui.inputs import PRESET_VALUES, values_of
-from ui.words import citation, stability, verdict
+from ui.results.table import RESULTS
+from ui.words import citation, stability, validity, verdict
 
 
 def shown(bearing: str = "short", **rotor: float) -> Computed:
@@ -108,3 +111,23 @@ def test_the_caption_of_the_energies_says_no_more_than_the_chart(
     monkeypatch.setattr(stability, "energies", lambda _: replace(found, over=over))
     assert "the orbit of the onset, where the two meet" in stability.energies_over_speed(case)
     assert "more is fed in" not in stability.energies_over_speed(case)
+
+
+def test_the_headline_names_the_worst_assumption_and_counts_the_others() -> None:
+    soft = computed_from(PRESET_VALUES["sheet-1e7"])
+    assert validity.headline(soft) == "Model strained: static sag over clearance and 1 more"
+    assert validity.headline(computed_from(PRESET_VALUES["sheet-1e8"])) == "Model strained: heat"
+
+
+def test_a_negative_stiffness_leaves_no_critical_mass() -> None:
+    K, C = ((-1e7, 1e7), (-1e7, -1e7)), ((1e5, 0.0), (0.0, 1e5))
+    own = CoefficientTable(speed=(100.0, 2000.0), stiffness=(K, K), damping=(C, C))
+    case = Computed(replace(SHEET, bearing=own), 600.0, 1000.0)
+    assert float(case.point.equivalent_stiffness) < 0.0 < float(case.point.whirl_ratio)
+    for key in ("critical_mass", "rigid_critical_mass"):
+        assert RESULTS[key].shown(case, SI) == "none"
+        assert RESULTS[key].filled(case) == r"\text{none, as }K_{eq}<0"
+    assert math.isnan(float(case.point.critical_mass))
+    ratios = thresholds.at_each_speed(case.sweep)
+    assert np.all(ratios.rigid_mass_ratio == 0.0)
+    assert np.all(ratios.flexible_mass_ratio == 0.0)

@@ -48,15 +48,22 @@ def _ratio(computed: Computed) -> str:
 def _critical_mass(computed: Computed) -> str:
     p, k = computed.point, computed.machine.rotor.shaft_stiffness
     if not math.isfinite(float(p.critical_mass)):
-        return r"\infty\ \text{(no whirl in this equilibrium)}"
+        return _no_mass(computed)
     series = rf"\frac{{1}}{{1+{tex(float(p.equivalent_stiffness))}/{tex(k)}}}"
     return rf"{tex(float(p.critical_mass))}\cdot {series} = {tex(computed.critical_mass, 'kg')}"
+
+
+def _no_mass(computed: Computed) -> str:
+    """Return why there is no critical mass: none whirls, or, with a negative stiffness, all do."""
+    if math.isnan(float(computed.point.critical_mass)):
+        return r"\text{none, as }K_{eq}<0"
+    return r"\infty\ \text{(no whirl in this equilibrium)}"
 
 
 def _rigid_critical_mass(computed: Computed) -> str:
     p = computed.point
     if not math.isfinite(float(p.critical_mass)):
-        return r"\infty\ \text{(no whirl in this equilibrium)}"
+        return _no_mass(computed)
     product = rf"({tex(float(p.whirl_ratio))}\cdot {tex(computed.speed)})^2"
     top = tex(float(p.equivalent_stiffness))
     return rf"\frac{{{top}}}{{{product}}} = {tex(float(p.critical_mass), 'kg')}"

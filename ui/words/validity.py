@@ -1,6 +1,7 @@
 """The validity panel: where the model holds for this machine, and where it is strained."""
 
 import math
+import re
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -32,16 +33,17 @@ def worst(computed: Computed) -> Check:
 
 
 def headline(computed: Computed) -> str:
-    """Return the worst of the assumptions in a few words."""
+    """Return the worst of the assumptions in a few words, and how many more do not hold well."""
     if computed.has_own:
         return "Own coefficients"
     check = worst(computed)
     if check.worst == "good":
         return "The model holds"
     # Short where it can be: on the line of the verdict it takes no height.
-    name = lower(check.name.partition(":")[0])
+    name = lower(re.split("[:,]", check.name)[0])
     state = "Model strained" if check.worst == "caution" else "The model is outside its range"
-    return f"{state}: {name}"
+    others = sum(one.worst != "good" for one in computed.checks) - 1
+    return f"{state}: {name}{f' and {others} more' if others else ''}"
 
 
 def level(computed: Computed) -> str:
