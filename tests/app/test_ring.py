@@ -5,6 +5,7 @@ import re
 from dataclasses import replace
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from streamlit.testing.v1 import AppTest
 
@@ -179,6 +180,40 @@ def test_cycles_known_farther_than_needed_are_not_followed_anew(
     monkeypatch.setattr(limit_cycles, "followed", far)
     assert limit_cycles.branch_of(fast).highest == 4.0
     assert limit_cycles.known(fast) == "known"
+
+
+def test_the_whirls_page_tells_the_cycle_of_whichever_branch_holds_at_the_speed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    computed = shown(film="short", rpm=20000.0, rpm_max=40000.0)
+    [outer] = ring.onsets(computed)
+    inner = replace(outer, mode="inner film")
+    at = computed.speed
+    cycle = SimpleNamespace(
+        amplitude=4e-5, inner_amplitude=9e-5, whirl_frequency=0.5 * at, thinnest=0.3
+    )
+    yes, no = np.array([True, True]), np.array([False, False])
+    # The chosen whirl's cycles end below the speed, and another whirl grows about some of them.
+    ends = SimpleNamespace(
+        speed=at * np.array([0.8, 0.9]), stable=no, beats=yes, ended=AT_REST,
+        held_at=lambda _: None,
+    )  # fmt: skip
+    holds = SimpleNamespace(
+        speed=at * np.array([0.9, 1.2]), stable=yes, beats=~no, ended="", held_at=lambda _: cycle
+    )
+    known = {"outer film": ends, "inner film": holds}
+    monkeypatch.setattr(ring, "onsets", lambda _: (outer, inner))
+    kept = SimpleNamespace(known=lambda _, onset, __: known[onset.mode])
+    monkeypatch.setattr(limit_cycles, "followed", kept)
+    told = words._cycle(computed, SI)
+    assert told.startswith("At 20000 rpm the limit cycle takes the journal up to 40 µm")
+    assert "dashed" not in told
+    known["inner film"] = None
+    assert words._cycle(computed, SI) == (
+        "None of the limit cycles followed so far reaches 20000 rpm."
+    )
+    known["outer film"] = None
+    assert "has not been computed yet" in words._cycle(computed, SI)
 
 
 def test_the_report_says_that_closed_forms_miss_the_onset_of_a_ring() -> None:

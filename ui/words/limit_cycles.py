@@ -44,12 +44,22 @@ def branch_of(computed: Computed) -> Branch:
 
     One that is known farther than needed serves as well.
     """
-    machine = balanced(computed.machine)
+    return _branches(computed)[0]
+
+
+def _branches(computed: Computed) -> list[Branch]:
+    """Return the branches of all whirls of a machine, that of the one chosen first."""
     found = ring.onsets(computed) if ring.has_ring(computed) else ()
     if not found:
-        return Branch(machine, None, _REACHES[0])
-    modes = {one.mode: one for one in found}
-    onset = modes.get(str(choices().chosen.get(_WHIRL, "")), found[0])
+        return [Branch(balanced(computed.machine), None, _REACHES[0])]
+    chosen = str(choices().chosen.get(_WHIRL, ""))
+    return [
+        _branch_from(onset, computed) for onset in sorted(found, key=lambda one: one.mode != chosen)
+    ]
+
+
+def _branch_from(onset: ModeOnset, computed: Computed) -> Branch:
+    machine = balanced(computed.machine)
     needed = _BEYOND * computed.speed / onset.speed
     reaches = [one for one in _REACHES if one >= needed] or [_REACHES[-1]]
     enough = [Branch(machine, onset, reach) for reach in reaches]
@@ -67,6 +77,12 @@ def choose_whirl(computed: Computed) -> None:
 def known(computed: Computed) -> Bifurcation | None:
     """Return the limit cycles where they have been computed."""
     return followed.known(*branch_of(computed).asked)
+
+
+def known_of_all(computed: Computed) -> list[Bifurcation]:
+    """Return the limit cycles of all whirls that have been computed, of the one chosen first."""
+    found = (followed.known(*one.asked) for one in _branches(computed))
+    return [one for one in found if one is not None]
 
 
 def held(branch: Bifurcation, speed: float, units: Units) -> tuple[str, ...]:

@@ -47,10 +47,15 @@ def _cycle(computed: Computed, units: Units) -> str:
     """Return on which cycle a machine past an onset runs, where that has been computed."""
     if not 0.0 < computed.onset.speed < computed.speed:
         return ""
-    branch = limit_cycles.known(computed)
-    return (
-        _NOT_YET if branch is None else " ".join(limit_cycles.held(branch, computed.speed, units))
-    )
+    branches, speed = limit_cycles.known_of_all(computed), computed.speed
+    if not branches:
+        return _NOT_YET
+    within = [one for one in branches if one.speed.min() <= speed <= one.speed.max()]
+    holding = [one for one in within if one.held_at(speed) is not None]
+    if not within:
+        return f"None of the limit cycles followed so far reaches {amount(units.speed, speed)}."
+    # What else is said of a branch belongs beside its chart.
+    return limit_cycles.held((holding or within)[0], speed, units)[0]
 
 
 def _column(
