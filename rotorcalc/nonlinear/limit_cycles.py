@@ -119,15 +119,20 @@ class Bifurcation(Result):
         return self._turns()[1]
 
     def _turns(self) -> tuple[Array, Array]:
-        """Return the tops and bottoms of parabolas through the three cycles nearest to each."""
-        step, size = np.diff(self.speed), np.diff(self.amplitude)
+        """Return the tops and bottoms of parabolas through the three cycles nearest to each.
+
+        The onset counts as a cycle of no size: a branch may turn back at its first ones.
+        """
+        speed = np.concatenate([[self.hopf.speed], self.speed])
+        amplitude = np.concatenate([[0.0], self.amplitude])
+        step, size = np.diff(speed), np.diff(amplitude)
         turns = np.flatnonzero(step[:-1] * step[1:] < 0.0)
         before, after = step[turns] / size[turns], step[turns + 1] / size[turns + 1]
         bend = (after - before) / (size[turns] + size[turns + 1])
         slope = before + bend * size[turns]  # at the middle one of the three
         return (
-            self.speed[turns + 1] - slope**2 / (4.0 * bend),
-            self.amplitude[turns + 1] - slope / (2.0 * bend),
+            speed[turns + 1] - slope**2 / (4.0 * bend),
+            amplitude[turns + 1] - slope / (2.0 * bend),
         )
 
     @checked

@@ -28,6 +28,7 @@ from tests.app.session import (
 from ui import ring
 from ui.bearing import defaults_of
 from ui.computed import Computed, computed_from
+from ui.format import amount
 from ui.inputs import PRESET_VALUES
 from ui.notes import ring as notes
 from ui.results.table import RESULTS
@@ -169,6 +170,36 @@ def test_the_limit_cycle_of_a_ring_is_told_with_its_sizes_and_its_frequency() ->
     assert on_demand.swept(early, computed) is None
     plain = orbits.cycles(early, None, computed.speed, SI)
     assert not any("slowly" in one["name"] for one in plain["data"])
+
+
+def test_a_whirl_that_persists_below_a_supercritical_onset_is_not_said_to_die_out_there(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    computed = shown(film="short", rpm=6000.0)
+    branch = bifurcation(computed.machine, lowest=0.999, highest=1.001)
+    onset = computed.onset.speed
+    told: list[str] = []
+    shows = SimpleNamespace(info=told.append, warning=told.append, caption=lambda _: None)
+    monkeypatch.setattr(on_demand, "st", shows)
+
+    def say(*shares: float) -> str:
+        found = replace(
+            branch,
+            hopf=replace(branch.hopf, speed=onset, lyapunov=-1.0, lyapunov_error=0.1),
+            speed=onset * np.array(shares),
+            amplitude=1e-6 * np.arange(1.0, len(shares) + 1.0),
+        )
+        on_demand.say_cycles(found, computed, SI)
+        return told[-1]
+
+    assert "dies out as the speed falls below the onset" in say(1.01, 1.02, 1.03)
+    # Parabolas whose tops are 1 % above the onset and 10 % below it.
+    for told_of in (say(1.01, 1.0, 0.91, 0.90, 0.91), say(1.01, 1.02, 1.01, 0.91, 0.90, 0.91)):
+        assert "dies out" not in told_of
+        assert f"persists down to {amount(SI.speed, 0.9 * onset)}, 10 % below the onset" in told_of
+    told_of = say(1.01, 1.0, 0.95)
+    assert "dies out" not in told_of
+    assert f"down to below {amount(SI.speed, 0.95 * onset)}, the end of the branch" in told_of
 
 
 def test_cycles_known_farther_than_needed_are_not_followed_anew(

@@ -47,6 +47,20 @@ def test_at_either_onset_a_whirl_of_the_linear_frequency_begins(begun):
         assert branch.amplitude[0] == pytest.approx(found.amplitude(speed), rel=0.01)
 
 
+@pytest.mark.parametrize("first", [1, 2])
+def test_a_branch_may_turn_back_at_its_first_cycles(begun, first):
+    """The fold of a parabola through the onset is its top, wherever the first cycle lies."""
+    _, _, branch = begun[0]
+    size = 0.02e-6 * np.arange(first, first + 4)
+    speed = branch.hopf.speed * (1.0 + 1e-4 * size * (0.05e-6 - size) / 1e-15)
+    turned = replace(branch, speed=speed, amplitude=size)
+    assert turned.fold_amplitudes == pytest.approx([0.025e-6], rel=1e-6)
+    assert turned.folds == pytest.approx([branch.hopf.speed * (1.0 + 0.625e-4)], rel=1e-12)
+    # A branch that goes on as it began has none, above the onset or below it.
+    for way in (1.0, -1.0):
+        assert not len(replace(branch, speed=branch.hopf.speed + way * size, amplitude=size).folds)
+
+
 def test_its_size_grows_as_the_square_root_of_the_distance_from_the_onset(begun):
     for machine, onset, branch in begun:
         found = branch.hopf

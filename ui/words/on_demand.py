@@ -190,10 +190,27 @@ def _say_direction(branch: Bifurcation, units: Units) -> None:
             )
         st.warning(f"Subcritical at {at}: {rate} ({error}).{where}")
     else:
-        st.info(
-            f"Supercritical at {at}: {rate} ({error}). Above the onset a whirl grows gradually "
-            "with the speed, and it dies out as the speed falls below the onset."
+        st.info(f"Supercritical at {at}: {rate} ({error}). {_above_the_onset(branch, units)}")
+
+
+def _above_the_onset(branch: Bifurcation, units: Units) -> str:
+    """Return how a whirl that begins gradually goes on, and where it dies out."""
+    onset, lowest = branch.hopf.speed, float(branch.speed.min())
+    if lowest >= onset * (1.0 - _SAME_ONSET):
+        return (
+            "Above the onset a whirl grows gradually with the speed, and it dies out as the speed "
+            "falls below the onset."
         )
+    begins = (
+        "So it is close to the onset only: there a whirl grows gradually with the speed. The "
+        "branch then turns back to speeds below the onset, where a large enough disturbance makes "
+        "the machine whirl permanently; as the speed falls, the whirl persists down to "
+    )
+    folds = branch.folds[branch.folds < onset]
+    if not len(folds):
+        return f"{begins}below {amount(units.speed, lowest)}, the end of the branch."
+    share = digits((1.0 - folds.min() / onset) * 100.0)
+    return f"{begins}{amount(units.speed, folds.min())}, {share} % below the onset."
 
 
 def say_held(branch: Bifurcation, computed: Computed, units: Units) -> None:
