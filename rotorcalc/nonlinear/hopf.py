@@ -136,6 +136,8 @@ def hopf(machine: Machine, *, onset: Onset | ModeOnset | None = None) -> Hopf:
     refuse_unknown(machine.bearing)
     onset = onset_speed(machine) if onset is None else onset
     if not 0.0 < onset.speed < math.inf:
+        if math.isnan(onset.speed):
+            raise ValueError("onset = nan: the speed of a Hopf bifurcation must be known")
         why = "whirls at any speed" if onset.speed == 0.0 else "has no onset"
         raise ValueError(f"machine: {why}, so there is no Hopf bifurcation")
     terms = _lyapunov_terms(machine, onset.speed, onset.whirl_frequency, _POINTS)

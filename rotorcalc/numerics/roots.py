@@ -21,6 +21,10 @@ _NARROWER = 3
 _JUMP, _ONE_PLACE = 0.5, 1e-14
 
 
+class HiddenRootError(ValueError):
+    """A function's rounding errors are as large as its change beside its root."""
+
+
 def narrow_root(
     values: Callable[[Array], Array], low: float, high: float, *, noise: float = _NOTHING
 ) -> float:
@@ -39,6 +43,11 @@ def narrow_root(
     -------
     float
         The root, to about 1e-14 of itself, or to the noise times the interval.
+
+    Raises
+    ------
+    HiddenRootError
+        Where the function, computed anew, has the same sign on both sides of the root.
 
     Notes
     -----
@@ -68,10 +77,18 @@ def narrow_root(
         is_jump = bool(np.ptp(beside[1]) > _JUMP * np.ptp(found))
     if is_jump:
         return _at_a_jump(values, beside)
-    # xtol only guards against zero: the root may be of any size, so rtol decides.
-    return float(
-        brentq(lambda x: float(values(np.array([x]))[0]), low, high, xtol=1e-300, rtol=1e-14)
-    )
+
+    def value(x: float) -> float:
+        return float(values(np.array([x]))[0])
+
+    try:
+        # xtol only guards against zero: the root may be of any size, so rtol decides.
+        return float(brentq(value, low, high, xtol=1e-300, rtol=1e-14))
+    except ValueError as error:
+        if value(low) * value(high) <= 0.0:
+            raise
+        hidden = "rounding errors hide where its sign changes"
+        raise HiddenRootError(f"between {low:g} and {high:g}: {hidden}") from error
 
 
 def _at_a_jump(values: Callable[[Array], Array], beside: Array) -> float:

@@ -18,7 +18,7 @@ from rotorcalc.arrays import Array, BoolArray, ComplexArray
 from rotorcalc.coefficients import checked_speed, dynamics
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine
-from rotorcalc.numerics.roots import narrow_root
+from rotorcalc.numerics.roots import HiddenRootError, narrow_root
 from rotorcalc.onset.eigenvalues import certain_mode_shapes
 from rotorcalc.onset.search import first_crossing, search_speeds, where_film
 from rotorcalc.ring import ring_film, ring_speed
@@ -43,7 +43,8 @@ class ModeOnset(Result):
     mode : str
         "inner film" or "outer film".
     speed : float
-        Lowest running speed at which it grows, Ω_s [rad/s]; infinite where none was found.
+        Lowest running speed at which it grows, Ω_s [rad/s]; infinite where none was found, NaN
+        where rounding errors hide it.
     whirl_frequency : float
         Its frequency there, ω_s [rad/s]; NaN where there is none.
     whirl_ratio : float
@@ -169,7 +170,10 @@ def _onset_of(machine: Machine, mode: str, speeds: Array, flexible: bool) -> Mod
         return ModeOnset(mode, math.inf, math.nan, math.nan, last)
     low, high = bracket
     # Without load a mode grows at any speed, at the first as later.
-    speed = narrow_root(growth, low, high) if low > 0.0 else 0.0
+    try:
+        speed = narrow_root(growth, low, high) if low > 0.0 else 0.0
+    except HiddenRootError:
+        return ModeOnset(mode, math.nan, math.nan, math.nan, last)
     ratio = float(_growing(machine, mode, np.array([speed or high]), flexible)[0].imag)
     return ModeOnset(mode, speed, ratio * speed, ratio, last)
 

@@ -13,6 +13,7 @@ from rotorcalc import bifurcation
 from rotorcalc.figures import orbits
 from rotorcalc.figures import ring as figures
 from rotorcalc.nonlinear.continuation import AT_REST
+from rotorcalc.numerics.roots import HiddenRootError
 from rotorcalc.units import SI
 from tests.app.session import (
     HOME,
@@ -81,6 +82,32 @@ def test_both_onsets_agree_with_the_verdict_which_points_to_the_orbits(film: str
     assert whirl is not None
     assert f" {whirl[1]} |" in table
     assert words.BEYOND not in verdict.verdict(shown(film=film), SI).sentence
+
+
+def test_an_onset_that_rounding_hides_is_said_to_be_missing(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def hidden(*_: object) -> float:
+        raise HiddenRootError
+
+    monkeypatch.setattr("rotorcalc.onset.ring_modes.narrow_root", hidden)
+    for kept in (ring.whirls, ring._onsets):
+        kept.cache_clear()
+    computed = shown(film="short", rpm=20000.0, rpm_max=40000.0)
+    told = words.whirls(computed, SI).words
+    assert "| Onset [rpm] | none found | not computed |" in told
+    assert "The onset of the whirl in the outer film is missing" in told
+    assert "inner film is missing" not in told
+    at = visit(STABILITY, **RINGED, film="short", rpm="20000")
+    assert not faults(at)
+    assert "outer film is missing" in said(at)
+    assert not any(
+        "onset" in one["name"] for one in figures.whirls(ring.whirls(computed), SI)["data"]
+    )
+    with pytest.raises(ValueError, match="onset = nan"):
+        bifurcation(computed.machine, onset=ring.whirls(computed).onsets[1])
+    for kept in (ring.whirls, ring._onsets):
+        kept.cache_clear()
 
 
 def test_without_load_both_whirls_are_at_their_limits_at_any_speed() -> None:

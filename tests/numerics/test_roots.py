@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from rotorcalc.numerics.roots import narrow_root
+from rotorcalc.numerics.roots import HiddenRootError, narrow_root
 
 
 @pytest.mark.parametrize(
@@ -70,3 +70,23 @@ def test_a_jump_is_found_in_a_few_calls_on_the_side_nearer_to_zero(at) -> None:
 
 def test_a_root_at_an_end_is_found() -> None:
     assert narrow_root(lambda x: x - 1.0, 1.0, 1.1) == pytest.approx(1.0, rel=1e-14)
+
+
+def test_a_root_that_rounding_hides_is_no_number() -> None:
+    """The signs at many places together are not those at each alone."""
+
+    def values(x):
+        return x - 1.017 + 2e-3 * np.sin(1e7 * x) if len(x) > 1 else -x
+
+    with pytest.raises(HiddenRootError, match="rounding errors hide"):
+        narrow_root(values, 0.985, 1.05)
+
+
+def test_an_error_of_the_function_itself_is_told_as_it_is() -> None:
+    def values(x):
+        if len(x) == 1:
+            raise ValueError("no film")
+        return np.tanh(1e3 * (x - 1.001)) + 1e-3 * np.sin(1e5 * x)
+
+    with pytest.raises(ValueError, match="no film"):
+        narrow_root(values, 0.985, 1.05)

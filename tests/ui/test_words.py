@@ -68,6 +68,29 @@ def test_no_end_of_whirl_is_read_from_coefficients_at_another_frequency(bearing:
     assert stability.film_figure(computed).limit is None
 
 
+@pytest.mark.parametrize(
+    ("onset", "frequency", "ends"),
+    [
+        (0.0, 0.0, "range of whirl, which begins at the slowest speed searched."),
+        (math.nan, math.nan, "at which it becomes unstable could not be computed."),
+        (100.0, math.nan, "range of whirl, which begins at {}."),
+        (900.0, 0.0, "it becomes unstable at {}, 50 % above."),
+        (100.0, 50.0, "begins at {}, where it whirls at 477.5 rpm (7.958 Hz), 0.5 of that speed."),
+    ],
+)
+def test_an_onset_without_a_number_is_told_without_one(
+    monkeypatch: pytest.MonkeyPatch, onset: float, frequency: float, ends: str
+) -> None:
+    computed = computed_from(values_of(SHEET, 600.0, TOP))
+    assert computed.is_stable
+    found = replace(computed.onset, speed=onset, whirl_frequency=frequency)
+    monkeypatch.setattr("ui.computed._onset", lambda *_: found)
+    told = verdict.verdict(computed, SI).sentence
+    assert told.endswith(ends.format(amount(SI.speed, onset)))
+    assert "nan" not in told
+    assert " 0 rpm" not in told
+
+
 def test_where_the_search_ended_at_a_speed_no_word_claims_more() -> None:
     values = PRESET_VALUES["sheet-1e8"]
     pads = computed_from(values | defaults_of("tilting-pads", values))

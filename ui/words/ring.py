@@ -40,7 +40,17 @@ def whirls(computed: Computed, units: Units) -> Text:
     head, *rows = zip(names, *columns, strict=True)
     lines = (head, (":--", "--:", "--:"), *rows)
     table = "\n".join(f"| {' | '.join(line)} |" for line in lines)
-    return Text(f"{table}\n{_BEYOND}{_cycle(computed, units)}")
+    return Text(f"{table}\n{_missing(shown.onsets)}{_BEYOND}{_cycle(computed, units)}")
+
+
+def _missing(onsets: tuple[ModeOnset, ...]) -> str:
+    """Return which onsets could not be computed."""
+    hidden = [one.mode for one in onsets if math.isnan(one.speed)]
+    return "".join(
+        f"\nThe onset of the whirl in the {mode} is missing: rounding errors are larger there "
+        "than its growth.\n"
+        for mode in hidden
+    )
 
 
 def _cycle(computed: Computed, units: Units) -> str:
@@ -66,7 +76,7 @@ def _column(
     swings = not math.isnan(ratio)
     return (
         onset.mode,
-        "any speed" if onset.speed == 0.0 else _number(float(speed), "none found"),
+        _onset(onset, float(speed)),
         _number(float(whirl) if onset.speed > 0.0 else math.nan),
         _number(onset.whirl_ratio),
         _number(float(units.speed.of(ratio * computed.speed))),
@@ -74,6 +84,12 @@ def _column(
         digits(limit),
         minus(digits(float(units.growth.of(growth * computed.speed)))) if swings else "–",
     )
+
+
+def _onset(onset: ModeOnset, shown: float) -> str:
+    if math.isnan(shown):
+        return "not computed"
+    return "any speed" if onset.speed == 0.0 else _number(shown, "none found")
 
 
 def _number(value: float, otherwise: str = "–") -> str:

@@ -26,6 +26,7 @@ class Verdict:
 
 _SHOWN_AS: dict[str, Kind] = {"stable": "success", "unstable": "error", "outside": "warning"}
 
+_NO_ONSET = "the speed at which it becomes unstable could not be computed."
 _COARSE = "Coarse mesh: K and C to some 4 %"
 
 
@@ -82,15 +83,19 @@ def _outlook(computed: Computed, units: Units) -> str:
     onset = computed.onset
     if math.isinf(onset.speed):
         return _never(computed, units)
+    if math.isnan(onset.speed):
+        return _NO_ONSET
     if onset.speed > computed.speed:
         margin = above(onset.speed / computed.speed)
         beyond = " (outside the model's range)" if computed.onset_is_outside else ""
         where = f"{amount(units.speed, onset.speed)}{beyond}, {margin}"
         # Short: with the model's badge it stands in one line of 960 pixels.
-        return f"it becomes unstable at {where}, whirling at {_whirl(computed, units)}."
+        return f"it becomes unstable at {where}{_whirl(computed, units, ', whirling')}."
+    if onset.speed == 0.0:
+        return "it is above its range of whirl, which begins at the slowest speed searched."
     return (
-        f"it is above its range of whirl, which begins at {amount(units.speed, onset.speed)}, "
-        f"where it whirls at {_whirl(computed, units)}."
+        f"it is above its range of whirl, which begins at {amount(units.speed, onset.speed)}"
+        f"{_whirl(computed, units, ', where it whirls')}."
     )
 
 
@@ -111,6 +116,8 @@ def _past(computed: Computed, units: Units) -> str:
     now = f"{_growing(computed, growing, units)}; " if growing.real > 0.0 else ""
     if math.isinf(onset.speed):
         return f"{now}no onset was found."
+    if math.isnan(onset.speed):
+        return f"{now}{_NO_ONSET}"
     if begins_unstable(computed):
         first = amount(units.speed, onset.speed)
         return f"{now}it is so from {first} on, where its own coefficients begin."
@@ -126,10 +133,12 @@ def _growing(computed: Computed, value: complex, units: Units) -> str:
     )
 
 
-def _whirl(computed: Computed, units: Units) -> str:
-    onset = computed.onset
-    ratio = onset.whirl_frequency / onset.speed if onset.speed > 0.0 else math.nan
-    return f"{_frequency(onset.whirl_frequency, units)}, {ratio:.3g} of that speed"
+def _whirl(computed: Computed, units: Units, words: str) -> str:
+    """Return after some words how it whirls at an onset above 0; nothing where that is unknown."""
+    speed, frequency = computed.onset.speed, computed.onset.whirl_frequency
+    if not frequency > 0.0:
+        return ""
+    return f"{words} at {_frequency(frequency, units)}, {frequency / speed:.3g} of that speed"
 
 
 def _frequency(value: float, units: Units) -> str:
