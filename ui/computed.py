@@ -125,14 +125,14 @@ class Computed:
     def onset_is_unknown(self) -> bool:
         """Whether an onset was sought up to a speed only, and no onset lies below.
 
-        Where the oil supplied carries the heat no further, or where own coefficients end.
+        Where the oil supplied carries the heat no further, where own coefficients end, or where the
+        search of the eigenvalues does, which proves nothing of higher speeds.
         """
         return self.ends_unanswered(self.onset)
 
     def ends_unanswered(self, onset: Onset) -> bool:
-        """Return whether an onset was sought up to the speed that oil or table allow only."""
-        ends = self.machine.supply is not None or self.has_own
-        return ends and math.isinf(onset.speed) and onset.searched_to < math.inf
+        """Return whether an onset was sought up to a speed only, and none was found."""
+        return math.isinf(onset.speed) and onset.searched_to < math.inf
 
     @property
     def has_own(self) -> bool:

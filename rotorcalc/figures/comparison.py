@@ -17,7 +17,7 @@ def onsets(
     """Return the onset of whirl on each bearing as a bar, the highest on top.
 
     Bars of bearings on which the machine whirls at the running speed, `speed` [rad/s], are red. A
-    bearing on which it does not whirl has a bar over the whole axis, one that has no answer none.
+    bearing on which no onset was found has a bar over the whole axis, one that has no answer none.
     """
     onset = units.speed.of(np.array([one.onset for one in found]))
     order = np.argsort(onset, kind="stable")[: int(np.sum(~np.isnan(onset)))]
@@ -45,7 +45,7 @@ def _named(name: str, onset: float) -> str:
 
 
 def _bars(lengths: Array, onsets: Array, here: float) -> Trace:
-    words = ["" if np.isfinite(onset) else "does not whirl" for onset in onsets]
+    words = ["" if np.isfinite(onset) else "no onset found" for onset in onsets]
     return {
         "type": "bar", "orientation": "h", "name": "onset", "hoverinfo": "skip",
         "x": lengths, "y": np.arange(len(lengths), dtype=float), "text": words,

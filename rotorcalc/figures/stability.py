@@ -389,9 +389,10 @@ def _verdict(found: Onset, x: Axis, unit: Unit) -> Item:
     if onset == 0.0:
         words = "unstable at any speed"
     elif math.isinf(onset):
-        # Where the search ends far beyond the chart, at what a film's tables know, it says enough.
+        # Where the search ends far beyond the chart, the chart's own speeds say enough.
+        every = "stable at every speed" + (" shown" if math.isfinite(last) else "")
         known = last < 4.0 * _high(x)
-        words = f"stable up to {last:.0f} {unit.name}" if known else "stable at every speed"
+        words = f"stable up to {last:.0f} {unit.name}" if known else every
     elif onset >= _high(x):
         words = f"stable: the onset lies beyond, at {onset:.0f} {unit.name}"
     else:

@@ -29,7 +29,7 @@ def test_bars_rise_from_the_lowest_onset_and_are_red_where_it_is_passed(
     low, top = chart["layout"]["xaxis"]["range"]
     assert chart["layout"]["yaxis"]["ticktext"] == ["a  <b>5000</b>", "b  <b>9000</b>", "none"]
     np.testing.assert_allclose(bars["x"], [5000.0, 9000.0, top])
-    assert bars["text"] == ["", "", "does not whirl"]
+    assert bars["text"] == ["", "", "no onset found"]
     assert [colour == style.UNSTABLE for colour in bars["marker"]["color"]] == [True, False, False]
     np.testing.assert_allclose(running["x"], 6000.0)
     assert low == 0.0

@@ -186,6 +186,13 @@ def test_a_glance_says_that_no_speed_is_unstable_and_else_leaves_words_out() -> 
         computed = computed_from(values)
         assert math.isinf(computed.onset.speed) == bool(words)
         assert notes(_over_speed(figures.threshold_at_a_glance, computed, SI)) == words
+    # Where the search ended far beyond the chart, the chart tells of its own speeds.
+    c, crossing = computed_from(steady), ask.crossing(computed_from(steady))
+    crossing = replace(crossing, onset=replace(crossing.onset, searched_to=1e5))
+    over = thresholds.at_each_speed(c.sweep), thresholds.at_each_speed(c.point)
+    assert notes(figures.threshold_at_a_glance(*over, crossing, SI)) == [
+        "stable at every speed shown"
+    ]
 
 
 def test_with_damping_the_onset_is_a_line_of_its_own() -> None:

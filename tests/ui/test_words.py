@@ -16,7 +16,7 @@ from ui.computed import Computed, computed_from
 from ui.format import amount
 from ui.inputs import PRESET_VALUES, values_of
 from ui.results.table import RESULTS
-from ui.words import citation, stability, validity, verdict
+from ui.words import citation, root_locus, stability, validity, verdict
 
 
 def shown(bearing: str = "short", **rotor: float) -> Computed:
@@ -98,6 +98,10 @@ def test_where_the_search_ended_at_a_speed_no_word_claims_more() -> None:
     limit = amount(SI.speed, pads.onset.searched_to)
     assert told.endswith(f"no whirl up to {limit}, the highest speed searched.")
     assert citation.without_onset(pads).startswith("Up to the highest speed searched")
+    crossing = root_locus.crossing(pads, pads.onset, SI)
+    assert crossing == "No mode crosses the imaginary axis, up to the highest speed searched."
+    at_onset = [result.shown(pads, SI) for result in RESULTS.values() if result.at_onset]
+    assert {*at_onset} == {"not found"}
     # A film that cannot whirl proves it.
     proved = replace(SHEET, rotor=replace(SHEET.rotor, disk_damping=1e5))
     never = computed_from(values_of(proved, SPEED, TOP))

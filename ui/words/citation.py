@@ -79,13 +79,18 @@ def is_stiff_unloaded(computed: Computed) -> bool:
 
 def without_onset(computed: Computed) -> str:
     """Return why a machine has no onset, the beginning of a sentence."""
+    if not computed.onset_is_unknown:
+        return "No speed makes this machine whirl"
+    return f"{capital(as_far_as(computed))}, this machine does not whirl"
+
+
+def as_far_as(computed: Computed) -> str:
+    """Return in words up to where an onset was sought that was not found."""
     if computed.has_own:
-        return "As far as its own coefficients go, this machine does not whirl"
-    if computed.onset_is_unknown:
-        return "As far as the oil supplied carries the heat, this machine does not whirl"
-    if math.isfinite(computed.onset.searched_to):
-        return "Up to the highest speed searched, this machine does not whirl"
-    return "No speed makes this machine whirl"
+        return "as far as its own coefficients go"
+    if computed.machine.supply is not None:
+        return "as far as the oil supplied carries the heat"
+    return "up to the highest speed searched"
 
 
 def without_load(computed: Computed) -> str:

@@ -14,7 +14,7 @@ from rotorcalc.units import Units
 from ui.choices import choose
 from ui.computed import Computed
 from ui.format import digits, minus
-from ui.words.citation import capital, source, without_load
+from ui.words.citation import as_far_as, capital, source, without_load
 
 ALTS = {
     "locus": "Eigenvalues in the complex plane as the speed rises: left of the imaginary axis a "
@@ -85,7 +85,7 @@ def how_to_read(computed: Computed) -> str:
 def crossing(computed: Computed, onset: Onset, units: Units) -> str:
     """Return a text that says where a mode crosses the imaginary axis."""
     if computed.ends_unanswered(onset):
-        return "No mode crosses the imaginary axis, as far as the oil supplied carries the heat."
+        return f"No mode crosses the imaginary axis, {as_far_as(computed)}."
     if math.isinf(onset.speed):
         return "No mode crosses the imaginary axis: this film cannot make this rotor whirl."
     speed = f"{float(units.speed.of(onset.speed)):.0f} {units.speed.name}"

@@ -101,13 +101,13 @@ def _outlook(computed: Computed, units: Units) -> str:
 
 def _never(computed: Computed, units: Units) -> str:
     """Return that no onset was found, and up to which speed, where the search ended."""
-    if math.isinf(computed.onset.searched_to):
+    if not computed.onset_is_unknown:
         return "no speed makes this machine whirl."
     limit = amount(units.speed, computed.onset.searched_to)
-    if not computed.onset_is_unknown:
-        return f"no whirl up to {limit}, the highest speed searched."
     if computed.has_own:
         return f"no whirl up to {limit}, where its own coefficients end."
+    if computed.machine.supply is None:
+        return f"no whirl up to {limit}, the highest speed searched."
     return f"no whirl up to {limit}; above, the oil supplied is too little to carry the heat."
 
 
