@@ -40,7 +40,7 @@ def narrow(*, share=0.01, film="short", **rotor):
     return Machine(oil=oil, bearing=bearing, rotor=Rotor(**rotor), temperature=90.0)
 
 
-def heavy():
+def heavy(film=None):
     """Return a heavy rotor on a ring whose outer film is a hundred and fiftieth of the inner."""
     D = 0.0739734007583426
     ring = FloatingRing(
@@ -51,7 +51,7 @@ def heavy():
     )
     bearing = JournalBearing(
         diameter=D, length=0.049656036605177235, radial_clearance=6.93085448941868e-05,
-        geometry=ring,
+        film=film, geometry=ring,
     )  # fmt: skip
     oil = Oil(
         reference_viscosity=0.02769255883842011,
@@ -106,6 +106,7 @@ def test_slow_and_fast_eigenvalues_are_those_of_sixty_digits(rpm):
     [
         pytest.param(narrow(film=None), 10844.389 * RPM, id="a hundredth"),
         pytest.param(heavy(), 991.09485, id="heavy"),
+        pytest.param(heavy("short"), 1034.52656, id="heavy, its ring hardly turning at first"),
     ],
 )
 def test_a_ring_with_a_very_narrow_outer_film_has_its_true_onset(machine, onset):

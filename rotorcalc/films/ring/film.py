@@ -22,6 +22,10 @@ from rotorcalc.films.units import FilmUnits
 from rotorcalc.frames import vector
 from rotorcalc.machine import JournalBearing
 
+# How far above the heaviest load's σ a range of them begins. The ring's speed goes as the fourth
+# power of that distance: closer, K of a short outer film spans more decades than numbers have.
+_TURNING = 1e-3
+
 
 @dataclass(frozen=True)
 class RingFilm:
@@ -68,12 +72,16 @@ class RingFilm:
 
     @property
     def sommerfeld_range(self) -> tuple[float, float]:
-        """σ at which either film may begin to feed a whirl, and at which both are light."""
+        """σ at which either film may begin to feed a whirl, and at which both are light.
+
+        At the heaviest load itself the ring does not turn, and its outer film has no finite K.
+        """
         r = balance.unloaded(self.pair)
         fastest = np.array([1.0 + r, self.pair.force * r])
         ranges = self.pair.inside.sommerfeld_range, self.pair.outside.sommerfeld_range
         heavy, light = np.array(ranges).T / fastest
-        return max(self.least_sommerfeld, float(heavy.min())), float(light.max())
+        turning = (1.0 + _TURNING) * self.least_sommerfeld
+        return max(turning, float(heavy.min())), float(light.max())
 
     @property
     def sources(self) -> Mapping[str, Source]:
