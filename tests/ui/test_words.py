@@ -158,3 +158,15 @@ def test_a_negative_stiffness_leaves_no_critical_mass() -> None:
     ratios = thresholds.at_each_speed(case.sweep)
     assert np.all(ratios.rigid_mass_ratio == 0.0)
     assert np.all(ratios.flexible_mass_ratio == 0.0)
+
+
+def test_pads_without_cross_coupling_are_fed_nothing() -> None:
+    values = PRESET_VALUES["sheet-1e8"]
+    heavy = {"preload": 0.0, "mass": 5000.0, "rpm": 60000.0, "rpm_max": 80000.0}
+    pads = computed_from(values | defaults_of("tilting-pads", values) | heavy)
+    assert 0.0 < pads.onset.speed < math.inf
+    words = stability.balance(pads, SI)
+    assert "cross-coupling feeds nothing in, and damping brakes it" in words
+    assert "times" not in words
+    assert "on this orbit" in words or ("the whirl decays" in words) == pads.is_stable
+    assert "more is fed in" not in stability.energies_over_speed(pads)

@@ -50,6 +50,8 @@ WORK_WORDS = (
 )
 # Fig. 5.10's static sags over clearance, beside this machine's own.
 _SAGS = (0.0, 0.3, 1.0, 3.0, 10.0)
+# A share of the other energy below which one is but rounding.
+_NO_ENERGY = 1e-9
 
 
 def crossing(computed: Computed) -> Crossing:
@@ -206,27 +208,37 @@ def balance(computed: Computed, units: Units) -> str:
             f"infinitely slow and damping dissipates nothing. At {running}, as at any speed, the "
             "orbit grows."
         )
-    ratio = float((here.film_loss + here.disk_loss) / here.fed_in)
+    lost, fed = float(here.film_loss + here.disk_loss), float(here.fed_in)
     whirl = amount(units.speed, computed.onset.whirl_frequency)
     level = "stable" if computed.is_stable else "unstable"
     # The orbit is kept as at the onset: far from there the machine's own is another.
     outcome = (
-        f": the whirl {'decays' if ratio > 1.0 else 'grows'}."
-        if (ratio > 1.0) == computed.is_stable
+        f": the whirl {'decays' if lost > fed else 'grows'}."
+        if (lost > fed) == computed.is_stable
         else f". That holds on this orbit, that of the onset; on its own the machine is {level}."
     )
     return (
         f"At its onset this machine whirls at {whirl}. On that orbit, but at a running "
-        f"speed of {running}, damping dissipates **{ratio:.3g} times** what cross-coupling feeds "
-        f"in{outcome}"
+        f"speed of {running}, {_balanced(lost, fed)}{outcome}"
     )
+
+
+def _balanced(lost: float, fed: float) -> str:
+    """Return how what damping dissipates compares with what cross-coupling feeds in."""
+    if fed <= _NO_ENERGY * abs(lost):
+        return (
+            f"cross-coupling feeds nothing in, and damping {'brakes' if lost > 0 else 'drives'} it"
+        )
+    if lost < 0.0:
+        return "cross-coupling and damping both feed it"
+    return f"damping dissipates **{lost / fed:.3g} times** what cross-coupling feeds in"
 
 
 def energies_over_speed(computed: Computed) -> str:
     """Return the caption of the energies over speed, which says no more than the chart shows."""
     over = energies(computed).over
-    past = computed.sweep.speed > computed.onset.speed
-    if np.all((over.fed_in > over.film_loss + over.disk_loss)[past]):
+    past, lost = computed.sweep.speed > computed.onset.speed, over.film_loss + over.disk_loss
+    if np.all((over.fed_in > np.maximum(lost, _NO_ENERGY * np.abs(lost)))[past]):
         return (
             "The follower force grows with speed, the damping does not: past the onset more is fed "
             "in than dissipated, and the orbit grows."
