@@ -225,7 +225,7 @@ def stability(computed: Computed, asked: Asked) -> Stability:
         here=LevelOne(
             speed=here.speed,
             cross_coupling=here.cross_coupling[0],
-            log_decrement=here.log_decrement[0],
+            forward_decrement=here.forward_decrement[0],
             whirl_frequency=here.whirl_frequency[0],
             backward_decrement=here.backward_decrement[0],
             zero_decrement=Q_0,

@@ -144,7 +144,7 @@ def _criteria(case: Case) -> dict[str, float]:
     quality = balance_quality(case.machine.rotor, speed=case.speed)
     return {
         "log_decrement [-]": log_decrement(analyse(case.machine, case.speed)),
-        "forward_log_decrement [-]": float(found.log_decrement),
+        "forward_log_decrement [-]": float(found.forward_decrement),
         "zero_decrement_cross_coupling [N/m]": found.zero_decrement,
         "balance_quality [m/s]": float(quality),
     }

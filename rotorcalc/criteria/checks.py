@@ -201,7 +201,7 @@ def _of_peak(factor: float, *, stable: bool) -> str:
 def _stability(machine: Machine, speed: float, anticipated: float | None) -> list[Criterion]:
     """Return the log decrement at Q_A, or at zero, and Q_0/Q_A."""
     found = level_one(machine, speed, anticipated or 0.0)
-    forward, backward = float(found.log_decrement), float(found.backward_decrement)
+    forward, backward = float(found.forward_decrement), float(found.backward_decrement)
     Q_0 = found.zero_decrement
     unknown = {
         None: "No anticipated cross-coupling was given.",
@@ -229,11 +229,11 @@ def _of_modes(found: LevelOne) -> str:
     backward = float(found.backward_decrement)
     if backward == -math.inf:
         return "The machine is unstable: a mode grows without oscillating."
-    if backward < min(found.log_decrement, 0.0):
+    if backward < min(found.forward_decrement, 0.0):
         return "The machine is unstable: a backward mode grows, of which the value is."
     if found.whirl_frequency == 0.0:
         return "No forward mode oscillates."
-    if backward < found.log_decrement:
+    if backward < found.forward_decrement:
         below = f", below {LEAST_DECREMENT:g}" if backward < LEAST_DECREMENT else ""
         return f"A backward mode is damped less: δ = {backward:.3g}{below}."
     return ""

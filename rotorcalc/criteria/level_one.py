@@ -55,7 +55,7 @@ class LevelOne(Result):
         Running speed, Ω [rad/s].
     cross_coupling : array, (...)
         Q of the whole machine, positive forward [N/m].
-    log_decrement : array, (...)
+    forward_decrement : array, (...)
         δ of the first forward mode [-]: of the modes in which the disk turns with the shaft, or
         moves along a line, the least damped; infinite where none oscillates.
     whirl_frequency : array, (...)
@@ -71,10 +71,15 @@ class LevelOne(Result):
 
     speed: float
     cross_coupling: Array
-    log_decrement: Array
+    forward_decrement: Array
     whirl_frequency: Array
     backward_decrement: Array
     zero_decrement: float
+
+    @property
+    def log_decrement(self) -> Array:
+        """δ of the least damped mode, forward or backward [-], (...)."""
+        return np.minimum(self.forward_decrement, self.backward_decrement)
 
 
 @checked
@@ -113,7 +118,7 @@ def level_one(machine: Machine, speed: float, cross_coupling: ArrayLike) -> Leve
     return LevelOne(
         speed=omega,
         cross_coupling=Q,
-        log_decrement=modes.logarithmic_decrement(first).reshape(Q.shape),
+        forward_decrement=modes.logarithmic_decrement(first).reshape(Q.shape),
         whirl_frequency=modes.damped_frequency(first).reshape(Q.shape),
         backward_decrement=modes.logarithmic_decrement(others).reshape(Q.shape),
         zero_decrement=_zero_decrement(machine.rotor, film),

@@ -68,8 +68,8 @@ def decrement(shown: Stability, units: Units) -> Chart:
     A backward mode is drawn where it is damped less.
     """
     unit, over = units.stiffness, shown.over
-    Q, delta = unit.of(over.cross_coupling), np.where(np.isfinite(over.log_decrement),
-                                                      over.log_decrement, np.nan)  # fmt: skip
+    Q, delta = unit.of(over.cross_coupling), np.where(np.isfinite(over.forward_decrement),
+                                                      over.forward_decrement, np.nan)  # fmt: skip
     x = style.axis(
         style.titled("Cross-coupled stiffness at midspan", "Q", unit.name), 0.0, float(Q[-1])
     )
@@ -82,7 +82,7 @@ def decrement(shown: Stability, units: Units) -> Chart:
                    width=1.6, hoverinfo="skip"),
         style.line(Q, delta, "first forward mode", style.BLUE, hovertemplate=hover),
     ]  # fmt: skip
-    less = over.backward_decrement < over.log_decrement
+    less = over.backward_decrement < over.forward_decrement
     if np.any(less):
         back = np.where(
             less & np.isfinite(over.backward_decrement), over.backward_decrement, np.nan
@@ -105,8 +105,8 @@ def decrement(shown: Stability, units: Units) -> Chart:
 def _ends(shown: Stability) -> tuple[float, float]:
     """Return the ends of an axis of the log decrement: zero is within it, and the least one."""
     over = shown.over
-    drawn = np.concatenate([over.log_decrement, np.minimum(over.backward_decrement,
-                                                           over.log_decrement)])  # fmt: skip
+    drawn = np.concatenate([over.forward_decrement, np.minimum(over.backward_decrement,
+                                                           over.forward_decrement)])  # fmt: skip
     known = drawn[np.isfinite(drawn)]
     low = float(known.min(initial=0.0))
     high = style.ceiling(known, 2.0 * LEAST_DECREMENT)
@@ -122,7 +122,7 @@ def _unstable_below(y: Axis) -> dict[str, Any]:
 
 def _marks(shown: Stability, unit: Unit, axes: tuple[Axis, Axis]) -> list[Trace]:
     """Return the mark at Q_A, or at zero, and that of Q_0."""
-    at, delta = float(unit.of(shown.here.cross_coupling)), float(shown.here.log_decrement)
+    at, delta = float(unit.of(shown.here.cross_coupling)), float(shown.here.forward_decrement)
     name = _AT_Q_A if shown.is_known else "without cross-coupling"
     marks: list[Trace] = []
     if np.isfinite(delta):

@@ -246,4 +246,4 @@ def test_the_cards_are_of_the_least_damped_mode_that_the_criteria_name():
     found = criteria.stability(computed, Asked()).here
     decrement = 2.0 * math.pi * zeta / math.sqrt(1.0 - zeta**2)
     assert decrement == pytest.approx(found.backward_decrement)
-    assert found.log_decrement > found.backward_decrement
+    assert found.forward_decrement > found.backward_decrement
