@@ -321,9 +321,7 @@ def leading(eigenvalues: ArrayLike) -> ComplexArray:
         The one with Im λ > 0 that decays slowest, or grows fastest; NaN where none oscillates.
     """
     values = complex_array("eigenvalues", eigenvalues)
-    place = leading_place(values)[..., None]
-    value: ComplexArray = np.take_along_axis(values, place, axis=-1)[..., 0]
-    return np.where(value.imag > 0.0, value, complex(np.nan, np.nan))
+    return _oscillating_at(leading_place(values), values)
 
 
 @checked
@@ -351,9 +349,7 @@ def least_damped(eigenvalues: ArrayLike) -> ComplexArray:
         The one with Im λ > 0 of the smallest −Re λ/|Im λ|; NaN where none oscillates.
     """
     values = complex_array("eigenvalues", eigenvalues)
-    place = least_damped_place(values)[..., None]
-    value: ComplexArray = np.take_along_axis(values, place, axis=-1)[..., 0]
-    return np.where(value.imag > 0.0, value, complex(np.nan, np.nan))
+    return _oscillating_at(least_damped_place(values), values)
 
 
 @checked
@@ -363,6 +359,12 @@ def least_damped_place(eigenvalues: ComplexArray) -> IntArray:
     decrement = logarithmic_decrement(np.where(waves, eigenvalues, 1j))
     place = np.argmin(np.where(waves, decrement, np.inf), axis=-1)
     return np.where(np.any(waves, axis=-1), place, leading_place(eigenvalues))
+
+
+def _oscillating_at(place: IntArray, values: ComplexArray) -> ComplexArray:
+    """Return the eigenvalue at an index, (...); NaN where it does not oscillate."""
+    value: ComplexArray = np.take_along_axis(values, place[..., None], axis=-1)[..., 0]
+    return np.where(value.imag > 0.0, value, complex(np.nan, np.nan))
 
 
 def damped_frequency(eigenvalue: ArrayLike) -> Array:
