@@ -1,4 +1,4 @@
-"""What Streamlit does anew at each run though nothing has changed, spared: a tenth of a run.
+"""What Streamlit does anew at each run though nothing has changed, spared.
 
 The first message of a run holds the theme, for which Streamlit reads all its options; they do not
 change while a server runs. And each look at a component's state makes a class, so that a script may
