@@ -15,6 +15,7 @@ from functools import cached_property
 from typing import cast
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 
 from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.films.hydrostatic.influence import Influence
@@ -24,8 +25,9 @@ from rotorcalc.films.hydrostatic.table import THINNEST, Table, table
 from rotorcalc.geometry import Hydrostatic
 from rotorcalc.machine import JournalBearing
 
-# Newton's steps; the size of the last, in C; the longest over the smallest film.
-_MOST_STEPS, _SETTLED, _LONGEST = 60, 1e-8, 0.7
+# Newton's steps; the size of the last, in C, of which the square is left; the longest over the
+# smallest film.
+_MOST_STEPS, _SETTLED, _LONGEST = 60, 1e-7, 0.7
 # The smallest film on the way to an equilibrium, in C: just inside the table's outermost ring.
 _CLOSEST = 0.021
 # Eccentricities of the load's curve at rest.
@@ -34,8 +36,11 @@ _PLACES = 65
 # rotation turns the force by 45° in the centre; and the share of it that is answered for.
 _ECCENTRICITIES, _DIRECTIONS = np.linspace(0.4, 0.95, 12), np.linspace(0.0, 0.5 * np.pi, 17)
 _SPEEDS, _SURE = np.array([0.01, 0.03, 0.08, 0.2, 0.5]), 0.93
+# Speeds over the same, at which equilibria under one load are known for Newton's method to begin.
+_KNOTS = np.geomspace(1e-3, 1e3, 49)
 # Shares of a load by which an equilibrium is followed that Newton's method misses.
 _SHARES = (0.4, 0.6, 0.75, 0.85, 0.93, 1.0)
+_NO_FLOWS = "no balance of the recesses' flows found"
 # Rotation acts on the film as the velocity w = (y, −x)/2 does.
 _TURN = np.array([[0.0, 0.5], [-0.5, 0.0]])
 
@@ -92,6 +97,12 @@ class Bearing:
         """The heaviest load that is carried at every speed, F_o/(p_s R L)."""
         return _SURE * min(float(self.load[-1]), _carried_in_rotation(self))
 
+    @cached_property
+    def turning(self) -> float:
+        """μΩ(R/C)²/p_s at which rotation turns the force by 45° in the centre."""
+        _, centred = held(self, np.zeros(1), np.zeros((1, 2)))
+        return 2.0 * float(centred.stiffness[0, 0, 0] / centred.damping[0, 0, 0])
+
 
 @functools.lru_cache(maxsize=64)
 def bearing_of(table: Table, restrictors: Restrictors) -> Bearing:
@@ -99,8 +110,7 @@ def bearing_of(table: Table, restrictors: Restrictors) -> Bearing:
     q = restrictors.size(table.outflow_in_centre)
     eps = np.linspace(0.0, 1.0 - THINNEST, _PLACES)
     bearing = Bearing(table, restrictors, q, eps, eps)
-    force, _ = held(bearing, np.zeros(_PLACES), np.stack([eps, 0.0 * eps], axis=-1))
-    load = -force[:, 0]
+    load = -_forces(bearing, np.zeros(1), np.stack([eps, 0.0 * eps], axis=-1))[0, :, 0]
     # Beyond its highest load a journal at rest falls onto the land.
     last = int(np.argmax(load)) + 1
     return replace(bearing, eccentricity=eps[:last], load=np.maximum.accumulate(load[:last]))
@@ -121,11 +131,8 @@ def _carried_in_rotation(bearing: Bearing) -> float:
     """
     eps, gamma = np.meshgrid(_ECCENTRICITIES, _DIRECTIONS, indexing="ij")
     place = np.stack([eps * np.cos(gamma), eps * np.sin(gamma)], axis=-1).reshape(-1, 2)
-    _, centred = held(bearing, np.zeros(1), np.zeros((1, 2)))
-    turning = 2.0 * centred.stiffness[0, 0, 0] / centred.damping[0, 0, 0]
-    loads = [_highest(held(bearing, np.full(len(place), S), place)[0].reshape(*eps.shape, 2))
-             for S in turning * _SPEEDS]  # fmt: skip
-    return min(loads)
+    force = _forces(bearing, bearing.turning * _SPEEDS, place)
+    return min(_highest(one.reshape(*eps.shape, 2)) for one in force)
 
 
 def _highest(force: Array) -> float:
@@ -140,6 +147,23 @@ def _highest(force: Array) -> float:
     load = -(force[rows, before, 0] * (1.0 - share) + force[rows, after, 0] * share)
     falls = np.flatnonzero(np.diff(load) < 0.0)
     return float(load[falls[0] if falls.size else -1])
+
+
+def _forces(bearing: Bearing, S: Array, place: Array) -> Array:
+    """Return the film's force at places (n, 2) at each of some S (m,), (m, n, 2), in p_s R L."""
+    restrictors, q = bearing.restrictors, bearing.size
+    at, _, _ = bearing.table.at(place)
+    G, gT = at.conductance, at.pumping.swapaxes(1, 2)
+    pump, w = 12.0 * S[:, None, None], place @ _TURN.T
+    pumped, own = pump * _times(at.pumping, w), q * np.eye(G.shape[-1])
+    y = np.full(pumped.shape, restrictors.centred_flow)
+    for _ in range(_MOST_STEPS):
+        left = q * y - _times(G, restrictors.pressure(y)) + pumped
+        step = _solved(own - G * restrictors.slope(y)[..., None, :], left)
+        y = y - step
+        if np.abs(step).max() < _SETTLED:
+            return -_times(gT, restrictors.pressure(y)) - pump * _times(at.squeeze, w)
+    raise RuntimeError(_NO_FLOWS)
 
 
 def held(bearing: Bearing, S: Array, place: Array) -> tuple[Array, Balance]:
@@ -174,7 +198,7 @@ def held(bearing: Bearing, S: Array, place: Array) -> tuple[Array, Balance]:
         y = y - step
         if np.abs(step).max(initial=0.0) < _SETTLED:
             return -left[:, N:], _answer(bearing, S, place, y)
-    raise RuntimeError("no balance of the recesses' flows found")
+    raise RuntimeError(_NO_FLOWS)
 
 
 def balanced(bearing: Bearing, S: Array, load: Array) -> Balance:
@@ -199,7 +223,7 @@ def balanced(bearing: Bearing, S: Array, load: Array) -> Balance:
     RuntimeError
         Where no equilibrium is found with a film thicker than `THINNEST`.
     """
-    place, y, good = _settled(bearing, S, load, _start(bearing, S, load))
+    place, y, good = _settled(bearing, S, load, _beginning(bearing, S, load))
     if not good.all():
         bad = np.flatnonzero(~good)
         place[bad], y[bad] = _followed(bearing, S[bad], load[bad])
@@ -235,6 +259,25 @@ def _followed(bearing: Bearing, S: Array, load: Array) -> tuple[Array, Array]:
     if not good.all():
         raise RuntimeError("no equilibrium of the journal found")
     return start
+
+
+def _beginning(bearing: Bearing, S: Array, load: Array) -> tuple[Array, Array]:
+    """Return positions and flows near the equilibria, under one load from those that are known."""
+    path = _path(bearing, float(load[0])) if load.size and np.all(load == load[0]) else None
+    if path is None:
+        return _start(bearing, S, load)
+    found = path(np.log(np.clip(S / bearing.turning, _KNOTS[0], _KNOTS[-1])))
+    return found[:, :2], found[:, 2:]
+
+
+@functools.lru_cache(maxsize=64)
+def _path(bearing: Bearing, load: float) -> CubicSpline | None:
+    """Return positions and flows under a load over ln of `_KNOTS`; None where some are missed."""
+    S, W = bearing.turning * _KNOTS, np.full(len(_KNOTS), load)
+    place, y, good = _settled(bearing, S, W, _start(bearing, S, W))
+    if not good.all():
+        return None
+    return CubicSpline(np.log(_KNOTS), np.concatenate([place, y], axis=1))
 
 
 def _start(bearing: Bearing, S: Array, load: Array) -> tuple[Array, Array]:

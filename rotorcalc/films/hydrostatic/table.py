@@ -27,7 +27,7 @@ THINNEST, _OUTERMOST = 0.03, 0.02
 # Each position is solved on a mesh and on one twice as fine, which their difference corrects.
 FINE, COARSE, _FINER = Cells(8, 6, 4, 4), Cells(4, 3, 2, 2), Cells(16, 12, 8, 8)
 # Rings, and the size at which a harmonic is left out of a ring.
-_RINGS, _COARSE_RINGS, _LEFT_OUT = 13, 8, 1e-6
+_RINGS, _COARSE_RINGS, _LEFT_OUT = 11, 8, 1e-5
 # The grid: steps in u, and directions.
 _STEPS, _DIRECTIONS = 32, 128
 _TURN = 2.0 * math.pi
@@ -265,15 +265,16 @@ def _filled(u: Array, harmonics: ComplexArray) -> Array:
 
 def _interpolated(grid: Array, u: Array, gamma: Array) -> tuple[Array, Array, Array]:
     """Return r, ∂r/∂u and ∂r/∂γ at places, (P, F) each."""
-    du, dg = _TOP / _STEPS, 2.0 * np.pi / _DIRECTIONS
-    a, b = u / du, np.mod(gamma, 2.0 * np.pi) / dg
+    du, dg = _TOP / _STEPS, _TURN / _DIRECTIONS
+    a, b = u / du, np.mod(gamma, _TURN) / dg
     i, j = np.minimum(a.astype(int), _STEPS - 1), np.floor(b).astype(int)
     value_u, slope_u = _hermite(a - i, du)
     value_g, slope_g = _hermite(b - j, dg)
-    corners = np.stack([
-        grid[i + low, (j + right) % _DIRECTIONS] for low in (0, 1) for right in (0, 1)
-    ], axis=1)  # fmt: skip
-    corners = corners.reshape(len(u), 16, grid.shape[-1])
+    node = i * _DIRECTIONS + j % _DIRECTIONS
+    beside = i * _DIRECTIONS + (j + 1) % _DIRECTIONS
+    nodes = np.stack([node, beside, node + _DIRECTIONS, beside + _DIRECTIONS], axis=-1)
+    functions = grid.shape[-1]
+    corners = grid.reshape(-1, 4 * functions).take(nodes, axis=0).reshape(-1, 16, functions)
     pairs = ((value_u, value_g), (slope_u, value_g), (value_u, slope_g))
     weights = np.stack([_product(one, other) for one, other in pairs], axis=1)
     found = weights @ corners
@@ -282,12 +283,14 @@ def _interpolated(grid: Array, u: Array, gamma: Array) -> tuple[Array, Array, Ar
 
 def _hermite(t: Array, step: float) -> tuple[Array, Array]:
     """Return the weights of value and slope at either end, (P, 2, 2), for a value and a slope."""
-    s = 1.0 - t
-    value = np.stack([s * s * (1.0 + 2.0 * t), step * t * s * s,
-                      t * t * (1.0 + 2.0 * s), -step * s * t * t], axis=-1)  # fmt: skip
-    slope = np.stack([-6.0 * t * s / step, s * (1.0 - 3.0 * t),
-                      6.0 * t * s / step, t * (1.0 - 3.0 * s)], axis=-1)  # fmt: skip
-    return value.reshape(-1, 2, 2), slope.reshape(-1, 2, 2)
+    s, both = 1.0 - t, np.empty((2, len(t), 2, 2))
+    value, slope = both
+    value[:, 0, 0], value[:, 0, 1] = s * s * (1.0 + 2.0 * t), step * t * s * s
+    value[:, 1, 0], value[:, 1, 1] = t * t * (1.0 + 2.0 * s), -step * s * t * t
+    slope[:, 1, 0] = 6.0 * t * s / step
+    slope[:, 0, 0] = -slope[:, 1, 0]
+    slope[:, 0, 1], slope[:, 1, 1] = s * (1.0 - 3.0 * t), t * (1.0 - 3.0 * s)
+    return value, slope
 
 
 def _ends(t: float, step: float) -> tuple[float, float, float, float]:
@@ -298,4 +301,4 @@ def _ends(t: float, step: float) -> tuple[float, float, float, float]:
 
 def _product(by_u: Array, by_g: Array) -> Array:
     """Return weights of both directions: by ends in u and γ, then by derivatives in γ and u."""
-    return np.einsum("pam,pbn->pabnm", by_u, by_g).reshape(len(by_u), 16)
+    return (by_u[:, :, None, None, :] * by_g[:, None, :, :, None]).reshape(-1, 16)
