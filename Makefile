@@ -21,7 +21,7 @@ run: $(RUNTIME)
 
 # With the tools: a page of the documentation is made and looked at in a browser.
 test: $(TOOLS)
-	$(VENV) -m pytest -n auto --dist worksteal
+	$(VENV) -m pytest -n auto
 
 lint: $(TOOLS)
 	$(VENV) -m ruff check

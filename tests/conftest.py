@@ -5,6 +5,8 @@ import os
 import pytest
 from hypothesis import settings
 
+from tests import distribution
+
 # Before NumPy is imported: tests run side by side, and its threads would only get in their way.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
@@ -20,3 +22,17 @@ def pytest_xdist_auto_num_workers() -> int:
     """Run one test more at once than there are cores: half of a test's time it waits for a page."""
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     return (cores or 1) + 1
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: object) -> distribution.ByFile:
+    """Keep the tests of a file together, whose servers and tables are then made once."""
+    config.option.loadscopereorder = False
+    return distribution.ByFile(config, log)
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Put long files first."""
+    turns = distribution.turns([item.nodeid for item in items])
+    items[:] = [items[i] for i in sorted(range(len(items)), key=turns.__getitem__)]
