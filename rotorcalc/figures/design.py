@@ -92,7 +92,9 @@ def tornado(
         return [f"{_effect(value, unit.name)}{_percent(value, onset)}" for value in changes]
 
     rows = [names[one.field] for one in inputs]
-    none = style.note("no input moves the onset", 0.5, 0.5)
+    none = style.note(
+        "no input moves the onset" if math.isfinite(onset) else "no input gives an onset", 0.5, 0.5
+    )
     chart = style.chart(
         [
             # The bar of an infinite change ends with the axis.
@@ -102,7 +104,7 @@ def tornado(
                 (more, "10 % more", _MORE),
             )
         ],
-        near(style.axis(title, -reach, reach)),
+        near(style.axis(title, -reach, reach, showgrid=bool(inputs))),  # no line through words
         style.axis(
             "", -0.6, max(len(inputs), 1) - 0.4, tickvals=places, ticktext=rows, showgrid=False,
             tickfont={"size": 13},
@@ -111,7 +113,7 @@ def tornado(
         height=130 + 30 * max(len(inputs), 4),
         legend=LEGEND,
         margin={"l": 64, "r": 28, "t": 28, "b": 84},
-        shapes=[_zero()],
+        shapes=[_zero()] if inputs else [],
         annotations=[
             note
             for place, low, high in zip(places, less, more, strict=True)

@@ -119,6 +119,7 @@ def test_each_student_has_other_numbers_and_the_same_ones_again() -> None:
     for exercise in EXERCISES:
         texts = [of_student(exercise, seed)[0] for seed in range(1, 9)]
         assert len(set(texts)) > 2, exercise.title
+        assert "the sheet" not in texts[0]  # a student has no other than this one
         assert of_student(exercise, 3)[0] == texts[2]
 
 

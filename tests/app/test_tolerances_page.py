@@ -72,7 +72,7 @@ def test_quantiles_are_of_all_machines_those_without_an_onset_too() -> None:
     found = rc.tolerance(SHEET, USUAL, 20, 7, speed=8700 * RPM)
     onset = np.where(np.arange(20) < 7, RPM * (1001.0 + np.arange(20)), math.inf)
     words = said(replace(found, onset=onset), SI)
-    assert "Onset: median no limit; 5 % quantile 1001 rpm, 95 % quantile no limit." in words
+    assert "Onset: median not found; 5 % quantile 1001 rpm, 95 % quantile not found." in words
     assert words.endswith("For 13 of them no onset was found.")
     assert "quantile" not in said(replace(found, onset=np.full(20, math.inf)), SI)
     # One without an answer is left out, as the command line does.

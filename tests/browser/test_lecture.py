@@ -30,6 +30,32 @@ def test_a_clicker_leads_on_after_a_slider_was_dragged(app: AppPage) -> None:
     expect(heading).to_have_text("3 · Why it moves sideways")
 
 
+def test_a_faulty_formula_of_a_lecturers_own_file_is_said_to_be_faulty(app: AppPage) -> None:
+    app.open("Lecture")
+    steps = r"""
+[[step]]
+title = "One step"
+say = 'Here $\foo^2$ and $\frac{a}{b$.'
+view = "locus"
+question = "Which?"
+answer = "Both."
+"""
+    app.page.get_by_role("button", name="Steps from a file", exact=True).click()
+    own = {"name": "own.toml", "mimeType": "text/plain", "buffer": steps.encode()}
+    with app.run():
+        app.page.get_by_test_id("stFileUploaderDropzoneInput").set_input_files(own)
+    said = app.page.locator(".st-key-lecture_say")
+    expect(said.locator(".katex-error")).to_be_visible()
+    words = said.evaluate(
+        """said => [...said.querySelectorAll('*')]
+          .map(one => getComputedStyle(one, '::after').content)
+          .filter(content => content.includes('('))"""
+    )
+    assert len(words) == 2
+    assert "unknown command" in words[0]
+    assert "this formula is faulty. ParseError" in words[1]
+
+
 def test_a_sheet_has_the_students_own_number(app: AppPage) -> None:
     app.open("Exercises", exercise="3", seed="4711")
     with app.page.expect_download() as came:

@@ -318,6 +318,30 @@ def test_the_tornado_leaves_out_what_moves_nothing() -> None:
     assert row.startswith("Load per bearing")
 
 
+def test_where_no_input_moves_the_onset_no_line_crosses_the_words() -> None:
+    none = design.Sensitivities(math.inf, ())
+    chart = what_if.tornado(none, {}, 600.0, SI)
+    assert notes(chart) == ["no input gives an onset"]
+    assert not chart["layout"]["shapes"]
+    assert not chart["layout"]["xaxis"]["showgrid"]
+    assert notes(what_if.tornado(replace(none, onset=900.0), {}, 600.0, SI)) == [
+        "no input moves the onset"
+    ]
+
+
+def test_where_an_onset_was_not_found_no_infinity_is_said(monkeypatch) -> None:
+    computed, onset = computed_from(SHEET), np.array([2.0, math.inf]) * 1000 * rpm
+    found = design.OnsetSolution("C", 600.0, np.empty(0), np.array([1e-5, 1e-4]), onset)
+    monkeypatch.setattr(remedies, "solution", lambda *_: found)
+    said = remedies.answer(computed, "C", _wanted(computed), SI)
+    assert said.endswith("the onset stays above 2000 rpm.")
+    found = replace(found, solutions=np.array([5e-5]))
+    nowhere = replace(computed.onset, speed=math.inf)
+    monkeypatch.setattr(Computed, "onset", property(lambda _: nowhere))
+    said = remedies.answer(computed, "C", _wanted(computed), SI)
+    assert said.endswith("**50 µm** gives it; now it is 60 µm, and no onset was found.")
+
+
 def _wanted(computed: Computed, margin: float = 20.0) -> remedies.Wanted:
     return remedies.Wanted("above the running speed", margin)
 

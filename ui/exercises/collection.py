@@ -157,14 +157,14 @@ _FILM = (
 EXERCISES: tuple[Exercise, ...] = (
     Exercise(
         "Ellipse of the journal",
-        _ORBIT.replace("{where}", "journal of the rotor of the sheet, with a stiff shaft,"),
+        _ORBIT.replace("{where}", "journal of a rotor with a stiff shaft"),
         _sheet(3000, 8000), _axes("journal_response"),
         "Compare X and Y with the sum of two circles that turn in opposite directions.",
         "pages/5_Response.py", _ELLIPSE, preset="sheet-1e8", known=_phasors("journal_response"),
     ),
     Exercise(
         "Ellipse of the disk",
-        _ORBIT.replace("{where}", "disk of the rotor of the sheet, with a flexible shaft,"),
+        _ORBIT.replace("{where}", "disk of a rotor with a flexible shaft"),
         _sheet(2000, 4500), _axes("disk_response"),
         "As for the journal; an orbit whose semi-axes are alike is almost a circle.",
         "pages/5_Response.py", _ELLIPSE, preset="sheet-1e7", known=_phasors("disk_response"),
@@ -259,9 +259,9 @@ EXERCISES: tuple[Exercise, ...] = (
     ),
     Exercise(
         "What the spectrum shows",
-        "The rotor of the sheet, with a stiff shaft and a clearance of {C} µm, begins to whirl at "
-        "{onset} rpm, with a whirl ratio of {ratio}. At what frequency does its spectrum have the "
-        "line of the whirl?",
+        "A rotor whose bearings have the radial clearance {C} µm begins to whirl at "
+        "{onset} rpm, with a whirl ratio of {ratio}. At what frequency does its spectrum then have "
+        "the line of the whirl?",
         lambda dice: {"C": dice.choice((50.0, 60.0, 75.0, 90.0, 110.0))},
         (Ask("Frequency", "Hz", lambda c: c.onset.whirl_frequency / (2 * math.pi)),),
         "A spectrum counts turns a second.", "pages/3_Stability.py",

@@ -18,6 +18,8 @@ const STYLE = `
 .live-view:fullscreen {padding: 1rem 1.5rem;}
 .live-view:fullscreen .live-chart {height: calc(100vh - 2rem) !important;}
 .live-view .modebar {right: 2rem !important;}
+/* On a phone it would lie over the legend: a double tap ends a zoom, and the full screen has it. */
+@media (max-width: 640px) {.live-view:not(:fullscreen) .modebar {display: none;}}
 .live-view :is(.annotation-text, .textpoint text) {paint-order: stroke; stroke: var(--st-background-color); stroke-width: 4px;
   stroke-linejoin: round;}
 `;
@@ -227,15 +229,18 @@ function unfolded(figure, whole) {
 
 // High as the window allows: in a presentation it fills what lies below its place, but for a line of words. At a desk
 // one that begins in the upper half ends above the fold, where it keeps most of its height.
-function fitted(view, { layout: { height, yaxis } }, presenting) {
+function fitted(view, { data, layout: { height, yaxis, showlegend } }, presenting) {
   const main = view.closest('[data-testid="stMain"]');
   const top = Math.ceil(view.getBoundingClientRect().top + (main?.scrollTop ?? 0));
   const room = `100vh - ${top}px`;
   // Of words at ticks each needs its row.
   const rows = 22 * large() * (yaxis?.ticktext?.length ?? 0) + 150;
+  // So does each name of a legend on a phone, below or above a plot that can be read.
+  const names = showlegend === false || view.clientWidth > 480 ? 0 : data.filter((trace) => trace.showlegend !== false).length;
+  const least = names > 3 ? 23 * names + 330 : 0;
   // At a lecture's desk too.
   if (presenting || view.closest(".st-key-lecture_view"))
-    return `max(var(--chart-least, max(340px, ${rows}px)), ${room} - var(--below-chart, 2.4rem))`;
+    return `max(${least}px, var(--chart-least, max(340px, ${rows}px)), ${room} - var(--below-chart, 2.4rem))`;
   const usual = `clamp(${0.8 * height}px, calc((100vh - 306px) * ${height / 600}), ${1.5 * height}px)`;
   return top > innerHeight / 2 ? usual : `min(${usual}, max(${0.7 * height}px, ${room} - 0.5rem))`;
 }

@@ -135,10 +135,12 @@ def answer(computed: Computed, key: str, wanted: Wanted, units: Units) -> str:
         return f"{begin}With no {axis.words.lower()} between {ends} does this machine whirl."
     if low == high:
         return f"{begin}{axis.words} does not affect the onset of this machine."
-    reached = f"{digits(low)} {units.speed.name} and {_speed_word(high, units)}"
+    stays = f"above {digits(low)} {units.speed.name}"
+    if math.isfinite(high):
+        stays = f"between {digits(low)} and {digits(high)} {units.speed.name}"
     return (
         f"{begin}No value of the {axis.words.lower()} between {ends} gives it: the onset stays "
-        f"between {reached}."
+        f"{stays}."
     )
 
 
@@ -152,11 +154,13 @@ def _met(
             f"{axis.words} {values} gives it; now it is {today}, and the machine whirls at any "
             "speed."
         )
+    if math.isinf(onset):
+        return f"{axis.words} {values} gives it; now it is {today}, and no onset was found."
     if math.isclose(onset, found.target, rel_tol=1e-6):
         return f"The onset is there already; {axis.words.lower()} {values} gives it."
     if onset > found.target:
         return (
-            f"The onset is higher already, {_speed_word(float(units.speed.of(onset)), units)}: "
+            f"The onset is higher already, {amount(units.speed, onset)}: "
             f"{axis.words.lower()} {values} would lower it to this; now it is {today}."
         )
     return (
@@ -205,7 +209,3 @@ def kept_value(machine: Machine, key: str, value: float) -> float:
 
 def _now(axis: Quantity, value: float) -> str:
     return "infinite" if math.isinf(value) else axis.text(value)
-
-
-def _speed_word(speed: float, units: Units) -> str:
-    return "infinity" if math.isinf(speed) else f"{digits(speed)} {units.speed.name}"

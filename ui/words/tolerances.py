@@ -234,7 +234,7 @@ def _onsets(found: Tolerance, units: Units) -> str:
     if without == known.size:
         return words
     low, middle, high = (
-        amount(units.speed, speed) if math.isfinite(speed) else "no limit"
+        amount(units.speed, speed) if math.isfinite(speed) else "not found"
         for speed in np.quantile(known, (0.05, 0.5, 0.95), method="inverted_cdf")
     )
     return f"Onset: median {middle}; 5 % quantile {low}, 95 % quantile {high}. {words}".rstrip()
