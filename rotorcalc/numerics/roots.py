@@ -1,17 +1,24 @@
 """Roots of functions that cost little more at a dozen points than at one."""
 
 from collections.abc import Callable
+from typing import cast
 
 import numpy as np
 from numpy.polynomial import chebyshev
 from scipy.optimize import brentq
 
-from rotorcalc.arrays import Array
+from rotorcalc.arrays import Array, IntArray
 
 # Chebyshev points: as many as a smooth function needs over an interval of a few per cent.
 _POINTS = 18
 _NODES = chebyshev.chebpts1(_POINTS)
 _TO_COEFFICIENTS = np.linalg.inv(chebyshev.chebvander(_NODES, _POINTS - 1))
+# Both ends and the nodes; series and their slopes there.
+_PLACES = np.array([-1.0, *_NODES, 1.0])
+_AT_PLACES = cast("Array", chebyshev.chebvander(_PLACES, _POINTS - 1))
+_SLOPES = cast("Array", chebyshev.chebder(np.eye(_POINTS)).T)
+# Newton's steps at most to the roots of many series, and the length of the last.
+_STEPS, _LAST = 8, 1e-15
 # Last coefficients over the largest, below which a series equals the function up to rounding.
 _NOTHING = 1e-13
 # Intervals at most in which a series is tried, each within the one before.
@@ -89,6 +96,55 @@ def narrow_root(
             raise
         hidden = "rounding errors hide where its sign changes"
         raise HiddenRootError(f"between {low:g} and {high:g}: {hidden}") from error
+
+
+def narrow_roots(
+    values: Callable[[Array], Array], low: Array, high: Array, *, noise: float = _NOTHING
+) -> Array:
+    """Return the points of narrow intervals at which functions change sign.
+
+    Parameters
+    ----------
+    values : callable
+        The functions: values (m, n) of all at points (m, n).
+    low, high : array, (m,)
+        The intervals' ends.
+    noise : float
+        As in `narrow_root`.
+
+    Returns
+    -------
+    array, (m,)
+        The roots, as `narrow_root` gives them; NaN where a function is not equal to its series, or
+        its sign does not change once.
+    """
+    middle, half = 0.5 * (low + high), 0.5 * (high - low)
+    series = values(middle[:, None] + half[:, None] * _NODES) @ _TO_COEFFICIENTS.T
+    is_equal = np.all(
+        np.abs(series[:, -2:]) <= noise * np.abs(series).max(axis=1, keepdims=True), axis=1
+    )
+    is_above = series @ _AT_PLACES.T > 0.0
+    changes = is_above[:, 1:] != is_above[:, :-1]
+    known = is_equal & (np.count_nonzero(changes, axis=1) == 1)
+    places = np.full(len(series), np.nan)
+    places[known] = _roots_of_series(series[known], changes[known].argmax(axis=1))
+    return middle + half * places
+
+
+def _roots_of_series(series: Array, place: IntArray) -> Array:
+    """Return the roots of series between one of `_PLACES` and the next; NaN without one."""
+    slopes = series @ _SLOPES
+    low, high = _PLACES[place], _PLACES[place + 1]
+    below, above = (np.sum(series * _AT_PLACES[place + j], axis=1) for j in (0, 1))
+    x = low - below * (high - low) / (above - below)
+    step = np.full(len(x), np.inf)
+    for _ in range(_STEPS):
+        terms = cast("Array", chebyshev.chebvander(x, _POINTS - 1))
+        step = np.sum(series * terms, axis=1) / np.sum(slopes * terms[:, :-1], axis=1)
+        x = np.clip(x - step, low, high)
+        if np.all(np.abs(step) <= _LAST):
+            break
+    return np.where(np.abs(step) <= 1e3 * _LAST, x, np.nan)
 
 
 def _at_a_jump(values: Callable[[Array], Array], beside: Array) -> float:

@@ -6,7 +6,7 @@ alone, not on the bearing's dimensions.
 """
 
 import math
-from collections.abc import Hashable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,9 +19,10 @@ from rotorcalc.arrays import Array, BoolArray, IntArray
 from rotorcalc.films import FilmUnits, film_coefficients, film_of
 from rotorcalc.machine import Bearing, Machine
 from rotorcalc.numerics import routh
+from rotorcalc.numerics.roots import narrow_roots
 from rotorcalc.onset import onset_speed
 from rotorcalc.onset.closed_form import closed_onsets, covers
-from rotorcalc.onset.search import search_range
+from rotorcalc.onset.search import BLOCK, NOISE, nearer_the_top, search_range
 
 # Number of machines from which solving them together is faster than one by one.
 _FLEET = 4
@@ -130,6 +131,10 @@ class _Fleet:
         K = k * (self.damping[which, None] * speed)[..., None, None]
         return modes.film_terms(K, C) @ self.rotor_terms[which]
 
+    def doubt(self, speed: Array, which: IntArray) -> Array:
+        """Return their largest margins within rounding, (m, p): negative where surely stable."""
+        return routh.margin_bounds(self.polynomials(speed, which))[1]
+
 
 def _fleet(machines: Sequence[Machine], rotor_terms: Array) -> _Fleet:
     units = [FilmUnits(one.bearing, one.viscosity, 1.0) for one in machines]
@@ -150,11 +155,11 @@ def _sure_onsets(machines: Sequence[Machine], rotor_terms: Array) -> Array:
     points = int(lengths.max())
     speeds: Array = first[:, None] * ratio[:, None] ** np.arange(points, dtype=float)
     fleet = _fleet(machines, rotor_terms)
-    doubt = routh.margin_bounds(fleet.polynomials(speeds, np.arange(len(machines))))[1]
+    doubt = _doubt(fleet, speeds)
     in_doubt = doubt > 0.0
     end: IntArray = np.where(np.any(in_doubt, axis=1), np.argmax(in_doubt, axis=1), points)
     # No uncertain point: no onset. The first point uncertain: no bracket, left to the search.
-    smooth = ~_has_hump(doubt)
+    smooth = ~_has_hump(fleet.doubt, speeds, doubt)
     onsets = np.where(smooth & (end == points), np.inf, np.nan)
     which = np.flatnonzero(smooth & (end > 0) & (end < points))
     if which.size:
@@ -163,15 +168,70 @@ def _sure_onsets(machines: Sequence[Machine], rotor_terms: Array) -> Array:
     return onsets
 
 
-def _has_hump(doubt: Array) -> BoolArray:
-    """Return whether a hump may lie between two points before the first uncertain one, (m,)."""
-    is_peak = (doubt[:, :-2] < doubt[:, 1:-1]) & (doubt[:, 1:-1] >= doubt[:, 2:])
-    before = np.cumsum(doubt > 0.0, axis=1) == 0
-    return np.any(is_peak & before[:, 1:-1], axis=1)
+def _doubt(fleet: _Fleet, speeds: Array) -> Array:
+    """Return `_Fleet.doubt` at speeds (m, p), in each row to the block of the first above zero.
+
+    Further on, where no machine's onset can be, it is infinite.
+    """
+    doubt = np.full(speeds.shape, np.inf)
+    left = np.arange(len(speeds))
+    for begin in range(0, speeds.shape[1], BLOCK):
+        block = slice(begin, begin + BLOCK)
+        doubt[left, block] = fleet.doubt(speeds[left, block], left)
+        left = left[np.all(doubt[left, block] <= 0.0, axis=1)]
+        if not left.size:
+            break
+    return doubt
+
+
+def _has_hump(values: Callable[[Array, IntArray], Array], speeds: Array, found: Array) -> BoolArray:
+    """Return whether a row turns positive between two speeds before the first where it is, (m,).
+
+    `values` are those of rows (n,) at speeds (n, p), `found` all of them at the speeds (m, p).
+    """
+    which, place = _peaks(found)
+    between = np.stack([speeds[which, place + j] for j in range(-1, 2)], axis=-1)
+    is_above = np.zeros(len(found), dtype=bool)
+    while which.size:
+        rows = which
+
+        def flat(on: Array, rows: IntArray = rows) -> Array:
+            return values(on.reshape(len(rows), -1), rows).ravel()
+
+        between, highest, is_certain = nearer_the_top(flat, between)
+        is_above[which[highest > 0.0]] = True
+        in_doubt = ~is_certain & ~is_above[which]
+        which, between = which[in_doubt], between[in_doubt]
+    return is_above
+
+
+def _peaks(found: Array) -> tuple[IntArray, IntArray]:
+    """Return rows and places of the local maxima before a row's first value above zero."""
+    is_peak = (found[:, :-2] < found[:, 1:-1]) & (found[:, 1:-1] >= found[:, 2:])
+    before = np.cumsum(found > 0.0, axis=1) == 0
+    which, place = np.nonzero(is_peak & before[:, 1:-1])
+    return which, place + 1
 
 
 def _crossings(fleet: _Fleet, which: IntArray, low: Array, high: Array) -> Array:
     """Return the onsets between speeds, (k,), NaN where rounding leaves them uncertain."""
+    roots = narrow_roots(
+        lambda speed: routh.determinant(fleet.polynomials(speed, which)), low, high, noise=NOISE
+    )
+    rough = np.isnan(roots)
+    if rough.any():  # as where the film's table has a kink
+        roots[rough] = _bracketed(fleet, which[rough], low[rough], high[rough])
+    is_found = ~np.isnan(roots)
+    around = np.where(is_found, roots, low)[:, None] * np.array([1.0 - _SURE, 1.0 + _SURE])
+    below_above = fleet.polynomials(around, which)
+    sharp = (routh.margin_bounds(below_above[:, 0])[1] < 0.0) & routh.surely_crossed(
+        below_above[:, 1]
+    )
+    return np.where(sharp & is_found, roots, np.nan)
+
+
+def _bracketed(fleet: _Fleet, which: IntArray, low: Array, high: Array) -> Array:
+    """Return the determinants' zeros between speeds, (k,), NaN where the search does not end."""
 
     def determinant(speed: Array, which: Array) -> Array:
         polynomials = fleet.polynomials(speed[:, None], which.astype(int))
@@ -179,10 +239,4 @@ def _crossings(fleet: _Fleet, which: IntArray, low: Array, high: Array) -> Array
 
     # The stubs lack what find_root returns for arrays of arguments.
     found: Any = elementwise.find_root(determinant, (low, high), args=(which,), tolerances=_ROOT)
-    around = found.x[:, None] * np.array([1.0 - _SURE, 1.0 + _SURE])
-    around = np.where(found.success[:, None], around, low[:, None])
-    below_above = fleet.polynomials(around, which)
-    sharp = (routh.margin_bounds(below_above[:, 0])[1] < 0.0) & routh.surely_crossed(
-        below_above[:, 1]
-    )
-    return np.where(sharp, found.x, np.nan)
+    return np.where(found.success, found.x, np.nan)

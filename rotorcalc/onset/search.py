@@ -9,6 +9,7 @@ import functools
 import math
 from collections.abc import Callable, Hashable, Iterator
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial.polynomial import polyval
@@ -18,7 +19,7 @@ from rotorcalc import heat, modes
 from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.coefficient_table import CoefficientTable
 from rotorcalc.coefficients import equilibrium, modified_sommerfeld, stiffness_and_damping
-from rotorcalc.films import film_coefficients, film_of, film_state, turning_bounds
+from rotorcalc.films import FilmUnits, film_coefficients, film_of, film_state, turning_bounds
 from rotorcalc.films.model import BoundedFilm
 from rotorcalc.machine import HOTTEST, Bearing, Machine
 from rotorcalc.numerics import routh
@@ -30,7 +31,7 @@ from rotorcalc.onset.whirl import Method, Onset, whirl_onset
 # Speeds per decade of the scan before the search refines, and σ of the scan for the film's whirl.
 _POINTS_PER_DECADE, _SIGMAS = 30, 200
 # Speeds evaluated at once, in floats and in sixty digits; the scan ends with the block it needs.
-_BLOCK, _EXACT_BLOCK = 64, 4
+BLOCK, _EXACT_BLOCK = 64, 4
 # Whirl ratio assumed with inner coordinates, where synchronous coefficients do not tell of whirl.
 _HALF = 0.5
 # Factor on the range of the search for inner coordinates: no bound is known for the modes of the
@@ -44,7 +45,7 @@ _SURE = 1e-9
 # hardly any stiffness, and closer to there the error of the film's table would decide.
 _ON_A_HUMP, _ONE_SPEED = 8, 1e-3
 # Rounding of Hurwitz's determinant, over its largest value between two speeds of the search.
-_NOISE = 1e-11
+NOISE = 1e-11
 # What counts as stable: a machine is not run where its film has no answer.
 _NO_FILM = -1.0
 # Newton's steps from an accurate first guess, and the distance from the axis at convergence.
@@ -213,7 +214,7 @@ def _in_floats(
     if routh.margin_bounds(decays)[1] > 0.0 or not routh.surely_crossed(grows):
         return None
     low, high = sorted((stable, unstable))
-    root = narrow_root(lambda speed: routh.determinant(polynomials(speed)), low, high, noise=_NOISE)
+    root = narrow_root(lambda speed: routh.determinant(polynomials(speed)), low, high, noise=NOISE)
     aside = math.copysign(_SURE, unstable - stable)
     # The root counts only where the polynomial is provably stable before it and unstable after it.
     around = np.clip(root * np.array([1.0 - aside, 1.0, 1.0 + aside]), low, high)
@@ -255,7 +256,7 @@ def _in_many_digits(exact: ExactPolynomial, stable: float, unstable: float) -> t
 
 
 def first_crossing(
-    values: Callable[[Array], Array], speeds: Array, block: int = _BLOCK
+    values: Callable[[Array], Array], speeds: Array, block: int = BLOCK
 ) -> tuple[float, float] | None:
     """Return speeds between which a function first turns positive, or None where it never does.
 
@@ -286,7 +287,7 @@ def humps(
     below, top = speeds[places], np.full(len(places), np.nan)
     between, left = np.stack([speeds[places + j] for j in range(3)], axis=-1), np.arange(len(top))
     while left.size:
-        between, highest, is_certain = _nearer_the_top(values, between)
+        between, highest, is_certain = nearer_the_top(values, between)
         above = highest > 0.0
         top[left[above]] = between[above, 1]
         in_doubt = ~above & ~is_certain
@@ -296,14 +297,28 @@ def humps(
             yield low, high
 
 
-def _nearer_the_top(
+def nearer_the_top(
     values: Callable[[Array], Array], between: Array
 ) -> tuple[Array, Array, BoolArray]:
-    """Return closer places below, near and above the tops of humps, from such places (n, 3).
+    """Return closer places below, near and above the tops of humps.
 
-    And the highest values (n,), and whether no higher ones can be above zero: a hump bends down, so
-    its top is no further above the highest of equally distant places than a neighbour is below. At
-    a jump that does not tell, and the places come closer until they are one.
+    Parameters
+    ----------
+    values : callable
+        The function: values (k,) at places (k,), those of the first hump first.
+    between : array, (n, 3)
+        Such places.
+
+    Returns
+    -------
+    between : array, (n, 3)
+        The closer ones.
+    highest : array, (n,)
+        The highest values.
+    is_certain : boolean array, (n,)
+        Whether no higher one can be above zero: a hump bends down, so its top is no further above
+        the highest of equally distant places than a neighbour is below. At a jump that does not
+        tell, and the places come closer until they are one.
     """
     below, above = (
         np.linspace(between[:, j], between[:, j + 1], _ON_A_HUMP + 1, axis=-1) for j in (0, 1)
@@ -446,18 +461,55 @@ def _highest_onset(machine: Machine, centred: float, flexible: bool) -> float:
     journal's between shaft and film. The film drives the whirl at the whirl ratio, and the speed
     must exceed that by the share of the midspan damping that acts on the journal.
     """
-    stiffness, damping = stiffness_and_damping(machine, centred)
-    film, rotor = whirl_onset(stiffness, damping * centred), machine.rotor
-    C, C_s, m = float(np.trace(damping)) / 2.0, rotor.disk_damping, rotor.disk_mass
-    squares = [max(float(film.equivalent_stiffness), 0.0) / rotor.half_mass]
+    film, rotor = _synchronous(machine, centred), machine.rotor
+    C, C_s, m = film.damping / 2.0, rotor.disk_damping, rotor.disk_mass
+    squares = [max(film.equivalent, 0.0) / rotor.half_mass]
     taken = C_s
     if flexible and not rotor.is_rigid and C_s > 0.0:
         k = rotor.shaft_stiffness
         squares.append(2.0 * k / m)
         if rotor.journal_mass > 0.0:
-            squares.append((float(np.trace(stiffness)) + 2.0 * k) / rotor.journal_mass)
+            squares.append((film.stiffness + 2.0 * k) / rotor.journal_mass)
         # Maximum of k²C_s/|k + z|² over frequency; a light damper's resonance is cut off, as it
         # suppresses no whirl.
         taken = C_s if C_s**2 >= 2.0 * k * m else min(2.0 * k * m / C_s, 1e6 * C)
-    ratio = (0.0 if film_of(machine.bearing).inner else float(film.whirl_ratio)) or _HALF
+    ratio = (0.0 if film_of(machine.bearing).inner else film.whirl_ratio) or _HALF
     return math.sqrt(max(squares)) * (1.0 + taken / C) / ratio
+
+
+class _Synchronous(NamedTuple):
+    """Traces of K and C of a film in synchronous motion, its K_eq, and its whirl ratio."""
+
+    stiffness: float
+    damping: float
+    equivalent: float
+    whirl_ratio: float
+
+
+def _synchronous(machine: Machine, speed: float) -> _Synchronous:
+    film = film_of(machine.bearing)
+    if film.frequency_dependent or film.curve is None:
+        K, C = stiffness_and_damping(machine, speed)
+        return _of_matrices(K, C * speed, 1.0 / speed)
+    sigma = float(modified_sommerfeld(machine, speed))
+    # Machines on one curve ask for its end, which rounding would make another for each.
+    k, c, equivalent, ratio = _on_curve(_Curve(film.curve, machine.bearing), float(f"{sigma:.9g}"))
+    units = FilmUnits(machine.bearing, machine.viscosity, speed)
+    stiffness, damping = float(units.stiffness), float(units.damping)
+    return _Synchronous(k * stiffness, c * damping, equivalent * stiffness, ratio)
+
+
+@functools.lru_cache(maxsize=256)
+def _on_curve(curve: _Curve, sigma: float) -> _Synchronous:
+    """Return those of a film at a σ in film units."""
+    k, c = film_coefficients(curve.bearing, sigma)
+    return _of_matrices(k, c, 1.0)
+
+
+def _of_matrices(K: Array, C: Array, unit: float) -> _Synchronous:
+    """Return those of K and C of the same unit, and what the latter's has to be multiplied by."""
+    film = whirl_onset(K, C)
+    return _Synchronous(
+        float(np.trace(K)), float(np.trace(C)) * unit, float(film.equivalent_stiffness),
+        float(film.whirl_ratio),
+    )  # fmt: skip

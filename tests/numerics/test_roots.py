@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from rotorcalc.numerics.roots import HiddenRootError, narrow_root
+from rotorcalc.numerics.roots import HiddenRootError, narrow_root, narrow_roots
 
 
 @pytest.mark.parametrize(
@@ -90,3 +90,19 @@ def test_an_error_of_the_function_itself_is_told_as_it_is() -> None:
 
     with pytest.raises(ValueError, match="no film"):
         narrow_root(values, 0.985, 1.05)
+
+
+def test_many_functions_roots_are_found_to_rounding_in_one_call() -> None:
+    """Of powers, xⁿ = 1.3; the first has no root there, the last a kink."""
+    power, looks = np.array([[9.0], [1.0], [-2.0], [3.5], [0.4]]), []
+
+    def values(x):
+        looks.append(x.shape)
+        return np.vstack([x[:-1] ** power - 1.3, np.abs(x[-1:] - 1.1) - 0.01])
+
+    about = np.append(1.3 ** (1.0 / power[:, 0]), 1.1)
+    about[0] = 1.2
+    roots = narrow_roots(values, 0.98 * about, 1.03 * about)
+    assert roots[1:-1] == pytest.approx(about[1:-1], rel=3e-15)
+    assert np.isnan(roots[[0, -1]]).all()
+    assert looks == [(6, 18)]

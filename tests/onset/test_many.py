@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from rotorcalc import PRESETS, onset_speed
 from rotorcalc.numerics import routh
-from rotorcalc.onset.many import _has_hump, onset_speeds, sure_onsets
+from rotorcalc.onset.many import _has_hump, _peaks, onset_speeds, sure_onsets
 from tests.machines import ROTORS, SHEET, balanced, log_uniform, machines, with_rotor
 from tests.onset.test_search import rounding
 
@@ -60,22 +60,37 @@ def test_doubtful_onsets_are_left_to_the_single_search(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("doubt", "hump"),
+    ("doubt", "peaks"),
     [
-        ([-5, -4, -3, -2, 1], False),
-        ([-5, -3, -4, -2, 1], True),
-        ([-2, -3, -4, -2, 1], False),
-        ([-5, -4, -2, -3, 1], True),
-        ([-5, 1, -4, -3, -5], False),
-        ([-5, -4, -3, -2, -2], True),
+        ([-5, -4, -3, -2, 1], []),
+        ([-5, -3, -4, -2, 1], [1]),
+        ([-2, -3, -4, -2, 1], []),
+        ([-5, -4, -2, -3, 1], [2]),
+        ([-5, 1, -4, -3, -5], []),
+        ([-5, -4, -3, -2, -2], [3]),
     ],
 )
-def test_a_hump_before_the_first_uncertain_speed_is_found(doubt, hump):
-    assert list(_has_hump(np.array([doubt, [1, -3, -2, -3, 1]]))) == [hump, False]
+def test_peaks_are_those_before_the_first_uncertain_speed(doubt, peaks):
+    rows, places = _peaks(np.array([doubt, [1, -3, -2, -3, 1]]))
+    assert list(places) == peaks
+    assert list(rows) == [0] * len(peaks)
 
 
-def test_a_machine_with_a_hump_is_left_to_onset_speed():
+@pytest.mark.parametrize("tops", [(-0.01, 0.01), (0.001, -0.3), (-1e-3, -1e-3), (2e-3, 1e-3)])
+def test_a_hump_between_two_speeds_is_found_in_its_row(tops):
+    """Each row rises to its top at 2.3 or 6.7, between two speeds."""
+    speeds, middle = np.tile(np.arange(1.0, 9.0), (2, 1)), np.array([2.3, 6.7])
+
+    def values(speed, rows):
+        return np.array(tops)[rows, None] - (speed - middle[rows, None]) ** 2
+
+    found = values(speeds, np.arange(2))
+    assert np.all(found < 0.0)
+    assert list(_has_hump(values, speeds, found)) == [top > 0.0 for top in tops]
+
+
+def test_a_hump_below_zero_leaves_no_doubt():
     """Midspan damping quenches its whirl, all but: the growth rises and falls below zero."""
     humped = with_rotor(disk_damping=1e5)
-    assert np.isnan(sure_onsets([humped])).all()
-    assert np.all(np.isinf(onset_speeds([humped] * 5)))
+    assert np.all(np.isinf(sure_onsets([humped] * 2)))
+    assert np.isinf(onset_speed(humped).speed)
