@@ -52,7 +52,7 @@ def level_one(page: Page, asked: criteria.Asked) -> None:
         "level_one",
         while_dragging=not_at_once if criteria.takes_long(page.computed) else None,
         alt="Log decrement of the first forward mode over the cross-coupled stiffness at midspan, "
-        "with the anticipated one, the least decrement 0.1 and where the decrement vanishes.",
+        "with the anticipated one, the required decrement 0.1 and where the decrement vanishes.",
         caption=words.STABLE,
     )
 

@@ -9,12 +9,24 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import Any
 
+import numpy as np
 from google.protobuf.message import Message
 from streamlit.testing.v1 import AppTest
 
-from rotorcalc import PRESETS
-from tests.app.session import ORBITS, PAGES, open_part, tours, visit
+from rotorcalc import PRESETS, CoefficientTable, analyse
+from rotorcalc.coefficient_table import OWN
+from tests.app.session import EXERCISES_PAGE, LECTURE, ORBITS, PAGES, open_part, tours, visit
+from ui.bearing import kinds
+from ui.exercises.collection import EXERCISES
+from ui.lecture.steps import own_steps
+from ui.lecture.views import VIEWS
+from ui.own import text_of
 
+# A bearing's own coefficients as a link has them: four speeds of the sheet's.
+_SWEEP = analyse(PRESETS["sheet-1e8"].machine, np.array([200.0, 500.0, 800.0, 1200.0]))
+_OWN = text_of(CoefficientTable(
+    speed=_SWEEP.speed, stiffness=_SWEEP.stiffness, damping=_SWEEP.damping
+))  # fmt: skip
 # Machines and links of every kind, by name.
 STATES: dict[str, dict[str, str]] = {
     "": {},
@@ -37,6 +49,14 @@ STATES: dict[str, dict[str, str]] = {
     "bad link": {"C": "-3", "mass": "1,334", "tab": "Nowhere", "what": "5"},
     "no machine": {"mj": "200"},
     "presentation": {"present": "1"},
+    "peak to peak": {"amplitude": "p-p"},
+    "oil supply": {"T_in": "45", "flow": "2", "share": "1"},
+    "hardly any oil": {"T_in": "45", "flow": "0.1", "share": "1"},
+    "foil, heavy load": {"bearing": "foil"},
+    "foil, light load": {"bearing": "foil", "load": "20", "mass": "4.08", "rpm": "30000"},
+    **{kind: {"bearing": kind} for kind in kinds() if kind not in ("plain", "foil", OWN)},
+    "own coefficients": {"bearing": OWN, "table": _OWN},
+    "no coefficients": {"bearing": OWN},
 }
 # Names of an element's fields that hold what is read, not what identifies or styles it.
 _READ = {
@@ -127,6 +147,22 @@ def _computed_on_request() -> Iterator[tuple[str, str]]:
             yield from ((f"Orbits > {tab}, computed", text) for text in texts(at))
 
 
+def staged() -> Iterator[tuple[str, str]]:
+    """Yield the texts of the lecture's steps, before and after the answer, and of the exercises."""
+    for number in range(1, len(own_steps(frozenset(VIEWS))) + 1):
+        at = visit(LECTURE, step=f"{number}")
+        yield from ((f"Lecture, step {number}", text) for text in texts(at))
+        at.button(key="lecture_show").click().run()
+        yield from ((f"Lecture, step {number}, answered", text) for text in texts(at))
+    for number in range(1, len(EXERCISES) + 1):
+        at = visit(EXERCISES_PAGE, exercise=f"{number}")
+        yield from ((f"Exercises, {number}", text) for text in texts(at))
+        for field in at.text_input:
+            field.set_value("1")
+        at.run()
+        yield from ((f"Exercises, {number}, answered", text) for text in texts(at))
+
+
 def main() -> None:
     """Print the list, page by page."""
     os.environ["ROTORCALC_LIVE"] = "off"
@@ -136,7 +172,7 @@ def main() -> None:
         for page in PAGES
         for where, text in toured(page, query)
     )
-    for where, text in once([*found, *_computed_on_request()]).values():
+    for where, text in once([*found, *staged(), *_computed_on_request()]).values():
         print(f"[{where}]\n    " + text.replace("\n", "\n    "))  # noqa: T201
 
 

@@ -115,7 +115,7 @@ INPUTS: dict[str, Input] = {
         Input(
             "cp", "oil.heat_capacity",
             "Heat capacity", "c", "heat_capacity", 500, 5000, "Oil",
-            "Heat that warms a mass of the oil by a degree.",
+            "Heat that warms a unit mass of the oil by one degree.",
         ),
         Input(
             "mu_gas", "oil.reference_viscosity",

@@ -13,6 +13,7 @@ from streamlit.testing.v1 import AppTest
 
 import rotorcalc as rc
 from rotorcalc.comparison import usual_bores
+from rotorcalc.input_sweep import InputSweep
 from rotorcalc.units import SI, US
 from rotorcalc.variation import value_of, varied
 from tests.app.session import charts, faults, session_of, tours, visit
@@ -22,7 +23,7 @@ from ui.frame.page import PAGES
 from ui.sharing.drawn import drawn_csv
 from ui.words import spreads, studies
 from ui.words.design import fields_of, quantity
-from ui.words.one_input import Varied
+from ui.words.one_input import Varied, changes
 from ui.words.tolerances import Study, quantity_of, said
 
 TOLERANCES = next(path for path, name in PAGES.items() if name == "Tolerances")
@@ -348,9 +349,26 @@ def test_a_sweep_is_the_machine_at_each_value(key: str) -> None:
         assert y[place] == pytest.approx(rc.onset_speed(one).speed / RPM, rel=1e-6, nan_ok=True)
 
 
+@pytest.mark.parametrize(
+    ("onsets", "words"),
+    [
+        ([2.0, 2.0, 0.5], "**stable** below and **unstable** above."),
+        ([0.5, 2.0, 2.0], "**unstable** below and **stable** above."),
+        ([2.0, 0.5, 2.0], "**stable** below the first change, **unstable** above it, and so on."),
+    ],
+)
+def test_on_which_side_of_each_change_a_machine_is_stable(onsets: list[float], words: str) -> None:
+    values, none = np.array([40e-6, 60e-6, 90e-6]), np.zeros(3)
+    found = InputSweep("radial_clearance", 1.0, values, np.array(onsets), none, none, none)
+    said = changes(Varied("C", quantity("C", SHEET, SI)), found)
+    assert said.endswith(words)
+    assert said.count(" and between ") == (onsets[0] == onsets[-1])
+
+
 def test_a_slow_sweep_is_computed_on_request() -> None:
     at = visit(TOLERANCES, tab="Sweep", vary="D", bearing="foil")
     assert charts(at) == {}
-    assert re.search(r"about \d+\ss", "".join(text.value for text in at.markdown))
+    said = "".join(text.value for text in at.markdown)
+    assert re.search(r"smallest film over the diameter.* about \d+\ss", said)
     assert at.button(key="tolerances_sweep")
     assert faults(at) == []

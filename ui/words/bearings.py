@@ -71,7 +71,7 @@ class Claim:
     def shown(self, one: BearingResult, units: Units) -> str:
         """Return a bearing's number with its unit, or in words."""
         value = self.value(one)
-        return amount(getattr(units, self.kind), value) if math.isfinite(value) else "none"
+        return amount(getattr(units, self.kind), value) if math.isfinite(value) else "none found"
 
 
 @dataclass(frozen=True)
@@ -103,7 +103,7 @@ _JUDGEMENTS = {
         ),
     ),
     "partial-arc": Judgement(
-        "Simple, with little friction, as much of its film is missing; it resists vibration less.",
+        "Simple, with little friction, for much of its film is missing; it resists vibration less.",
         (_LESS_POWER, _HIGHER_PEAK),
     ),
     "axial-grooves": Judgement(

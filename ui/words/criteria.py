@@ -140,7 +140,7 @@ def _badge(found: Sequence[Row]) -> str:
 def _lists(found: Sequence[Row]) -> str:
     """Return which criteria are not met, with value and limit, and which are unknown."""
     failed, unknown = (_of(found, state) for state in ("failed", "unknown"))
-    bad = "; ".join(f"{_begun(row.name)}, {row.value}, {row.limit} is asked" for row in failed)
+    bad = "; ".join(f"{_begun(row.name)}, {row.value}, must be {row.limit}" for row in failed)
     open_ = ", ".join(_begun(row.name) for row in unknown)
     return tidy((f": {bad}." if bad else ".") + (f" Unknown: {open_}." if open_ else ""))
 

@@ -46,8 +46,8 @@ def _given(computed: Computed, units: Units) -> str:
             "no oil leaves its film at the ends."
         )
     return (
-        f"The film's temperature, {T}, is given. One bearing turns **{power}** into heat: alone "
-        f"the side flow of {amount(units.flow, point.side_flow)} would warm by **{rise}**."
+        f"The film's temperature, {T}, is given. One bearing turns **{power}** into heat: the "
+        f"side flow of {amount(units.flow, point.side_flow)} alone would warm by **{rise}**."
     )
 
 

@@ -98,7 +98,9 @@ def ask(page: Page, varied: Varied) -> InputSweep | None:
         return known
     job = Job(
         "Compute", "tolerances_sweep",
-        f"Each value needs a film of its own. It takes about {math.ceil(seconds)}\u00a0s.",
+        f"The charts will show onset, margin, log decrement and smallest film over the "
+        f"{varied.axis.words.lower()}. Each value needs a film of its own: it takes about "
+        f"{math.ceil(seconds)}\u00a0s.",
     )  # fmt: skip
     return on_demand(
         page, job, ("sweep", *request),
@@ -159,7 +161,10 @@ def changes(varied: Varied, found: InputSweep) -> str:
         f"between {varied.axis.text(values[i])} and {varied.axis.text(values[i + 1])}"
         for i in flips[:2]
     )
-    return (
-        f"Stability changes {between}: the machine is **"
-        f"{'stable' if stable[0] else 'unstable'}** at the lower values."
-    )
+    more = f" and {len(flips) - 2} times more" if len(flips) > 2 else ""
+    first, then = ("stable", "unstable") if stable[0] else ("unstable", "stable")
+    rest = (
+        f"**{first}** below and **{then}** above" if len(flips) == 1
+        else f"**{first}** below the first change, **{then}** above it, and so on"
+    )  # fmt: skip
+    return f"Stability changes {between}{more}: the machine is {rest}."

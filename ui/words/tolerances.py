@@ -275,13 +275,11 @@ def matters(found: Tolerance, names: Mapping[str, str]) -> str:
         )
     first, rest = known[0], 1.0 - sum(max(one.index, 0.0) for one in known)
     share = min(max(100.0 * first.index, 0.0), 100.0)
-    together = (
-        f" Inputs acting together make {digits(float(f'{100.0 * rest:.2g}'))} %." if rest > 0.02
-        else ""
-    )  # fmt: skip
+    left = digits(float(f"{100.0 * rest:.2g}"))
+    together = f" Inputs acting together account for {left} %." if rest > 0.02 else ""
     return (
-        f"**{names[first.field]}** matters most: alone it makes {digits(float(f'{share:.2g}'))} % "
-        f"of the onset's variance.{together}"
+        f"**{names[first.field]}** matters most: alone it accounts for "
+        f"{digits(float(f'{share:.2g}'))} % of the onset's variance.{together}"
     )
 
 
