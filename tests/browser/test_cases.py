@@ -86,10 +86,11 @@ def _of_machine(app: AppPage) -> dict[str, str]:
     return {k: v for k, v in app.query().items() if k not in ("kick", "revolutions")}
 
 
-def test_undo_stays_in_sight_and_leaves_typing_alone(app: AppPage) -> None:
+def test_undo_units_and_sharing_stay_in_sight_and_undo_leaves_typing_alone(app: AppPage) -> None:
     app.open("Machine", C="70")
-    app.page.get_by_role("button", name="Units and settings").scroll_into_view_if_needed()
-    expect(app.page.get_by_role("button", name="Undo", exact=True)).to_be_in_viewport()
+    app.page.get_by_text("Where the model holds").scroll_into_view_if_needed()
+    for name in ("Undo", "Units and settings", "Share and keep"):
+        expect(app.page.get_by_role("button", name=name, exact=True)).to_be_in_viewport(ratio=1)
     app.press("Radial clearance", "ArrowRight")
     before = app.query()
     field = app.page.get_by_role("textbox", name=re.compile("^Radial clearance"))

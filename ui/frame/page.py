@@ -284,21 +284,34 @@ def _sidebar(
     """
     if visitor.present:
         st.html(presentation.STYLE)
+    if not stage and not visitor.present:
+        sidebar.draw_presets()
+    past = _always_in_sight(shared=stage is None)
     if stage or visitor.present:
-        past = st.container(key="past")
         if stage:
             stage.sidebar()
         else:
             presentation.draw_sliders(visitor)
         return past, st.container(), None
-    sidebar.draw_presets()
-    past = st.container(key="past")
     cases.draw_buttons()
     picture = sidebar.draw_inputs()
-    popover.draw()
     foot = st.container()
     st.caption(_foot())
     return past, foot, picture
+
+
+def _always_in_sight(*, shared: bool) -> DeltaGenerator:
+    """Draw what stays in sight while the sidebar scrolls; return the place of undo and redo.
+
+    A machine that is not the visitor's own is not theirs to share.
+    """
+    with st.container(key="past"):
+        past = st.container()
+        with st.container(horizontal=True, gap="small", key="always"):
+            sidebar.draw_settings()
+            if shared:
+                popover.draw()
+    return past
 
 
 def _foot() -> str:

@@ -51,10 +51,7 @@ _READINGS = {"0-p": "zero to peak", "p-p": "peak to peak"}
 
 
 def draw_inputs() -> DeltaGenerator | None:
-    """Draw the inputs in their groups, and the display settings.
-
-    Returns the place of the bore's picture.
-    """
+    """Draw the inputs in their groups; return the place of the bore's picture."""
     st.html(_STYLE)
     bearing = None
     for group in GROUPS:
@@ -67,7 +64,6 @@ def draw_inputs() -> DeltaGenerator | None:
             elif group == "Oil" and not has_gas(session().values):
                 _law()
                 _oil_library()
-    _settings()
     return bearing
 
 
@@ -269,7 +265,8 @@ def _take_over(oil: Oil, keys: tuple[str, ...]) -> None:
             visitor.values[key] = value
 
 
-def _settings() -> None:
+def draw_settings() -> None:
+    """Draw the popover with the display settings."""
     visitor = session()
     settings = st.popover("Units and settings", width="stretch", key="settings", on_change="rerun")
     if not settings.open:
