@@ -16,6 +16,7 @@ from plotly.basedatatypes import BaseFigure
 from rotorcalc.figures import Chart, themed
 from rotorcalc.units import Units
 from ui.bores import Values
+from ui.choices import NAMES
 from ui.format import short
 from ui.input_record import Input
 from ui.inputs import input_named, inputs_of, number, usual, usual_values
@@ -74,6 +75,14 @@ def show_connection() -> None:
     kept = _live().show_connection(lambda state: session().recall(state))
     if not visitor.frame:
         visitor.recall(kept)
+
+
+def show_links() -> bool:
+    """Let the browser complete links between pages; return whether it can."""
+    if settings.live() == "off":
+        return False
+    _live().show_links(NAMES)
+    return True
 
 
 def keep(when: str) -> None:

@@ -47,7 +47,7 @@ _AT_REST = """() => {
     && !window.rotorcalcDrawing
     && [...document.querySelectorAll('.stBidiComponent')].every(
       component => component.querySelector(
-        '.live-slider, .live-chart, .live-preview, .live-connection'))
+        '.live-slider, .live-chart, .live-preview, .live-connection, .live-links'))
     && [...document.querySelectorAll('[data-testid="stPlotlyChart"], .live-chart')].every(
       chart => chart.offsetParent === null
         || chart.querySelector('.overplot path, .shapelayer path, .annotation'));

@@ -77,13 +77,37 @@ def test_moved_value_goes_into_the_address_bar_and_to_every_page(app: AppPage) -
 
 
 def test_a_link_to_another_page_contains_the_machine(app: AppPage) -> None:
-    """Without the session, which another server does not have."""
-    app.open("Machine", C="70", D="160")
+    """Without the session, which another server does not have, and without the page's choices."""
+    app.open("Equilibrium", C="70", D="160", tab="Forces")
     app.press("Radial clearance", "ArrowRight")
-    link = app.page.get_by_test_id("stMain").get_by_role("link", name="Response", exact=True)
-    address = urlsplit(link.evaluate("link => link.href"))
-    assert address.path == "/Response"
-    assert dict(parse_qsl(address.query)) == app.query() == {"C": "70.5", "D": "160"}
+    machine = {"C": "70.5", "D": "160"}
+    assert app.query() == machine | {"tab": "Forces"}
+    for name, path in (("Response", "/Response"), ("Machine", "/")):
+        link = app.page.get_by_test_id("stMain").get_by_role("link", name=name, exact=True)
+        link.focus()
+        address = urlsplit(link.evaluate("link => link.href"))
+        assert (address.path, dict(parse_qsl(address.query))) == (path, machine)
+    with app.page.context.expect_page() as opened:
+        link.click(modifiers=["Control"])
+    other = AppPage(opened.value, app.url)
+    other.rest()
+    assert other.query() == machine
+    other.page.close()
+
+
+def test_back_leads_to_the_page_before_with_the_machine_as_it_was_shown_there(
+    app: AppPage,
+) -> None:
+    app.open("Machine", C="70")
+    app.go("Response")
+    before = app.page.evaluate("history.length")
+    app.go("Notes")
+    assert app.page.evaluate("history.length") == before + 1
+    with app.run():
+        app.page.go_back()
+    assert urlsplit(app.page.url).path == "/Response"
+    assert app.query() == {"C": "70"}
+    expect(app.page.get_by_test_id("stHeading").first).to_contain_text("Imbalance")
 
 
 def test_the_browsers_reload_keeps_the_machine(app: AppPage) -> None:

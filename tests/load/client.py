@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from http.client import HTTPConnection
 from http.cookies import SimpleCookie
 from typing import Any, Self
-from urllib.parse import urlencode, urlsplit, urlunsplit
+from urllib.parse import parse_qsl, urlencode, urlsplit, urlunsplit
 
 from streamlit.proto.BackMsg_pb2 import BackMsg
 from streamlit.proto.BidiComponent_pb2 import BidiComponent
@@ -23,6 +23,8 @@ from streamlit.proto.ForwardMsg_pb2 import ForwardMsg
 from streamlit.proto.WidgetStates_pb2 import WidgetState, WidgetStates
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
+
+from ui.choices import NAMES
 
 TIMEOUT = 30.0  # seconds for a run; one takes a few hundredths
 SLIDERS, PREVIEW = "rotorcalc.sliders", "rotorcalc.preview"
@@ -123,8 +125,11 @@ class Visitor:
         """Follow a link to another page, by its label."""
         links = (element.page_link for element in self.elements("page_link"))
         link = next(link for link in links if link.label == label)
-        self._page_hash, self.query = link.page_script_hash, link.query_string
-        await self._run()
+        self._page_hash = link.page_script_hash
+        # As links.js does.
+        query = {key: word for key, word in parse_qsl(self.query) if key not in NAMES}
+        self.query = link.query_string or urlencode(query)
+        await self._run(by_history=not link.query_string)
 
     async def slide(self, label: str, value: float | str, *, dragging: bool = False) -> None:
         """Send a value by a slider, live or Streamlit's own, and wait until its run has ended."""
@@ -283,7 +288,7 @@ class Visitor:
         sent = json.dumps([{"event": "moved", "value": value}])
         await self._run(WidgetState(id=key, json_trigger_value=sent), part=part)
 
-    async def _run(self, *triggers: WidgetState, part: str = "") -> None:
+    async def _run(self, *triggers: WidgetState, part: str = "", by_history: bool = False) -> None:
         """Ask for a run of the page, or of a fragment of it, and wait until it has ended."""
         if self._socket is None:
             raise self._failed("not connected")
@@ -291,6 +296,7 @@ class Visitor:
         asked = message.rerun_script
         asked.query_string, asked.page_script_hash = self.query, self._page_hash
         asked.page_name, asked.fragment_id = self._page_name, part
+        asked.is_history_navigation = by_history
         asked.widget_states.CopyFrom(WidgetStates(widgets=[*self._widgets.values(), *triggers]))
         asked.context_info.url = f"{self.address}/{self._page_name}"
         asked.context_info.color_scheme = "light"

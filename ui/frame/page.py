@@ -25,7 +25,15 @@ from ui.results.row import show_results
 from ui.serving import one_at_a_time, settings, version
 from ui.session import Session, session, write_address_bar
 from ui.sharing import popover
-from ui.widgets import chart_key, is_dark, keep, show_chart, show_connection, show_preview
+from ui.widgets import (
+    chart_key,
+    is_dark,
+    keep,
+    show_chart,
+    show_connection,
+    show_links,
+    show_preview,
+)
 from ui.words import validity, verdict
 
 _ICON = str(Path(__file__).with_name("icon.svg"))
@@ -199,9 +207,10 @@ class Places(NamedTuple):
     """Places in the frame whose content changes while sliders move."""
 
     history: DeltaGenerator
-    navigation: DeltaGenerator
     foot: DeltaGenerator
     bore: DeltaGenerator | None
+    # That of the links between pages, where a browser cannot complete them.
+    navigation: DeltaGenerator | None
     # Whether the page itself says what its machine does.
     is_stage: bool
 
@@ -258,16 +267,29 @@ def _frame(title: str, sentence: str, stage: Stage | None) -> Places:
     with st.sidebar:
         past, foot, picture = _sidebar(visitor, stage)
     visitor.page = title
-    with st.container(key="frame_top"):
-        navigation = st.container()
-        presentation.draw_switch(visitor)
+    navigation = _top(visitor)
     with st.container(key="page_title"):
         if stage:
             stage.heading()
         else:
             st.header(title, anchor=False)
             st.markdown(sentence)
-    return Places(past, navigation, foot, picture, stage is not None)
+    return Places(past, foot, picture, navigation, stage is not None)
+
+
+def _top(visitor: Session) -> DeltaGenerator | None:
+    """Draw the links between pages, and the switch beside them.
+
+    Returns the links' place where no browser completes them, so that each run draws them anew.
+    """
+    by_browser = show_links()
+    with st.container(key="frame_top"):
+        navigation = st.container()
+        if by_browser:
+            with navigation:
+                _navigation({})
+        presentation.draw_switch(visitor)
+    return None if by_browser else navigation
 
 
 def _sidebar_at_first(stage: Stage | None) -> Literal["collapsed"] | int:
@@ -369,8 +391,9 @@ def _page(places: Places, views: presentation.Views, unanswered: Callable[[str],
     visitor.record()
     of_inputs = _draw_inputs(places, visitor)
     params = write_address_bar()
-    with places.navigation:
-        _navigation({key: word for key, word in params.items() if key not in choices.NAMES})
+    if places.navigation is not None:
+        with places.navigation:
+            _navigation({key: word for key, word in params.items() if key not in choices.NAMES})
     for problem in (*visitor.refused, *visitor.problems):
         st.warning(problem)
     if visitor.refused:
@@ -443,7 +466,7 @@ def _offer_the_rest(visitor: Session) -> None:
 
 
 def _navigation(params: dict[str, str]) -> None:
-    """Draw the links between pages, each with the whole machine."""
+    """Draw the links between pages, each with query parameters."""
     with st.container(horizontal=True, gap="small"):
         for path, label in PAGES.items():
             st.page_link(_place(path), label=label, query_params=params)
