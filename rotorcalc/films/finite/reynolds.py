@@ -205,7 +205,9 @@ class Films:
     def cubes(self) -> Array:
         """∫h³ over the volume of each node, by the film at the node, (P, N, zones, nodes)."""
         width = self.width[:, :, None, :]
-        left, right = width * self.h_right**3, width * self.h_left**3
+        h_left, h_right = self.h_left, self.h_right
+        # Products, as a power takes ten times as long.
+        left, right = width * h_right * h_right * h_right, width * h_left * h_left * h_left
         return 0.5 * (left[..., :-1] + right[..., 1:])
 
     @functools.cached_property

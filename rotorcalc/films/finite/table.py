@@ -160,7 +160,8 @@ class FilmTable:
         return np.where(np.abs(high - low) < 0.5, low + t * (high - low), near)
 
 
-@functools.lru_cache(maxsize=256)
+# Each visitor's L/D with all bores: a table has some 40 kB.
+@functools.lru_cache(maxsize=1024)
 def table(pads: tuple[Pad, ...], slenderness: float, *, coarse: bool = False) -> FilmTable:
     """Return the film of a bore over load.
 

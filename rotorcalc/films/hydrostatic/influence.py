@@ -136,14 +136,20 @@ def conductances(mesh: Mesh, position: Array) -> tuple[Array, Array]:
     the node's part of the circle.
     """
     at = mesh.beta[:, None] + mesh.step[:, None] * _POINTS
-    inverse = (_thickness(at, position) ** -3.0) @ _SHARES * mesh.step
+    inverse = (1.0 / _cubed(_thickness(at, position))) @ _SHARES * mesh.step
     around = mesh.length / inverse[..., None]
     # Either half of a link belongs to the node at its end.
     halves = [mesh.beta[:, None] + mesh.step[:, None] * (i + _POINTS) / 2.0 for i in (0, 1)]
-    ahead, behind = (_thickness(one, position) ** 3 @ _SHARES * mesh.step / 2.0 for one in halves)
+    ahead, behind = (
+        _cubed(_thickness(one, position)) @ _SHARES * mesh.step / 2.0 for one in halves
+    )
     cubes = ahead + np.roll(behind, 1, axis=1)
     along = mesh.lands.slenderness * cubes[..., None] / np.diff(mesh.zeta)
     return around, along
+
+
+def _cubed(h: Array) -> Array:
+    return h * h * h  # a tenth of the time of a power
 
 
 def _thickness(beta: Array, position: Array) -> Array:

@@ -169,7 +169,7 @@ def tabulated(lands: Lands, cells: Cells, rings: int) -> Table:
     u = _TOP * np.cos(np.pi * (np.arange(rings) + 0.5) / (2 * rings))
     numbers = [_directions(float(one), lands.recesses) for one in u]
     wedges = [_wedge(one, n, lands.recesses) for one, n in zip(u, numbers, strict=True)]
-    solved = extrapolated(lands, cells, np.concatenate([np.zeros((1, 2)), *wedges]))
+    solved = _solved(lands, cells, np.concatenate([np.zeros((1, 2)), *wedges]).tobytes())
     centre = _values(solved, slice(0, 1))[0]
     harmonics = np.zeros((rings, max(numbers) // 2 + 1, len(centre)), dtype=complex)
     begin = 1
@@ -183,6 +183,12 @@ def tabulated(lands: Lands, cells: Cells, rings: int) -> Table:
         # Of an even number the last harmonic is known by its cosine alone.
         harmonics[ring, : (n - 1) // 2 + 1] = found[: (n - 1) // 2 + 1]
     return Table(lands, cells, begin, centre, _filled(u, harmonics))
+
+
+# What takes long is kept of many lands: it is a hundredth of a table.
+@functools.lru_cache(maxsize=512)
+def _solved(lands: Lands, cells: Cells, position: bytes) -> Influence:
+    return extrapolated(lands, cells, np.frombuffer(position).reshape(-1, 2))
 
 
 def extrapolated(lands: Lands, cells: Cells, position: Array) -> Influence:

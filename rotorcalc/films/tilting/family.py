@@ -128,15 +128,15 @@ class PadFamily:
         eta = np.where(loaded, values[..., 0], self._dropped(xi))
         values[..., 0] = eta
         free = ~loaded
-        values[free, 9], values[free, 13] = self._without_film(xi[free], eta[free])
+        if free.any():
+            values[free, 9], values[free, 13] = self._without_film(xi[free], eta[free])
         return states(xi, values, loaded)
 
     def force(self, xi: Array) -> tuple[Array, Array]:
         """Return the force towards the pivot at ξ (...), and its derivative by ξ."""
         inside = np.clip(xi, self.first, self.last)
         u, room = self._u(inside), 1.0 - inside
-        of_force, its_slope = self._force
-        value, slope = of_force(u), its_slope(u)
+        value, slope = np.moveaxis(self._force(u), -1, 0)
         power = room ** _POWERS[1]
         # dξ = 2u (1 − ξ) du
         rate = power / room * (slope / np.maximum(2.0 * u, 1e-9) - _POWERS[1] * value)
@@ -144,10 +144,11 @@ class PadFamily:
         return power * value * loaded, rate * loaded
 
     @functools.cached_property
-    def _force(self) -> tuple[PPoly, PPoly]:
+    def _force(self) -> PPoly:
         """The force's column alone over u, and its derivative."""
-        alone = PPoly.construct_fast(np.ascontiguousarray(self._spline.c[..., 1]), self._spline.x)
-        return alone, alone.derivative()
+        alone = self._spline.c[..., 1]
+        derivative = np.concatenate([0.0 * alone[:1], alone[:-1] * [[3.0], [2.0], [1.0]]])
+        return PPoly.construct_fast(np.stack([alone, derivative], axis=-1), self._spline.x)
 
     def _u(self, xi: Array) -> Array:
         return np.sqrt(np.log1p((xi - self.first) / (1.0 - xi)))
@@ -187,7 +188,7 @@ class _Branch:
         return _Branch(self.gamma[which], self.e[which], self.wet[which])
 
 
-@functools.lru_cache(maxsize=64)
+@functools.lru_cache(maxsize=256)
 def family(arc: float, pivot_offset: float, slenderness: float, *, coarse: bool) -> PadFamily:
     """Return the films of a pad in equilibrium.
 
