@@ -40,8 +40,10 @@ _CLOSE, _ROUNDING = 0.1, 1e-14
 _AROUND = 16.0 * np.sinh(np.linspace(-4.0, 4.0, 33)) / np.sinh(4.0)
 # Shares of the first and of the last spacing at which the response is computed too.
 _INSIDE = np.geomspace(1e-3, 0.6, 8)
-# Each zoom narrows the interval 32 times; after two, a parabola through the top is exact enough.
-_ZOOMS, _ZOOM_POINTS = 2, 65
+# Spacings of a first look between two speeds. In a second one, around the top of the parabola
+# through its largest values, they grow with the distance: there the next top is exact enough.
+_FIRST_LOOK = np.linspace(0.0, 1.0, 33)
+_SECOND_LOOK = np.sinh(np.linspace(0.0, 3.2, 17)) / np.sinh(3.2)
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,11 +88,10 @@ def response_peaks(machine: Machine, speed: ArrayLike, *, at: str = "disk") -> R
     """
     if at not in ("disk", "journal"):
         raise ValueError(f"at = {at!r}: must be 'disk' or 'journal'")
-    speeds = rising_speed(speed)
+    speeds, body = rising_speed(speed), ("disk", "journal").index(at)
     film = stiffness_and_damping(machine, speeds)
     size = orbit_sizes(*synchronous_response(machine.rotor, *film, speeds))
-    disk, journal = _peaks(machine, speeds, film, size)
-    return disk if at == "disk" else journal
+    return _peaks(machine, speeds, film, size[[body]], [body])[0]
 
 
 @checked
@@ -114,27 +115,30 @@ def both_peaks(sweep: Sweep) -> tuple[ResponsePeaks, ResponsePeaks]:
     """
     rising_speed(sweep.speed, name="sweep.speed")
     known = orbit_sizes(sweep.disk_response, sweep.journal_response)
-    return _peaks(sweep.machine, sweep.speed, (sweep.stiffness, sweep.damping), known)
+    film = sweep.stiffness, sweep.damping
+    disk, journal = _peaks(sweep.machine, sweep.speed, film, known, [0, 1])
+    return disk, journal
 
 
 def _peaks(
-    machine: Machine, speed: Array, film: _Film, known: Array
-) -> tuple[ResponsePeaks, ResponsePeaks]:
-    """Return the peaks of disk and journals, from the film and their sizes (2, n) at speeds."""
+    machine: Machine, speed: Array, film: _Film, known: Array, bodies: list[int]
+) -> list[ResponsePeaks]:
+    """Return the peaks of bodies, 0 for the disk and 1 for the journals.
+
+    From the film and the sizes of their orbits, (bodies, n), at speeds.
+    """
     rotor = machine.rotor
     near = _near_resonances(machine, rotor, speed, film)
     # The sizes that are known are used again; only speeds near resonances are added.
-    dense, size = _denser(speed, known, near, lambda more: _orbit_sizes(machine, rotor, more))
-    body, place = np.nonzero(_is_peak(size))
-    if not len(body):
-        none = ResponsePeaks(speed=np.empty(0), amplitude=np.empty(0))
-        return none, none
-    tops = _tops(machine, rotor, body, dense[place], dense[place + 2])
-    sizes = _orbit_sizes(machine, rotor, tops)
-    disk, journal = (
-        ResponsePeaks(speed=tops[body == i], amplitude=sizes[i, body == i]) for i in (0, 1)
+    dense, size = _denser(
+        speed, known, near, lambda more: _orbit_sizes(machine, rotor, more)[bodies]
     )
-    return disk, journal
+    which, place = np.nonzero(_is_peak(size))
+    if not len(which):
+        return [ResponsePeaks(speed=np.empty(0), amplitude=np.empty(0)) for _ in bodies]
+    body = np.array(bodies)[which]
+    tops, sizes = _tops(machine, rotor, body, dense[place], dense[place + 2])
+    return [ResponsePeaks(speed=tops[body == i], amplitude=sizes[body == i]) for i in bodies]
 
 
 def disk_peak_speeds(
@@ -167,7 +171,7 @@ def disk_peak_speeds(
     if not len(which):
         return np.empty(0)
     disk = np.zeros_like(which)
-    return _tops(machine, group.at(which), disk, dense[place], dense[place + 2])
+    return _tops(machine, group.at(which), disk, dense[place], dense[place + 2])[0]
 
 
 def _near_resonances(machine: Machine, rotor: Rotor, speed: Array, film: _Film) -> Array:
@@ -242,22 +246,34 @@ def _is_peak(size: Array) -> BoolArray:
 
 def _tops(
     machine: Machine, rotor: Rotor | Rotors, body: IntArray, low: Array, high: Array
-) -> Array:
-    """Return the speeds of the peaks between two speeds each, all at once.
+) -> tuple[Array, Array]:
+    """Return speeds and heights of the peaks between two speeds each, (n,), all at once.
 
-    `body` is 0 for a peak of the disk, 1 for one of the journal. A zoom keeps the two intervals
-    beside the largest value; a parabola through it gives the top, as further zooms would lose the
-    flat top in rounding errors.
+    `body` is 0 for a peak of the disk, 1 for one of the journal. The top of a parabola stands for
+    that of the curve, as ever closer speeds would lose the flat top in rounding errors.
     """
     columns = np.arange(len(low))
-    before = largest = after = np.zeros(len(low))
-    for _ in range(_ZOOMS):
-        grid = np.linspace(low, high, _ZOOM_POINTS)
+
+    def looked(grid: Array) -> tuple[Array, Array]:
+        """Return the three speeds about the largest value of each peak, and the values there."""
         size = _orbit_sizes(machine, rotor, grid)[body, :, columns].T
-        top = size[1:-1].argmax(axis=0) + 1
-        low, high = grid[top - 1, columns], grid[top + 1, columns]
-        before, largest, after = (size[top + step, columns] for step in (-1, 0, 1))
-    # Vertex of the parabola; where rounding leaves no downward curvature the middle point stays.
-    bend = before - 2.0 * largest + after
-    shift = (before - after) / np.where(bend < 0.0, bend, -np.inf) / 2.0
-    return (low + high) / 2.0 + shift * (high - low) / 2.0
+        three = size[1:-1].argmax(axis=0) + np.array([[0], [1], [2]])
+        return grid[three, columns], size[three, columns]
+
+    speeds, sizes = looked(low + (high - low) * _FIRST_LOOK[:, None])
+    top, _ = _vertex(speeds, sizes)
+    reach = _SECOND_LOOK[1:, None]
+    below, above = top - reach[::-1] * (top - speeds[0]), top + reach * (speeds[2] - top)
+    return _vertex(*looked(np.concatenate([below, top[None], above])))
+
+
+def _vertex(x: Array, y: Array) -> tuple[Array, Array]:
+    """Return place and height of the top of parabolas through three points each, (3, n).
+
+    Where rounding leaves no downward curvature the middle point stays.
+    """
+    left, right = (y[1] - y[0]) / (x[1] - x[0]), (y[2] - y[1]) / (x[2] - x[1])
+    bend = (right - left) / (x[2] - x[0])
+    slope = left + bend * (x[1] - x[0])
+    shift = slope / np.where(bend < 0.0, bend, -np.inf) / -2.0
+    return x[1] + shift, y[1] + 0.5 * slope * shift
