@@ -83,15 +83,17 @@ class FreePads:
         return _free_pads(pivots, slenderness, coarse)
 
     @functools.cached_property
-    def _table(self) -> tuple[Array, Array]:
-        """Positions x along the load, rising, and the loads that they carry."""
+    def _table(self) -> tuple[Array, Array, Array]:
+        """Positions x along the load, rising, the loads that they carry, and dx/dF."""
         towards = self.pivots.frames[:, 0, 0].max()
         last = min((self.family.last - self.pivots.preload) / towards, self._held_across)
         room = (1.0 - self.pivots.preload) / towards
         share = np.linspace(0.0, 1.0, _PLACES)
         # Dense towards the pad, where each step thins the film by one factor.
         x = room * (1.0 - (1.0 - last / room) ** share)
-        return x, self._carried(x, True)[0]
+        loads, slope = self._carried(x, True)
+        with np.errstate(divide="ignore"):
+            return x, loads, 1.0 / slope
 
     @property
     def _held_across(self) -> float:
@@ -156,15 +158,26 @@ class FreePads:
         f, slope = self.family.force(self._xi(x))
         return (f * carries) @ cos, (slope * carries) @ cos**2
 
+    def _near(self, load: Array, *, all_carry: bool) -> tuple[Array, Array, Array]:
+        """Return positions below, near and above those at loads (P,)."""
+        places, loads, slope = self._table
+        x = np.interp(load, loads, places)
+        if not all_carry:
+            return np.zeros_like(load), x, np.full_like(load, places[-1])
+        i = np.clip(np.searchsorted(loads, load), 1, len(loads) - 1)
+        low, high, step = places[i - 1], places[i], loads[i] - loads[i - 1]
+        # Hermite's polynomial between the two, where no pad gives up its film.
+        with np.errstate(divide="ignore", invalid="ignore"):
+            t, chord = (load - loads[i - 1]) / step, high - low
+            before, after = step * slope[i - 1] - chord, step * slope[i] - chord
+            bent = t * (1.0 - t) * ((1.0 - t) * before - t * after)
+            smooth = low + t * chord + bent
+        return low, np.where((smooth >= low) & (smooth <= high), smooth, x), high
+
     def _positions(self, load: Array, carries: BoolArray) -> tuple[Array, BoolArray]:
         """Return positions at loads (P,), and where none carries the load exactly."""
-        places, loads = self._table
-        if carries.all():
-            i = np.clip(np.searchsorted(loads, load), 1, len(loads) - 1)
-            low, high = places[i - 1].copy(), places[i].copy()
-        else:
-            low, high = np.zeros_like(load), np.full_like(load, places[-1])
-        x = np.interp(load, loads, places)
+        low, x, high = self._near(load, all_carry=bool(carries.all()))
+        near = np.zeros(load.shape, dtype=bool)
         for _ in range(_MOST_STEPS):
             found, slope = self._carried(x, carries)
             over = found > load
@@ -181,8 +194,13 @@ class FreePads:
             x = np.where(found == load, x, after)
             if arrived.all():
                 break
-        found, _ = self._carried(x, carries)
-        return x, np.abs(found - load) > _ASTRAY * (load + _LIGHT)
+        # A film that ends with a force left carries more than the load on one side of a place, and
+        # less on the other: Newton's method does not arrive there.
+        lost = ~near
+        if lost.any():
+            found, _ = self._carried(x, carries)
+            lost = np.abs(found - load) > _ASTRAY * (load + _LIGHT)
+        return x, lost
 
     def _at_its_end(self, x: Array) -> BoolArray:
         return np.abs(self._xi(x) - self.family.first) < _AT_ITS_END
