@@ -232,7 +232,8 @@ def _loads(coarse: Mesh, count: int, *, lightest: float) -> tuple[Array, Array, 
     thinning = np.minimum.accumulate(np.log(film[1:]))
     heaviest = math.exp(float(np.interp(-math.log(THINNEST), -thinning, heavy)))
     light = np.linspace(math.log(_LIGHTEST), 0.0, _LIGHT_LOADS, endpoint=False)
-    if heaviest <= load[1]:  # a journal that even a light load presses close to a pad
+    # A journal that even a light load presses close to a pad; but for rounding they are the same.
+    if heaviest <= (1.0 + 1e-9) * load[1]:
         raise ValueError(NO_POSITION)
     heavier = np.linspace(0.0, math.log(heaviest / load[1]), count - _LIGHT_LOADS)
     loads: Array = load[1] * np.exp(np.concatenate([light, heavier]))
