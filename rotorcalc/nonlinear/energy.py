@@ -20,7 +20,7 @@ from rotorcalc.arrays import Array
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine
 from rotorcalc.nonlinear.equations import WORKS, Equations, Start, integrated
-from rotorcalc.nonlinear.transient import TOLERANCE, Transient, TransientError
+from rotorcalc.nonlinear.transient import STEPS, Transient, TransientError
 
 
 @dataclass(frozen=True, eq=False)
@@ -128,7 +128,7 @@ def _works(machine: Machine, motion: Transient) -> Array:
         span = slice(i, i + turn + 1)
         # Each revolution starts from the motion's own sample; only the works carry on.
         start = np.concatenate([states[i], works[i]])
-        found, message = integrated(rates, start, angle[span], tolerance=TOLERANCE)
+        found, message = integrated(rates, start, angle[span], steps=STEPS)
         if message:
             raise TransientError(f"the works could not be integrated ({message})", motion)
         works[span] = found[:, -WORKS:]

@@ -23,7 +23,7 @@ from scipy.integrate import ODEintWarning, odeint
 from rotorcalc import heat
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, real_array, shown
-from rotorcalc.coefficients import operating_points
+from rotorcalc.coefficients import operating_points, stiffness_and_damping
 from rotorcalc.display import Result
 from rotorcalc.films import FilmUnits, InnerMotion, film_of
 from rotorcalc.machine import Bearing, Machine
@@ -41,6 +41,26 @@ _TEMPERATURES = 24
 # The longest step [rad]: in equilibrium longer steps of high order amplify rounding errors far
 # beyond the tolerance before the error control notices.
 _LONGEST_STEP = 0.25
+# λ of a component that LSODA is given to find a motion stiff, and the error allowed in it.
+_STIFF, _ANY = 300.0, 1e-3
+# Rates at which a journal loses its velocity to the film, per radian, between which explicit
+# formulas take shorter steps than accuracy asks for; beyond, LSODA leaves them by itself.
+_STIFF_RATES = 5.0, 100.0
+
+
+@dataclass(frozen=True)
+class Steps:
+    """Errors allowed in each of the integrator's steps, and whether it goes implicitly throughout.
+
+    LSODA begins with explicit formulas, and leaves them where implicit ones allow steps five times
+    as long. A journal with mass loses its velocity to the film many times in a radian; a loose
+    tolerance then lets the implicit ones take two to four times as long steps, which it would never
+    find out.
+    """
+
+    relative: float
+    absolute: float
+    implicit: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,6 +215,16 @@ class Equations:
             return [*rates, *inner.rates[:places], *(rate * nu for rate in inner.rates[places:])]
 
         return motion
+
+    @property
+    def is_stiff(self) -> bool:
+        """Whether the film takes a journal's velocity from its mass many times in a radian."""
+        if self.massless or self.inner is not None:
+            return False
+        rotor, (_, C) = self.machine.rotor, stiffness_and_damping(self.machine, self.first)
+        mass = rotor.journal_mass if self.flexible else rotor.half_mass
+        low, high = _STIFF_RATES
+        return low < float(np.trace(C)) / (2.0 * mass * self.first) < high
 
     @property
     def own_states(self) -> int:
@@ -425,9 +455,7 @@ def _inner_motion(bearing: Bearing) -> InnerMotion | None:
     return motion if isinstance(motion, InnerMotion) else None
 
 
-def integrated(
-    motion: Motion, state: Array, angles: Array, *, tolerance: float
-) -> tuple[Array, str]:
+def integrated(motion: Motion, state: Array, angles: Array, *, steps: Steps) -> tuple[Array, str]:
     """Return the states at angles of rotation, and the reason for an early end.
 
     Parameters
@@ -438,8 +466,8 @@ def integrated(
         The state at the first angle.
     angles : array, (n,)
         Rising angles of rotation [rad].
-    tolerance : float
-        Error allowed in each step: relative to each component, and a hundredth of it in its unit.
+    steps : Steps
+        Errors allowed in each step, and how it goes.
 
     Returns
     -------
@@ -453,6 +481,11 @@ def integrated(
     ArithmeticError
         Where the derivatives of a state cannot be computed.
     """
+    relative, absolute = (np.full(len(state), one) for one in (steps.relative, steps.absolute))
+    if steps.implicit:
+        motion, state = _with_a_stiff_one(motion, state, angles[0])
+        # Its own accuracy does not matter.
+        relative, absolute = np.append(relative, 0.0), np.append(absolute, _ANY)
     with warnings.catch_warnings():  # the message says the same
         warnings.simplefilter("ignore", ODEintWarning)
         states, report = cast(
@@ -461,12 +494,26 @@ def integrated(
                 motion,  # pyright: ignore[reportArgumentType]
                 state,
                 angles,
-                rtol=tolerance,
-                atol=tolerance * 1e-2,
+                rtol=cast("float", relative),
+                atol=cast("float", absolute),
                 mxstep=_MOST_STEPS,
                 hmax=_LONGEST_STEP,
                 full_output=True,
             ),
         )
     message = str(report["message"])
+    if steps.implicit:
+        states = states[:, :-1]
     return states, "" if message == "Integration successful." else message
+
+
+def _with_a_stiff_one(motion: Motion, state: Array, angle: float) -> tuple[Motion, Array]:
+    """Return a motion and a state with one more component, w.
+
+    w' = λ(sin θ − w) follows sin θ at once: to LSODA that is stiff from the first step on.
+    """
+
+    def both(state: Array, angle: float) -> list[float]:
+        return [*motion(state[:-1], angle), _STIFF * (math.sin(angle) - float(state[-1]))]
+
+    return both, np.append(state, math.sin(angle))

@@ -135,6 +135,7 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
     revolutions: int,
     samples_per_revolution: int = 64,
     tolerance: float = TOLERANCE,
+    absolute: float | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> Release:
     """Return the motion of a journal released away from its equilibrium.
@@ -147,7 +148,7 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
         Running speed, Ω [rad/s].
     kick : float
         Initial displacement above the equilibrium, against the load [m], zero or more.
-    revolutions, samples_per_revolution, tolerance, progress
+    revolutions, samples_per_revolution, tolerance, absolute, progress
         As in `simulate`; 16 revolutions or more.
 
     Returns
@@ -170,7 +171,7 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
     try:
         motion = simulate(
             machine, speed, revolutions=revolutions, start=start, tolerance=tolerance,
-            samples_per_revolution=samples_per_revolution, progress=progress,
+            absolute=absolute, samples_per_revolution=samples_per_revolution, progress=progress,
         )  # fmt: skip
     except TransientError as error:
         # Its last quarter must hold the four revolutions that a spectrum needs.

@@ -28,7 +28,7 @@ from rotorcalc.coefficients import equilibrium
 from rotorcalc.display import Result
 from rotorcalc.films import film_of
 from rotorcalc.machine import Machine
-from rotorcalc.nonlinear.equations import Equations, Motion, Start, integrated, resting
+from rotorcalc.nonlinear.equations import Equations, Motion, Start, Steps, integrated, resting
 from rotorcalc.nonlinear.limit_cycles import bifurcation
 from rotorcalc.nonlinear.linear_motion import linear_theory, started
 
@@ -49,8 +49,12 @@ __all__ = [
 # Bounds of time and memory: two million samples of up to 17 numbers take 0.3 GB.
 MOST_REVOLUTIONS = 20_000
 MOST_SAMPLES = 2_000_000
-# Relative tolerance of each step of LSODA; the absolute one is a hundredth of it, in clearances.
-TOLERANCE = 1e-10
+# Relative tolerance of each step of LSODA; the absolute one is by default a hundredth of it.
+TOLERANCE, _ABSOLUTE = 1e-10, 1e-2
+STEPS = Steps(TOLERANCE, _ABSOLUTE * TOLERANCE)
+# Absolute tolerance from which implicit formulas, of order 5 at most, take longer steps than the
+# explicit ones that a stiff motion allows.
+_LOOSE = 5e-8
 # LSODA refuses a tolerance of 1e-14, which is near its own rounding.
 _TOLERANCES = (1e-13, 1e-3)
 # Revolutions after which progress is reported, contact with the wall is checked, and the disk is
@@ -132,6 +136,7 @@ def simulate(  # noqa: PLR0913 - how long, from where, to which speed
     final_speed: float | None = None,
     pushes: float = 0.0,
     tolerance: float = TOLERANCE,
+    absolute: float | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> Transient:
     """Return the nonlinear motion of a machine, integrated in time.
@@ -158,6 +163,10 @@ def simulate(  # noqa: PLR0913 - how long, from where, to which speed
     tolerance : float
         Relative error allowed in each of the integrator's steps, 1e-13 to 1e-3. The default keeps
         a motion over 200 revolutions to better than 1e-6.
+    absolute : float or None
+        Error allowed in each step besides, in clearances and CΩ, within the same bounds; None for a
+        hundredth of the relative one. A position is near 1: there a larger one changes little, but
+        velocities and displacements that cross zero then take half as many steps.
     progress : callable or None
         Called repeatedly with the share done, 0 to 1. An exception that it raises ends the work.
 
@@ -176,13 +185,18 @@ def simulate(  # noqa: PLR0913 - how long, from where, to which speed
     """
     speeds = _checked_speeds(speed, final_speed)
     _check_length(revolutions, samples_per_revolution)
-    _check_tolerance(tolerance)
+    _check_tolerance("tolerance", tolerance)
+    if absolute is None:
+        absolute = _ABSOLUTE * tolerance
+    else:
+        _check_tolerance("absolute", absolute)
     if not 0.0 <= pushes < math.inf:
         raise ValueError(f"pushes = {pushes} m/s: must be zero or more, and finite")
     model = Equations(machine, *speeds, turned=2.0 * math.pi * revolutions)
     state = model.initial(_checked_start(machine, speeds[0], start, model.thinnest))
     angles = np.linspace(0.0, model.turned, revolutions * samples_per_revolution + 1)
-    run = _Run(angles, _STRETCH * samples_per_revolution, tolerance, pushes / (model.C * speeds[0]))
+    steps = Steps(tolerance, absolute, implicit=absolute >= _LOOSE and model.is_stiff)
+    run = _Run(angles, _STRETCH * samples_per_revolution, steps, pushes / (model.C * speeds[0]))
     return _integrate(model, state, run, progress)
 
 
@@ -241,11 +255,11 @@ def last_state(motion: Transient) -> Start:
 
 @dataclass(frozen=True, eq=False)
 class _Run:
-    """Angles at which to return the state, their number in a stretch, tolerance and pushes [CΩ]."""
+    """Angles at which to return the state, their number in a stretch, its steps, pushes [CΩ]."""
 
     angles: Array
     stretch: int
-    tolerance: float
+    steps: Steps
     pushes: float
 
     def pushed(self, state: Array, first: int) -> Array:
@@ -267,7 +281,7 @@ def _integrate(
         span = slice(first, min(first + run.stretch, len(angles) - 1) + 1)
         # Every stretch starts LSODA again: its history is lost, which costs a few small steps.
         start = run.pushed(states[first], first)
-        rows, message = _stretch(model, motion, start, angles[span], run.tolerance)
+        rows, message = _stretch(model, motion, start, angles[span], run.steps)
         states[first + 1 : first + len(rows)] = rows[1:]
         done = first + len(rows)
         if message:
@@ -303,7 +317,7 @@ def _velocities(model: Equations, angles: Array, states: Array, rows: slice | In
 
 
 def _stretch(
-    model: Equations, motion: Motion, state: Array, angles: Array, tolerance: float
+    model: Equations, motion: Motion, state: Array, angles: Array, steps: Steps
 ) -> tuple[Array, str]:
     """Return the valid states over a stretch, and the reason for an early end, if any.
 
@@ -311,14 +325,14 @@ def _stretch(
     by halving the stretch.
     """
     # A failure inside the stretch may leave arbitrary numbers behind its place.
-    states, message = _attempt(motion, state, angles, tolerance)
+    states, message = _attempt(motion, state, angles, steps)
     if message and len(angles) > 2:
         middle = len(angles) // 2
-        before, message = _stretch(model, motion, state, angles[: middle + 1], tolerance)
+        before, message = _stretch(model, motion, state, angles[: middle + 1], steps)
         if message:
             return before, message
         # From the last state known to be valid.
-        after, message = _stretch(model, motion, before[-1], angles[middle:], tolerance)
+        after, message = _stretch(model, motion, before[-1], angles[middle:], steps)
         return np.concatenate([before, after[1:]]), message
     # Two angles are left: the failure lies between them.
     if message:
@@ -342,9 +356,9 @@ def _too_close(model: Equations) -> str:
     return f"{place}, beyond which this film's force is not computed"
 
 
-def _attempt(motion: Motion, state: Array, angles: Array, tolerance: float) -> tuple[Array, str]:
+def _attempt(motion: Motion, state: Array, angles: Array, steps: Steps) -> tuple[Array, str]:
     try:
-        states, message = integrated(motion, state, angles, tolerance=tolerance)
+        states, message = integrated(motion, state, angles, steps=steps)
     except ArithmeticError as error:
         return state[None, :], str(error)
     return states, message and f"the integrator gave up ({message})"
@@ -375,10 +389,10 @@ def _check_length(revolutions: int, samples: int) -> None:
         )
 
 
-def _check_tolerance(tolerance: float) -> None:
+def _check_tolerance(name: str, tolerance: float) -> None:
     low, high = _TOLERANCES
     if not low <= tolerance <= high:
-        raise ValueError(f"tolerance = {tolerance}: must lie within {low:g} and {high:g}")
+        raise ValueError(f"{name} = {tolerance}: must lie within {low:g} and {high:g}")
 
 
 def _checked_start(

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.optimize import root
 
-from rotorcalc import analyse, orbit_ellipse
+from rotorcalc import PRESETS, analyse, orbit_ellipse
 from rotorcalc.films import FilmMotion, short
 from rotorcalc.films.short import ShortFilm, motion
 from rotorcalc.nonlinear.equations import Equations
@@ -94,10 +94,10 @@ def test_no_velocity_is_found_for_a_force_of_nan_and_the_last_solution_is_kept(f
     assert near == [1.0]
 
 
-@pytest.mark.parametrize("b", [-0.9, -0.1, 0.0, 0.3, 0.55, 0.97, 0.985])
-def test_the_impedance_comes_with_its_own_slopes(b):
-    kappa2, h = 0.03, 1e-5  # from b = 0.87 on by the series
-    before, here, after = (motion._impedance(b + step, kappa2) for step in (-h, 0.0, h))
+@pytest.mark.parametrize("t", [-5.2, -0.6, 0.0, 1.7, 3.2, 5.6, 5.7])
+def test_the_impedance_comes_with_its_own_slopes(t):
+    h = 1e-4  # from t = 5 on by the series
+    before, here, after = (motion._impedance(t + step) for step in (-h, 0.0, h))
     assert 2.0 * here[1] == pytest.approx((after[0] - before[0]) / (2.0 * h), rel=1e-6)
     assert here[2] == pytest.approx((after[1] - before[1]) / h, rel=1e-6)
 
@@ -258,6 +258,40 @@ def test_the_error_falls_with_the_tolerance_and_is_below_a_millionth_by_default(
     assert errors[2] < 1e-8  # of the clearance; asked for is 1e-6 of the motion
 
 
+@pytest.mark.parametrize("kind", ["rigid", "massless journals"])
+def test_an_error_allowed_in_clearances_leaves_a_motion_right_to_some_millionths_of_one(kind):
+    machine = balanced(ROTORS[kind], 0.1 * C)
+
+    def motion(tolerance, absolute=None):
+        found = simulate(
+            machine, 5000 * RPM, revolutions=40, samples_per_revolution=8, start=FAR,
+            tolerance=tolerance, absolute=absolute,
+        )  # fmt: skip
+        return found.journal
+
+    reference = motion(1e-11)
+    errors = [np.abs(motion(1e-7, absolute) - reference).max() / C for absolute in (None, 1e-7)]
+    assert errors[0] < errors[1] < 1e-5
+    assert errors[0] < 1e-6
+
+
+def test_a_stiff_motion_does_not_keep_to_short_explicit_steps(monkeypatch):
+    calls = itertools.count()
+
+    def force(*state):
+        next(calls)
+        return motion.force(*state)
+
+    monkeypatch.setattr(ShortFilm, "motion", lambda _: FilmMotion(force, motion.velocity))
+    preset = PRESETS["friswell-5-5-1"]
+    rest = analyse(preset.machine, preset.speed).journal_position
+    start = rest - np.array([0.3 * preset.machine.bearing.radial_clearance, 0.0])
+    simulate(
+        preset.machine, preset.speed, revolutions=40, start=start, tolerance=1e-7, absolute=1e-7
+    )
+    assert next(calls) < 4000  # 10800 where LSODA goes on explicitly
+
+
 @pytest.mark.parametrize("kind", ROTORS)
 def test_the_journal_stays_inside_under_any_start(kind):
     rotor = replace(ROTORS[kind], imbalance=C)
@@ -341,6 +375,7 @@ def test_progress_is_reported_and_its_exception_ends_the_work():
         ({"tolerance": "tight"}, "tolerance = 'tight'"),
         ({"tolerance": 1e-16}, "tolerance"),
         ({"tolerance": math.nan}, "tolerance"),
+        ({"absolute": 0.0}, "absolute = 0.0: must lie within"),
         ({"final_speed": -1.0}, "final_speed = -1.0 rad/s: must be positive"),
     ],
 )

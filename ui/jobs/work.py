@@ -38,7 +38,8 @@ Spreads = tuple[tuple[str, tuple[str | float, ...]], ...]
 
 # Revolutions from which a release is sampled half as finely.
 LONG = 150
-# Tolerance of the integrator's steps: a chart needs less than the core's default.
+# Error allowed in each of the integrator's steps, relative and in clearances. A motion is then
+# right to some millionths of a clearance, one that dies away to a tenth of the least drawn.
 _TOLERANCE = 1e-7
 
 
@@ -53,6 +54,7 @@ def release(
         revolutions=revolutions,
         samples_per_revolution=64 if revolutions < LONG else 32,
         tolerance=_TOLERANCE,
+        absolute=_TOLERANCE,
         progress=progress,
     )
 
