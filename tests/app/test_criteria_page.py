@@ -234,7 +234,7 @@ def test_the_verdict_counts_what_is_met():
     rows.append(words.Row("Q_0/Q_A", "–", "at least 2", "unknown", "S", ""))
     assert words.sentence(rows) == "Met: 2 of 3. Unknown: Q₀/Qₐ."
     rows.append(words.Row("Margin", "1 %", "at least 2 %", "failed", "S", ""))
-    assert words.sentence(rows).startswith("Not met: 1 of 4: margin, 1 %, at least 2 % is")
+    assert words.sentence(rows).startswith("Not met: 1 of 4: margin, 1 %, must be at least 2 %.")
 
 
 def test_the_cards_are_of_the_least_damped_mode_that_the_criteria_name():
