@@ -159,7 +159,7 @@ def _gas(sweep: Sweep) -> tuple[Check, ...]:
     with np.errstate(divide="ignore"):  # the foil touches at the ends
         knudsen = path / sweep.minimum_film_thickness
     return (
-        _above("Compressibility number, 6μΩ(R/C)²/p_a", number, 10.0, 30.0,
+        _above("Compressibility number, 6μΩ(R/C)²/pₐ", number, 10.0, 30.0,
                "waves of the gas that turn at half speed become too sharp for the mesh"),
         _above("Load over ambient pressure, F/(p_a D L)", load * np.ones(number.shape), 1.5, 2.0,
                "the foil deflects by so much that its own bending counts"),

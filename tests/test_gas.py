@@ -102,7 +102,7 @@ def test_what_a_gas_has_not_is_refused_in_words(asked, words):
 def test_the_validity_of_a_gas_film_is_checked():
     checks = {one.name: one for one in rc.validity(rc.analyse(AIRY, [2000.0, 8000.0]))}
     number = 6.0 * AIRY.viscosity * np.array([2000.0, 8000.0]) * 1250.0**2 / 101325.0
-    found = checks["Compressibility number, 6μΩ(R/C)²/p_a"]
+    found = checks["Compressibility number, 6μΩ(R/C)²/pₐ"]
     assert found.value == pytest.approx(number)
     assert found.level.tolist() == ["good", "caution"]
     slip = checks["Molecules' mean free path over smallest film, λ/h"]

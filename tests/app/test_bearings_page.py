@@ -129,7 +129,7 @@ def test_what_is_said_of_a_kind_is_borne_out_by_the_numbers_or_not() -> None:
         assert said.startswith(":green-badge[borne out]") == (one.onset > plain.onset)
         assert ("is not higher" in said) == (one.onset <= plain.onset)
         whirls = math.isfinite(one.onset)
-        own = f"{SI.speed.of(one.onset):.0f} rpm" if whirls else "none"
+        own = f"{SI.speed.of(one.onset):.0f} rpm" if whirls else "none found"
         assert f"{own} against {SI.speed.of(plain.onset):.0f} rpm" in said
     (lowest,) = [one for one in judged(at) if "lowest of all" in one]
     assert ("borne out" in lowest) == (plain.onset <= min(one.onset for one in others))

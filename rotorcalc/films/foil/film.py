@@ -95,7 +95,7 @@ class FoilFilm:
         """Compliance: of so soft a foil the deflection is many times the clearance."""
         return (
             Limit(
-                "Compliance of the foil, p_a/(C k_f)", self._foil.compliance, 2.0, 5.0,
+                "Compliance of the foil, pₐ/(C k)", self._foil.compliance, 2.0, 5.0,
                 "a soft foil deflects by many clearances, and its own bending, which the model "
                 "neglects, then counts",
             ),
@@ -241,8 +241,8 @@ class FoilFilm:
     def motion(self) -> NoReturn:
         """Refuse: the pressure itself, which fills and empties, would be the state."""
         raise ValueError(
-            "bearing = foil: its film is known in a whirl only, not in any motion: a gas is stored "
-            "in the film, and the foil's loss has a meaning at a frequency only"
+            "bearing = foil: its force is known for a steady whirl, not for an arbitrary motion: the "
+            "film stores gas, and the foil's loss factor is defined at one frequency only"
         )
 
     def accuracy(self, sommerfeld: float) -> Accuracy:
