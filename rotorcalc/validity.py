@@ -161,7 +161,7 @@ def _gas(sweep: Sweep) -> tuple[Check, ...]:
     return (
         _above("Compressibility number, 6μΩ(R/C)²/pₐ", number, 10.0, 30.0,
                "waves of the gas that turn at half speed become too sharp for the mesh"),
-        _above("Load over ambient pressure, F/(p_a D L)", load * np.ones(number.shape), 1.5, 2.0,
+        _above("Load over ambient pressure, F/(pₐ D L)", load * np.ones(number.shape), 1.5, 2.0,
                "the foil deflects by so much that its own bending counts"),
         _above("Molecules' mean free path over smallest film, λ/h", knudsen, 0.01, 0.1,
                "the gas slips along the walls, which the model neglects"),

@@ -173,6 +173,9 @@ def test_csv_begins_with_inputs_and_onset(units: Units) -> None:
     head = dict(row for row in csv.reader(text.splitlines()) if row[0].startswith("#"))
     for item in inputs_of(PRESET_VALUES["sheet-1e8"]).values():
         assert f"# {item.name(units)}" in head
+    load = float(head[f"# Load per bearing Fₒ [{units.force.name}]"])
+    assert load == pytest.approx(units.force.of(computed("rigid").machine.static_load), rel=1e-5)
+    assert head["# The load is"] == "half the weight"
     assert head["# Shaft stiffness Kᵣₒₜ" + f" [{units.shaft_stiffness.name}]"] == "rigid"
     onset = float(head["# Onset of whirl [rpm]"])
     assert onset == pytest.approx(units.speed.of(computed("rigid").onset.speed), rel=1e-9)
@@ -377,7 +380,8 @@ def test_report_holds_coefficients_over_speed() -> None:
 
 def test_report_names_rigid_shaft_weight_and_missing_onset() -> None:
     assert "rigid" in read("rigid", None).text
-    assert "half the weight" in read("sheet-1e8", None).text
+    text = read("sheet-1e8", None).text
+    assert text[text.index("N, half the weight") - 1].startswith("1334.")
     assert "no limit" in read("no onset", None).text
 
 

@@ -23,6 +23,7 @@ from ui import comparison, ring
 from ui.bearing import fields_of, film_name
 from ui.bores import KIND, name_of
 from ui.computed import Computed
+from ui.format import without_noise
 from ui.inputs import INPUTS, applies, law_of, values_of
 from ui.sharing import xlsx
 from ui.words import validity
@@ -115,10 +116,14 @@ def head(computed: Computed, units: Units) -> Iterator[tuple[str, str]]:
 def inputs(computed: Computed, units: Units) -> Iterator[tuple[str, str]]:
     """Yield the lines of a machine's inputs."""
     values = values_of(computed.machine, computed.speed, computed.top_speed)
+    by_weight = values["load"] is None
+    values["load"] = computed.machine.static_load  # a number all the same
     for key, item in INPUTS.items():
         if not applies(key, values):
             continue
         yield f"# {item.name(units)}", comparison.shown(key, values, units).replace("−", "-")
+        if key == "load" and by_weight:
+            yield "# The load is", "half the weight"
     if not computed.has_own:
         yield "# Viscosity law", law_of(values)
     yield "# Bearing", name_of(values[KIND])
@@ -185,7 +190,7 @@ def _of_ring(computed: Computed, units: Units) -> Iterator[Column]:
 def _matrix(words: str, unit: Unit, matrix: Array) -> Iterator[Column]:
     for i, row in enumerate("XY"):
         for j, column in enumerate("XY"):
-            yield f"{words}_{row}{column}", unit, matrix[:, i, j]
+            yield f"{words}_{row}{column}", unit, without_noise(matrix)[:, i, j]
 
 
 def _eigenvalues(words: str, unit: Unit, branches: ComplexArray) -> Iterator[Column]:

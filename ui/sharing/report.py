@@ -145,7 +145,7 @@ def _inputs(computed: Computed, units: Units) -> str:
             continue
         rows.append(f'<tr class="group"><th colspan="4">{escape(group)}</th></tr>')
         rows += (
-            _input(key, live, units)
+            _input(key, live, units, computed)
             for key, item in INPUTS.items()
             if item.group == group and applies(key, live)
         )
@@ -180,11 +180,13 @@ def _bearing(live: Values, units: Units) -> Iterator[str]:
         yield _row([(label, ""), ("", ""), (minus(text), "n"), (unit.removeprefix("-"), "")])
 
 
-def _input(key: str, live: Values, units: Units) -> str:
-    item, value = INPUTS[key], live[key]
+def _input(key: str, live: Values, units: Units, computed: Computed) -> str:
+    item, value, follows = INPUTS[key], live[key], ""
+    if key == "load" and value is None:
+        value, follows = computed.machine.static_load, ", half the weight"
     known = isinstance(value, float | int) and math.isfinite(value)
-    unit = item.unit(units).name if known else ""
-    text = comparison.shown(key, live, units)
+    unit = item.unit(units).name + follows if known else ""
+    text = comparison.shown(key, live | {key: value}, units)
     return _row([(item.label, ""), (item.symbol, ""), (text, "n"), (unit, "")])
 
 

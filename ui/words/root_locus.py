@@ -46,8 +46,8 @@ _HOW_TO_READ = r"""
 - Modes are numbered by rising frequency at the lowest speed, and keep their number where curves
   cross.
 - Two eigenvalues that are mirror images are one mode; only the one with Im λ ≥ 0 is drawn.
-- A **real eigenvalue does not oscillate**: the journal creeps back through the film. It has a growth
-  rate, drawn dotted, but no frequency and no decrement.
+- A **real eigenvalue does not oscillate**: the journal creeps back through the film. It has a
+  growth rate, drawn dotted, but no frequency and no decrement.
 - The rigid rotor's curve $\sqrt{K_{eq}/M}$ is its whirl frequency *at* the onset.
 """
 _HALF_SPEED = " Below the onset its mode follows half the running speed instead."

@@ -241,7 +241,7 @@ class FoilFilm:
     def motion(self) -> NoReturn:
         """Refuse: the pressure itself, which fills and empties, would be the state."""
         raise ValueError(
-            "bearing = foil: its force is known for a steady whirl, not for an arbitrary motion: the "
+            "bearing = foil: its force is known in a steady whirl, not in an arbitrary motion: the "
             "film stores gas, and the foil's loss factor is defined at one frequency only"
         )
 
