@@ -8,6 +8,7 @@ Inputs are named by the fields of the records, "bearing.radial_clearance" or "ra
 Source: San Andrés, Notes 5.
 """
 
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import suppress
@@ -24,6 +25,7 @@ from rotorcalc.coefficient_table import CoefficientTable
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine, Oil
 from rotorcalc.numerics.parts import in_parts
+from rotorcalc.onset.beside import edge, onset_between
 from rotorcalc.onset.closed_form import covers
 from rotorcalc.onset.many import onset_speeds
 from rotorcalc.records import number_paths
@@ -62,6 +64,9 @@ _SCAN, _SLOW_SCAN = 200, 24
 _ROUNDING = 1e-12
 # A root whose onset is farther from the target than this, relative, is a jump past the target.
 _HIT = 1e-6
+# Relative differences up to which two onsets are one, found by the search and without it; and how
+# far, relative, an onset between two values of the scan may lie beyond those beside it.
+_SAME, _NEAR = 1e-10, 0.03
 
 
 @dataclass(frozen=True, eq=False)
@@ -340,32 +345,74 @@ def solve_onset(
             "infinity cannot be searched"
         )
 
-    def onset(value: float) -> float:
-        return float(onset_speeds([varied(machine, {vary: value})])[0])
-
-    def beside_target(value: float) -> float:
-        return _beside(onset(value), target)
-
+    line = _Line(machine, address(machine, vary))
     values = _scan_values(machine, vary, low, high)
-    machines = [varied(machine, {vary: float(value)}) for value in values]
+    machines = list(map(line.machine, values.tolist()))
     onsets = _onsets_or_nan(machines)
     answered = ~np.isnan(onsets)
     if not answered.any():
         onset_speeds(machines)  # raises the film's reason
-    values, onsets = _with_extremes(values[answered], onsets[answered], onset)
+    values, onsets = _with_extremes(values[answered], onsets[answered], line)
     above = onsets >= target
     # The absolute tolerance serves ranges that include zero, the relative one those over decades.
+    sharp = 1e-13 * (high - low)
     roots = [
-        float(
-            brentq(beside_target, values[i], values[i + 1], xtol=1e-13 * (high - low), rtol=1e-13)
-        )
+        line.value(target, float(values[i]), float(values[i + 1]), sharp)
         for i in np.flatnonzero(above[1:] != above[:-1])
     ]
-    # Where the onset jumps past the target, between two branches, no value gives it.
-    hits = [root for root in roots if abs(onset(root) / target - 1.0) < _HIT]
+    hits = [root for root in roots if not math.isnan(root)]
     return OnsetSolution(
         field=vary, target=target, solutions=np.array(hits), values=values, onset=onsets
     )
+
+
+@dataclass(frozen=True)
+class _Line:
+    """The machines over one input, all others as they are."""
+
+    base: Machine
+    path: tuple[str, ...]
+
+    def machine(self, value: float) -> Machine:
+        return changed(self.base, {self.path: value})
+
+    def onset(self, value: float) -> float:
+        return float(onset_speeds([self.machine(value)])[0])
+
+    def value(self, target: float, low: float, high: float, sharp: float) -> float:
+        """Return the value between two at which the onset is the target, NaN where it jumps."""
+
+        def on_edge(value: float) -> float:
+            return edge(self.machine(value), target)
+
+        def beside_target(value: float) -> float:
+            return _beside(self.onset(value), target)
+
+        # What changes its stability at the target may do so at lower speeds too: then the onset
+        # itself is solved for.
+        with suppress(ValueError):
+            root = float(brentq(on_edge, low, high, xtol=sharp, rtol=1e-13))
+            if abs(self.onset(root) / target - 1.0) < _SAME:
+                return root
+        root = float(brentq(beside_target, low, high, xtol=sharp, rtol=1e-13))
+        # Where the onset jumps past the target, between two branches, no value gives it.
+        return root if abs(self.onset(root) / target - 1.0) < _HIT else math.nan
+
+    def extreme(self, sign: float, values: Array, onsets: Array) -> tuple[float, float]:
+        """Return the place of an extreme about three values, and the onset there."""
+        near = (1.0 - _NEAR) * float(onsets.min()), (1.0 + _NEAR) * float(onsets.max())
+        ends = float(values[0]), float(values[-1])
+
+        def nearby(value: float) -> float:
+            found = onset_between(self.machine(value), *near) if np.isfinite(near[1]) else math.nan
+            return self.onset(value) if math.isnan(found) else found
+
+        place = _extreme(nearby, sign, *ends)
+        top = self.onset(place)
+        if not abs(top / nearby(place) - 1.0) < _SAME:  # another change of stability comes first
+            place = _extreme(self.onset, sign, *ends)
+            top = self.onset(place)
+        return place, top
 
 
 def _machine_or_none(machine: Machine, values: Mapping[tuple[str, ...], float]) -> Machine | None:
@@ -430,9 +477,7 @@ def _scan_values(machine: Machine, field: str, low: float, high: float) -> Array
     return np.geomspace(low, high, points) if low > 0.0 else np.linspace(low, high, points)
 
 
-def _with_extremes(
-    values: Array, onsets: Array, onset: Callable[[float], float]
-) -> tuple[Array, Array]:
+def _with_extremes(values: Array, onsets: Array, line: _Line) -> tuple[Array, Array]:
     """Return a scan with its local extremes added, each refined between its neighbours."""
     before, here, after = onsets[:-2], onsets[1:-1], onsets[2:]
     # An infinite onset is no maximum that a search could refine.
@@ -441,12 +486,11 @@ def _with_extremes(
     tops = np.flatnonzero((here > before * (1.0 + _ROUNDING)) & (here >= after) & np.isfinite(here))
     bottoms = np.flatnonzero((here < before * (1.0 - _ROUNDING)) & (here <= after))
     extremes = [
-        _extreme(onset, sign, float(values[i]), float(values[i + 2]))
+        line.extreme(sign, values[i : i + 3], onsets[i : i + 3])
         for sign, found in ((-1.0, tops), (1.0, bottoms))
         for i in found
     ]
-    all_values = np.concatenate([values, extremes])
-    all_onsets = np.concatenate([onsets, [onset(value) for value in extremes]])
+    all_values, all_onsets = np.hstack([[values, onsets], np.reshape(extremes, (-1, 2)).T])
     order = np.argsort(all_values)
     return all_values[order], all_onsets[order]
 

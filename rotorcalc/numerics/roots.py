@@ -20,7 +20,7 @@ _SLOPES = cast("Array", chebyshev.chebder(np.eye(_POINTS)).T)
 # Newton's steps at most to the roots of many series, and the length of the last.
 _STEPS, _LAST = 8, 1e-15
 # Last coefficients over the largest, below which a series equals the function up to rounding.
-_NOTHING = 1e-13
+NOTHING = 1e-13
 # Intervals at most in which a series is tried, each within the one before.
 _NARROWER = 3
 # Share of the function's whole change that a step beside its root takes at a jump alone, and the
@@ -33,7 +33,7 @@ class HiddenRootError(ValueError):
 
 
 def narrow_root(
-    values: Callable[[Array], Array], low: float, high: float, *, noise: float = _NOTHING
+    values: Callable[[Array], Array], low: float, high: float, *, noise: float = NOTHING
 ) -> float:
     """Return the point of a narrow interval at which a function changes sign.
 
@@ -99,7 +99,7 @@ def narrow_root(
 
 
 def narrow_roots(
-    values: Callable[[Array], Array], low: Array, high: Array, *, noise: float = _NOTHING
+    values: Callable[[Array], Array], low: Array, high: Array, *, noise: float = NOTHING
 ) -> Array:
     """Return the points of narrow intervals at which functions change sign.
 
