@@ -7,6 +7,9 @@ from typing import TypeVar
 from rotorcalc.arrays import Array
 
 T = TypeVar("T")
+# So many values are asked together at least, where there are as many: a film may make a table for
+# all of them, and another for a few.
+_TOGETHER = 12
 # How many values beyond the first that is answered alone are tried as the first of all.
 _BESIDE = 8
 
@@ -41,11 +44,11 @@ def from_first_answer(ask: Callable[[Array], T], values: Array) -> T:
     while answered - refused > 1:
         middle = (refused + answered) // 2
         try:
-            ask(values[middle : middle + 1])
+            ask(values[middle :: max(1, (len(values) - middle) // _TOGETHER)])
             answered = middle
         except ValueError:
             refused = middle
-    # A value alone may be answered by another table than many, which ends some per cent elsewhere.
+    # A few values may be answered by another table than many, which ends some per cent elsewhere.
     for start in range(answered, min(answered + _BESIDE, len(values) - 1)):
         with suppress(ValueError):
             return ask(values[start:])
