@@ -9,7 +9,7 @@ Source: San Andrés, Notes 5.
 """
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from contextlib import suppress
 from dataclasses import dataclass
@@ -23,11 +23,14 @@ from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, real_array
 from rotorcalc.coefficient_table import CoefficientTable
 from rotorcalc.display import Result
+from rotorcalc.films import film_of
 from rotorcalc.machine import Machine, Oil
 from rotorcalc.numerics.parts import in_parts
+from rotorcalc.numerics.roots import zeros
 from rotorcalc.onset.beside import edge, onset_between
 from rotorcalc.onset.closed_form import covers
 from rotorcalc.onset.many import onset_speeds
+from rotorcalc.onset.search import NOISE
 from rotorcalc.records import number_paths
 from rotorcalc.variation import address, changed, damping_reference, value_of, varied
 
@@ -67,6 +70,8 @@ _HIT = 1e-6
 # Relative differences up to which two onsets are one, found by the search and without it; and how
 # far, relative, an onset between two values of the scan may lie beyond those beside it.
 _SAME, _NEAR = 1e-10, 0.03
+# Relative accuracy of an input, and how far about it, of the range, it is refined at last.
+_SHARP, _ASIDE = 1e-13, 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -355,7 +360,7 @@ def solve_onset(
     values, onsets = _with_extremes(values[answered], onsets[answered], line)
     above = onsets >= target
     # The absolute tolerance serves ranges that include zero, the relative one those over decades.
-    sharp = 1e-13 * (high - low)
+    sharp = _SHARP * (high - low)
     roots = [
         line.value(target, float(values[i]), float(values[i + 1]), sharp)
         for i in np.flatnonzero(above[1:] != above[:-1])
@@ -382,21 +387,38 @@ class _Line:
     def value(self, target: float, low: float, high: float, sharp: float) -> float:
         """Return the value between two at which the onset is the target, NaN where it jumps."""
 
-        def on_edge(value: float) -> float:
-            return edge(self.machine(value), target)
-
         def beside_target(value: float) -> float:
             return _beside(self.onset(value), target)
 
-        # What changes its stability at the target may do so at lower speeds too: then the onset
-        # itself is solved for.
         with suppress(ValueError):
-            root = float(brentq(on_edge, low, high, xtol=sharp, rtol=1e-13))
-            if abs(self.onset(root) / target - 1.0) < _SAME:
-                return root
-        root = float(brentq(beside_target, low, high, xtol=sharp, rtol=1e-13))
+            places = self._on_edge(target, low, high, sharp)
+            return next((root for root in places if self._is_onset(target, root, _SAME)), math.nan)
+        root = float(brentq(beside_target, low, high, xtol=sharp, rtol=_SHARP))
         # Where the onset jumps past the target, between two branches, no value gives it.
-        return root if abs(self.onset(root) / target - 1.0) < _HIT else math.nan
+        return root if self._is_onset(target, root, _HIT) else math.nan
+
+    def _is_onset(self, speed: float, value: float, apart: float) -> bool:
+        return abs(self.onset(value) / speed - 1.0) < apart
+
+    def _on_edge(self, speed: float, low: float, high: float, sharp: float) -> Iterator[float]:
+        """Yield values between two at which a change of stability lies at a speed.
+
+        First what bracketing finds, then all there are; a machine may be unstable at lower speeds
+        too. Raises ValueError where they are not known, as on films with a table at each value.
+        """
+
+        def on_edge(value: float) -> float:
+            return edge(self.machine(value), speed)
+
+        with suppress(ValueError):
+            yield float(brentq(on_edge, low, high, xtol=sharp, rtol=_SHARP))
+        one, other = (film_of(self.machine(end).bearing) for end in (low, high))
+        if one.curve is None or one.curve != other.curve or one.frequency_dependent:
+            raise ValueError(f"{'.'.join(self.path)}: changes the film")
+        aside = _ASIDE * (high - low)
+        for root in zeros(np.vectorize(on_edge, otypes=[float]), low, high, noise=NOISE):
+            ends = max(root - aside, low), min(root + aside, high)
+            yield float(brentq(on_edge, *ends, xtol=sharp, rtol=_SHARP))
 
     def extreme(self, sign: float, values: Array, onsets: Array) -> tuple[float, float]:
         """Return the place of an extreme about three values, and the onset there."""

@@ -405,6 +405,21 @@ def test_a_damped_machine_is_solved_on_its_eigenvalues() -> None:
     assert onset_speed(solved).speed == pytest.approx(7200 * RPM, rel=1e-9)
 
 
+def test_a_target_between_two_branches_is_no_solution() -> None:
+    """At a damping the whirl of the first branch is quenched: the onset jumps to the second."""
+    soft = replace(SHEET, rotor=replace(SHEET.rotor, shaft_stiffness=1.5e7, journal_mass=20.0))
+    span = {"vary": "disk_damping", "low": 1e2, "high": 1e5}
+    found = design.solve_onset(soft, target=1500.0, **span)
+    steps = found.onset[1:] / found.onset[:-1]
+    assert np.any(steps > 1.5)
+    at = int(np.argmax(steps))
+    between = math.sqrt(found.onset[at] * found.onset[at + 1])
+    missed = design.solve_onset(soft, target=between, **span)
+    assert not np.any(
+        (missed.solutions > found.values[at]) & (missed.solutions < found.values[at + 1])
+    )
+
+
 def test_a_jump_past_the_target_is_no_solution(monkeypatch: pytest.MonkeyPatch) -> None:
     def jump(machines: list[Machine]) -> np.ndarray:
         return np.array([100.0 if one.static_load < 1000.0 else 300.0 for one in machines])

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from scipy.optimize import brentq
 
-from rotorcalc.arrays import Array, IntArray
+from rotorcalc.arrays import Array, ComplexArray, IntArray
 
 # Chebyshev points: as many as a smooth function needs over an interval of a few per cent.
 _POINTS = 18
@@ -19,6 +19,9 @@ _AT_PLACES = cast("Array", chebyshev.chebvander(_PLACES, _POINTS - 1))
 _SLOPES = cast("Array", chebyshev.chebder(np.eye(_POINTS)).T)
 # Newton's steps at most to the roots of many series, and the length of the last.
 _STEPS, _LAST = 8, 1e-15
+# Parts of an interval at most in which a series is tried for all zeros of a function, and how far
+# off the real interval a zero of a series may be by rounding.
+_PARTS, _REAL = 24, 1e-7
 # Last coefficients over the largest, below which a series equals the function up to rounding.
 NOTHING = 1e-13
 # Intervals at most in which a series is tried, each within the one before.
@@ -129,6 +132,51 @@ def narrow_roots(
     places = np.full(len(series), np.nan)
     places[known] = _roots_of_series(series[known], changes[known].argmax(axis=1))
     return middle + half * places
+
+
+def zeros(
+    values: Callable[[Array], Array], low: float, high: float, *, noise: float = NOTHING
+) -> Array:
+    """Return all points of an interval at which a smooth function vanishes.
+
+    Parameters
+    ----------
+    values : callable
+        The function: values (n,) at points (n,).
+    low, high : float
+        The interval's ends.
+    noise : float
+        As in `narrow_root`.
+
+    Returns
+    -------
+    array, (k,)
+        The zeros, rising, to about the noise times the interval.
+
+    Raises
+    ------
+    ValueError
+        Where no series equals the function, not even over small parts of the interval.
+    """
+    found, left = [np.empty(0)], [(low, high)]
+    for _ in range(_PARTS):
+        begin, end = left.pop()
+        middle, half = 0.5 * (begin + end), 0.5 * (end - begin)
+        series = _TO_COEFFICIENTS @ values(middle + half * _NODES)
+        if np.all(np.abs(series[-2:]) <= noise * np.abs(series).max()):
+            found.append(middle + half * _all_roots(series))
+        else:
+            left += [(middle, end), (begin, middle)]
+        if not left:
+            return np.unique(np.concatenate(found))
+    raise ValueError(f"between {low:g} and {high:g}: no series equals the function")
+
+
+def _all_roots(series: Array) -> Array:
+    """Return the real roots of a series between its ends."""
+    roots = cast("ComplexArray", chebyshev.chebroots(series))
+    is_real = (np.abs(roots.imag) <= _REAL) & (np.abs(roots.real) <= 1.0 + _REAL)
+    return np.clip(roots.real[is_real], -1.0, 1.0)
 
 
 def _roots_of_series(series: Array, place: IntArray) -> Array:

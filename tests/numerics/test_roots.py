@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from rotorcalc.numerics.roots import HiddenRootError, narrow_root, narrow_roots
+from rotorcalc.numerics.roots import HiddenRootError, narrow_root, narrow_roots, zeros
 
 
 @pytest.mark.parametrize(
@@ -106,3 +106,13 @@ def test_many_functions_roots_are_found_to_rounding_in_one_call() -> None:
     assert roots[1:-1] == pytest.approx(about[1:-1], rel=3e-15)
     assert np.isnan(roots[[0, -1]]).all()
     assert looks == [(6, 18)]
+
+
+def test_all_zeros_of_a_function_are_found() -> None:
+    assert zeros(np.cos, 0.0, 20.0) == pytest.approx(np.pi * (np.arange(6) + 0.5), rel=1e-12)
+    assert zeros(lambda x: x**2 + 1e-3, -1.0, 1.0).size == 0
+
+
+def test_zeros_of_a_function_with_a_jump_are_not_claimed() -> None:
+    with pytest.raises(ValueError, match="no series"):
+        zeros(lambda x: np.where(x < 0.7, -1.0, 1.0), 0.0, 1.0)
