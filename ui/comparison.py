@@ -14,7 +14,7 @@ from ui.bearing import fields_of, film_name
 from ui.bores import KIND, Values, name_of
 from ui.cases import Shown
 from ui.computed import Computed
-from ui.format import minus
+from ui.format import minus, powers
 from ui.inputs import INPUTS, LAW, law_of, number, values_of
 from ui.results.table import RESULTS
 
@@ -69,11 +69,16 @@ def results(machines: Sequence[Computed], units: Units) -> Iterator[Row]:
 
 
 def shown(key: str, values: Values, units: Units) -> str:
-    """Return an input's value as text."""
+    """Return an input's value as it is read."""
+    return minus(powers(written(key, values, units)))
+
+
+def written(key: str, values: Values, units: Units) -> str:
+    """Return an input's value as text that a program reads too."""
     if values.get(key) is None:
         return _FOLLOWS.get(key, "–")
     item, value = INPUTS[key], number(values, key)
-    return item.infinite if math.isinf(value) else minus(f"{item.shown(value, units):.6g}")
+    return item.infinite if math.isinf(value) else f"{item.shown(value, units):.6g}"
 
 
 def table(computed: Computed, cases: Sequence[Shown], units: Units) -> str:

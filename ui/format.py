@@ -11,6 +11,7 @@ from rotorcalc.arrays import Array
 from rotorcalc.units import Unit
 
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_EXPONENT = re.compile(r"(?<=\d)e([+-]?\d+)\b")
 # From this ratio on a multiple says more than per cent.
 _MULTIPLE = 3.0
 
@@ -40,6 +41,11 @@ def above(ratio: float) -> str:
 def amount(unit: Unit, value: ArrayLike) -> str:
     """Return an SI value in a unit, with the unit's name."""
     return f"{minus(digits(float(unit.of(value))))} {unit.name}"
+
+
+def powers(text: str) -> str:
+    """Return a number as computers write it with its power of ten as people do: 1.5·10⁸."""
+    return _EXPONENT.sub(lambda found: f"·10{f'{int(found[1])}'.translate(_RAISED)}", text)
 
 
 def minus(text: str) -> str:

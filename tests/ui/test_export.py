@@ -22,7 +22,7 @@ from ui.computed import Computed, computed_from
 from ui.format import digits
 from ui.inputs import PRESET_VALUES, Values, inputs_of, values_of
 from ui.results.table import RESULTS
-from ui.sharing import export, report
+from ui.sharing import export, report, report_charts
 from ui.sharing.labels import Labels
 from ui.sharing.report_charts import sections
 from ui.words import validity, verdict
@@ -383,6 +383,21 @@ def test_report_names_rigid_shaft_weight_and_missing_onset() -> None:
     text = read("sheet-1e8", None).text
     assert text[text.index("N, half the weight") - 1].startswith("1334.")
     assert "no limit" in read("no onset", None).text
+
+
+def test_report_typesets_symbols_and_powers() -> None:
+    page = report.report(computed("sheet-1e8"), [], SI, LINK, LABELS).decode()
+    assert "<i>K<sub>XY</sub></i> [MN/m]" in page
+    assert ">1·10⁸<" in page
+    tables = page[page.index("<h2>Inputs") : page.index("<figure")]
+    assert not re.search(r"\de[+-]\d|\bK_?XX", tables)
+
+
+def test_report_stands_names_of_cases_beside_the_others() -> None:
+    one = computed("sheet-1e8")
+    for chart in report_charts.charts(one, [kept("sheet-1e7")], SI).values():
+        # Else Plotly gives each group of a legend a column, and the first has all other names.
+        assert chart["layout"]["legend"]["traceorder"] == "normal"
 
 
 def test_report_compares_cases_where_they_differ() -> None:

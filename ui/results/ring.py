@@ -53,8 +53,8 @@ RING: tuple[Result, ...] = (
             _of_film("inner", "eccentricity_ratio"), "eccentricity"),
     _result("outer_eccentricity", "Outer film's ε", "number",
             _of_film("outer", "eccentricity_ratio"), "eccentricity"),
-    _result("inner_film", "Inner film's least h", "film",
+    _result("inner_film", "Inner film's smallest h", "film",
             _of_film("inner", "minimum_film_thickness"), "thickness"),
-    _result("outer_film", "Outer film's least h", "film",
+    _result("outer_film", "Outer film's smallest h", "film",
             _of_film("outer", "minimum_film_thickness"), "thickness"),
 )  # fmt: skip

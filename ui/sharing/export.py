@@ -121,7 +121,7 @@ def inputs(computed: Computed, units: Units) -> Iterator[tuple[str, str]]:
     for key, item in INPUTS.items():
         if not applies(key, values):
             continue
-        yield f"# {item.name(units)}", comparison.shown(key, values, units).replace("−", "-")
+        yield f"# {item.name(units)}", comparison.written(key, values, units)
         if key == "load" and by_weight:
             yield "# The load is", "half the weight"
     if not computed.has_own:

@@ -7,6 +7,7 @@ import datetime as dt
 import functools
 import importlib.resources
 import math
+import re
 import string
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from html import escape
@@ -42,6 +43,7 @@ from ui.words.verdict import beside, verdict
 _ROWS = 20
 # Results that only an oil's film has.
 _OF_OIL = ("viscosity", "film_temperature")
+_COEFFICIENT = re.compile(r"\b([KC])_([XY]{2})\b")
 # Text, and the class of its cell.
 Cell: TypeAlias = tuple[str, str]
 
@@ -248,7 +250,7 @@ def _over_speed(computed: Computed, units: Units) -> str:
     """Return K and C over the sweep, at some of its speeds."""
     sweep = computed.sweep
     every = max(1, len(sweep.speed) // _ROWS)
-    parts = [(f"{letter}{ij}", unit, matrix[:, "XY".index(ij[0]), "XY".index(ij[1])])
+    parts = [(f"{letter}_{ij}", unit, matrix[:, "XY".index(ij[0]), "XY".index(ij[1])])
              for letter, unit, matrix in (("K", units.stiffness, sweep.stiffness),
                                           ("C", units.damping, sweep.damping))
              for matrix in (without_noise(matrix),)
@@ -416,8 +418,13 @@ def _table(head: str, rows: Iterable[str]) -> str:
 
 
 def _row(cells: Iterable[Cell], style: str = "", *, tag: str = "td") -> str:
-    drawn = "".join(f"<{tag}{_class(style)}>{escape(text)}</{tag}>" for text, style in cells)
+    drawn = "".join(f"<{tag}{_class(style)}>{_typeset(text)}</{tag}>" for text, style in cells)
     return f"<tr{_class(style)}>{drawn}</tr>"
+
+
+def _typeset(text: str) -> str:
+    """Return a text as HTML, in which K_XX has an index."""
+    return _COEFFICIENT.sub(r"<i>\1<sub>\2</sub></i>", escape(text))
 
 
 def _class(style: str) -> str:

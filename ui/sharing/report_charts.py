@@ -38,7 +38,8 @@ Charts: TypeAlias = dict[str, Chart]
 # The width of A4 and of Letter within the report's margins, and of two charts beside each other.
 FULL, HALF = 680, 334
 _HEIGHT = 228
-_LEGEND = {"orientation": "h", "x": 0, "y": 1.01, "yanchor": "bottom"}
+# Normal: groups, which cases make, would stand in columns of their own.
+_LEGEND = {"orientation": "h", "x": 0, "y": 1.01, "yanchor": "bottom", "traceorder": "normal"}
 _MARGIN = {"l": 58, "r": 10, "t": 30, "b": 44}
 
 
