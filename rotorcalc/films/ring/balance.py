@@ -13,9 +13,11 @@ that the inner film would hold the ring rather than turn it.
 Source: Shaw & Nussdorfer 1949, NACA Report 866, for r without load.
 """
 
+import functools
 import math
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 from scipy.optimize import brentq
 
 from rotorcalc.arrays import Array
@@ -26,6 +28,9 @@ from rotorcalc.films.short.static import place_and_root
 _SETTLED, _BESIDE, _MOST_STEPS = 1e-7, 1e-7, 100
 # r below which no film is left to hold a ring.
 _LEAST = 1e-280
+# Loads at which r of two tables is known for the search to begin, up to one so light that it counts
+# as none: their ln σ lies from the heaviest on.
+_KNOTS, _LIGHT = 193, 12.0
 # As much above the least load number of a film is its heaviest load.
 _INSIDE = 1.0 + 1e-9
 
@@ -64,10 +69,26 @@ def speed_ratio(pair: Pair, sigma: Array) -> Array:
     """
     if pair.alike and sigma.size == 1 and np.isfinite(sigma).all():
         return np.full(sigma.shape, _of_one(pair, float(sigma.item())))
+    if pair.alike:
+        return _found(pair, sigma, np.full(sigma.shape, math.log(unloaded(pair))))
+    path = _path(pair)
+    return _found(pair, sigma, path(np.clip(np.log(sigma), path.x[0], path.x[-1])))
+
+
+@functools.lru_cache(maxsize=64)
+def _path(pair: Pair) -> CubicSpline:
+    """Return ln r over ln σ, close enough to begin with."""
+    ln_sigma = math.log(least_sommerfeld(pair)) + np.linspace(0.0, _LIGHT, _KNOTS)
+    start = np.full_like(ln_sigma, math.log(unloaded(pair)))
+    return CubicSpline(ln_sigma, np.log(_found(pair, np.exp(ln_sigma), start)))
+
+
+def _found(pair: Pair, sigma: Array, start: Array) -> Array:
+    """Return r at σ, from ln r near it."""
     slowest = pair.outside.least_sommerfeld * _INSIDE / (pair.force * sigma)
     low: Array = np.log(np.clip(slowest, _LEAST, 0.999))
     high = np.zeros_like(low)
-    z = np.maximum(np.full_like(low, math.log(unloaded(pair))), 0.5 * low)
+    z = np.maximum(start, 0.5 * low)
     settled = np.zeros(np.shape(z), dtype=bool)
     # The same steps as in `_of_one`: a change of one is a change of both.
     for _ in range(_MOST_STEPS):
@@ -109,6 +130,7 @@ def _of_one(pair: Pair, sigma: float) -> float:
     raise RuntimeError(f"no speed of the ring found within {_MOST_STEPS} steps")
 
 
+@functools.lru_cache(maxsize=64)
 def least_sommerfeld(pair: Pair) -> float:
     """Return σ of the heaviest load under which both films carry and turn the ring.
 
