@@ -71,12 +71,15 @@ def narrow_root(
     >>> round(narrow_root(np.cos, 1.5, 1.6), 12)
     1.570796326795
     """
-    is_jump, beside = False, np.empty((2, 2))
+    is_jump, beside, rounding = False, np.empty((2, 2)), 0.0
     for _ in range(_NARROWER):
         middle, half = 0.5 * (low + high), 0.5 * (high - low)
         places = middle + half * _NODES
         found = values(places)
-        place = _root_of_series(found, noise)
+        series = _TO_COEFFICIENTS @ found
+        # Errors do not shrink with the interval, as the function does towards its root.
+        rounding = rounding or noise * float(np.abs(series).max())
+        place = _root_of_series(series, rounding)
         if place is not None:
             return float(middle + half * place)
         changes = np.flatnonzero((found[1:] > 0.0) != (found[:-1] > 0.0))
@@ -212,10 +215,9 @@ def _closer(values: Callable[[Array], Array], beside: Array) -> Array:
     return np.stack([places, found])[:, first : first + 2]
 
 
-def _root_of_series(values: Array, noise: float) -> float | None:
-    """Return the root of the series through values at the nodes, None where it is not theirs."""
-    series = _TO_COEFFICIENTS @ values
-    if np.any(np.abs(series[-2:]) > noise * np.abs(series).max()):
+def _root_of_series(series: Array, rounding: float) -> float | None:
+    """Return the root of a series through values at the nodes, None where it is not theirs."""
+    if np.any(np.abs(series[-2:]) > rounding):
         return None
     of_series = (series.tolist(),)
     ends = clenshaw(-1.0, *of_series), clenshaw(1.0, *of_series)
