@@ -25,7 +25,8 @@ from rotorcalc.films.finite.equilibrium import settled
 from rotorcalc.films.finite.fronts import coefficients
 from rotorcalc.films.finite.results import drag, side_flow
 from rotorcalc.films.finite.reynolds import films, mesh, solved
-from rotorcalc.films.finite.table import settled_pressures, table
+from rotorcalc.films.finite.sweeps import settled_pressures
+from rotorcalc.films.finite.table import table
 from rotorcalc.films.pads import Pad, gap, pads_of
 from rotorcalc.films.state import OperatingPoints
 from rotorcalc.geometry import Geometry

@@ -9,7 +9,8 @@ import pytest
 from rotorcalc import JournalBearing, Lobes, TiltingPads, analyse, validity
 from rotorcalc.films import film_of, film_state
 from rotorcalc.films.finite.reynolds import films, mesh
-from rotorcalc.films.finite.table import carried, settled_pressures
+from rotorcalc.films.finite.sweeps import settled_pressures
+from rotorcalc.films.finite.table import carried
 from rotorcalc.films.pads import gap
 from rotorcalc.films.state import OperatingPoints
 from rotorcalc.films.tilting import settling

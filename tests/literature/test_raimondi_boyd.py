@@ -16,7 +16,7 @@ from rotorcalc import JournalBearing
 from rotorcalc.films import film_state
 from rotorcalc.films.finite.results import peak, side_flow
 from rotorcalc.films.finite.reynolds import films, mesh
-from rotorcalc.films.finite.table import settled_pressures
+from rotorcalc.films.finite.sweeps import settled_pressures
 from rotorcalc.films.pads import Pad
 
 # L/D: ε, S, φ [°], Q/RCNL, Q_s/Q, P/p_max.

@@ -5,7 +5,8 @@ import numpy as np
 from rotorcalc.films.finite.equilibrium import settled
 from rotorcalc.films.finite.fronts import coefficients
 from rotorcalc.films.finite.reynolds import films, mesh
-from rotorcalc.films.finite.table import FilmTable, carried, settled_pressures
+from rotorcalc.films.finite.sweeps import settled_pressures
+from rotorcalc.films.finite.table import FilmTable, carried
 from rotorcalc.films.model import Accuracy
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.films.finite.reynolds import Films, Mesh, Solution, films, solved, stiffness
+from rotorcalc.films.finite.sweeps import settled_pressures
 from rotorcalc.films.pads import gap
 from rotorcalc.films.rough_positions import crossings, net
 
@@ -72,9 +73,7 @@ def scan(mesh: Mesh) -> tuple[Array, Array, BoolArray]:
     position = places.reshape(-1, 2)
     found = films(mesh, position)
     wet = np.ones((len(position), *mesh.shape), dtype=bool)
-    at = solved(found, wet, adjoint=False)
-    for _ in range(_SCAN_SWEEPS):
-        at = solved(found, at.next_wet, adjoint=False)
+    at = settled_pressures(found, wet, sweeps=_SCAN_SWEEPS)
     load, place, near = crossings(at.force.reshape(places.shape), places)
     return load, place, at.next_wet[near]
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.films.finite.reynolds import Films, Mesh, films
-from rotorcalc.films.finite.table import settled_pressures
+from rotorcalc.films.finite.sweeps import settled_pressures
 
 _TURN = 2.0 * np.pi
 

@@ -12,11 +12,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotorcalc.arrays import Array, BoolArray, IntArray
+from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.films.finite.equilibrium import ASTRAY, Equilibria, scan, settled
 from rotorcalc.films.finite.fronts import coefficients
 from rotorcalc.films.finite.results import drag, peak, side_flow
-from rotorcalc.films.finite.reynolds import Films, Mesh, Solution, films, mesh, solved
+from rotorcalc.films.finite.reynolds import Mesh, films, mesh
+from rotorcalc.films.finite.sweeps import settled_pressures
 from rotorcalc.films.load_splines import CoefficientSplines, LoadSplines, half_whirl
 from rotorcalc.films.pads import NO_POSITION, Pad, are_concentric, gap, have_pockets, resting
 
@@ -45,7 +46,7 @@ _LIGHT_LOADS = 6
 # The load that stands for none in a bore without preload, where no load is no film, over the
 # lightest.
 _NEXT_TO_NONE = 1e-5
-_ROUGH, _MOST_SWEEPS = 5, 40
+_ROUGH = 5
 # With pockets light films are far wider than the scan's, and grow by a node a step.
 _ROUGH_WITH_POCKETS = 8
 # So few equilibria make no table.
@@ -299,31 +300,6 @@ def _wider(wet: BoolArray) -> BoolArray:
     wide[:, :, 1:] |= wet[:, :, :-1]
     wide[:, :, :-1] |= wet[:, :, 1:]
     return wide
-
-
-def settled_pressures(found: Films, wet: BoolArray) -> Solution:
-    """Return pressures at fixed positions, the active set corrected until nothing changes."""
-    at = solved(found, wet, adjoint=False)
-    rows = np.arange(len(wet))
-    for _ in range(_MOST_SWEEPS):
-        after = at.next_wet
-        changed = (after[rows] != at.wet[rows]).any(axis=(1, 2, 3))
-        rows = rows[changed]
-        if not rows.size:
-            break
-        again = solved(found.taken(rows), after[rows], adjoint=False)
-        at = Solution(
-            _with(at.pressure, rows, again.pressure), after, _with(at.excess, rows, again.excess),
-            at.adjoint, _with(at.force, rows, again.force),
-        )  # fmt: skip
-    return at
-
-
-def _with(values: Array, rows: IntArray, others: Array) -> Array:
-    """Return values with some rows in place."""
-    values = values.copy()
-    values[rows] = others
-    return values
 
 
 def _made(grid: Mesh, found: Equilibria, concentric: bool) -> FilmTable:

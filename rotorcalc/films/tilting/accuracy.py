@@ -5,7 +5,8 @@ import numpy as np
 from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.films.dynamics import reduced
 from rotorcalc.films.finite.reynolds import Mesh, films, mesh
-from rotorcalc.films.finite.table import carried, settled_pressures
+from rotorcalc.films.finite.sweeps import settled_pressures
+from rotorcalc.films.finite.table import carried
 from rotorcalc.films.model import Accuracy
 from rotorcalc.films.tilting import linear
 from rotorcalc.films.tilting.balance import Asked, Balance, balanced

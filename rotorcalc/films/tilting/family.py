@@ -26,7 +26,8 @@ from rotorcalc.arrays import Array, BoolArray
 from rotorcalc.films.finite.fronts import coefficients
 from rotorcalc.films.finite.results import drag, peak, side_flow
 from rotorcalc.films.finite.reynolds import Films, Mesh, Solution, films, mesh, solved, stiffness
-from rotorcalc.films.finite.table import carried, settled_pressures
+from rotorcalc.films.finite.sweeps import settled_pressures
+from rotorcalc.films.finite.table import carried
 from rotorcalc.films.pads import Pad, gap, outline
 
 # The thinnest film of the family, and the lowest ξ, in C.
@@ -265,9 +266,8 @@ def _turning(rough: Mesh, e: Array, gamma: Array) -> tuple[Array, BoolArray]:
     """Return F_η of films at distances and directions (...), and their active sets."""
     position = np.stack([e * np.cos(gamma), e * np.sin(gamma)], axis=-1)
     found = films(rough, position.reshape(-1, 2))
-    at = solved(found, np.ones((e.size, *rough.shape), dtype=bool), adjoint=False)
-    for _ in range(_SCAN_SWEEPS):
-        at = solved(found, at.next_wet, adjoint=False)
+    full = np.ones((e.size, *rough.shape), dtype=bool)
+    at = settled_pressures(found, full, sweeps=_SCAN_SWEEPS)
     return at.force[:, 1].reshape(e.shape), at.next_wet.reshape(*e.shape, *rough.shape)
 
 
