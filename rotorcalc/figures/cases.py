@@ -164,7 +164,9 @@ def widened(layout: Chart, others: Sequence[Chart]) -> Chart:
             ends = [first, last, *(end for reach in there for end in reach)]
             low, high = min(ends), max(ends)
             wide = {**axis, "range": [low, high] if first <= last else [high, low]}
-            axes[name] = wide | (ticks(low, high) if has_own_ticks(axis) else {})
+            # No closer than a small chart's, whose labels would run into each other.
+            most = max(4, len(axis.get("tickvals", ())) - 1)
+            axes[name] = wide | (ticks(low, high, most) if has_own_ticks(axis) else {})
     return {**layout, **axes}
 
 

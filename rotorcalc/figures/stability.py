@@ -102,6 +102,9 @@ def threshold_at_a_glance(
 ) -> Chart:
     """Return that chart small; where no speed is unstable it says so, for its lines may be out."""
     chart = style.small(threshold(over, here, crossing, units))
+    # In one line the axis's title is longer than the plot of a small chart with cases is high.
+    title = chart["layout"]["yaxis"]["title"]
+    title["text"] = title["text"].replace("Threshold speed ", "Threshold speed<br>")
     if math.isinf(crossing.onset.speed):
         words = _verdict(crossing.onset, chart["layout"]["xaxis"], units.speed)
         chart["layout"]["annotations"] = [words | {"font": {"size": 12}}]

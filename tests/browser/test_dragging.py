@@ -10,6 +10,7 @@ import rotorcalc as rc
 from rotorcalc.units import SI
 from tests.browser.app_page import MACHINE_PAGES, AppPage
 from tests.browser.test_live import SAID, _drag
+from tests.browser.test_room import CUT
 from ui.computed import computed_from
 from ui.inputs import PRESET_VALUES
 from ui.words.verdict import verdict
@@ -18,6 +19,10 @@ RPM = math.pi / 30
 VALUES = PRESET_VALUES["sheet-1e8"]
 DIMMED = """() => [...document.querySelectorAll('.live-unknown[class*="st-key-said_"]')]
   .map(place => place.className.match(/st-key-said_\\S+/)[0])"""
+# By how many pixels the title of an upright axis is longer than its chart is high.
+_TOO_LONG = """() => [...document.querySelectorAll('.js-plotly-plot .ytitle')].map(title =>
+  title.closest('.js-plotly-plot').getBoundingClientRect().top - title.getBoundingClientRect().top
+).filter(pixels => pixels > 0)"""
 _MARKED = """key => window.rotorcalcCharts.get(key).element.data
   .filter(trace => trace.name === 'running speed').map(trace => trace.x.at(-1))"""
 
@@ -72,6 +77,8 @@ def test_a_thumb_held_beyond_the_onset_is_answered_by_the_whole_page(app: AppPag
     assert app.metrics() == numbers
     assert _changes(app) == changes
     assert verdict(computed_from(VALUES | {"rpm": rpm}), SI).sentence in held["st-key-said_verdict"]
+    # Changes and a legend of cases take room: nothing is cut for it.
+    assert app.page.evaluate(CUT) + app.page.evaluate(_TOO_LONG) == []
 
 
 def _changes(app: AppPage) -> list[str]:

@@ -19,7 +19,7 @@ CHARTS = [
 ]
 
 # Texts of results, tabs, buttons and links that are wider than their box, and hidden there.
-_CUT = """() => {
+CUT = """() => {
   const cut = [];
   const texts = '.stMetric *, [role=tab] *, .stMain button *, .stMain a *, .live-slider label';
   for (const element of document.querySelectorAll(texts)) {
@@ -79,7 +79,7 @@ def _see_nothing_cut_at_any_width_and_zoom(app: AppPage) -> None:
         if (width, height) == sizes[0]:  # with the charts, as wide as their columns
             hidden.evaluate("style => style.remove()")
         app.rest()
-        faults = app.page.evaluate(_CUT)
+        faults = app.page.evaluate(CUT)
         if (wide := app.overflow()) > 0:
             faults.append(f"scrolls sideways by {wide} px")
         if faults:

@@ -51,6 +51,12 @@ def test_a_chart_without_a_legend_names_the_cases_alone():
     assert [t["name"] for t in chart["data"] if t.get("showlegend", True)] == ["A"]
 
 
+def test_a_small_chart_keeps_its_few_ticks_over_a_case():
+    chart = beside(style.small(drawn(5.0)), style.small(drawn(6.0)))
+    assert chart["layout"]["yaxis"]["range"] == [0.0, 6.0]
+    assert chart["layout"]["yaxis"]["tickvals"] == [0.0, 2.0, 4.0, 6.0]
+
+
 def test_names_of_cases_are_not_cut_by_a_legend_of_narrow_entries():
     narrow = {"orientation": "h", "entrywidth": 28}
     for legend, place in ((narrow, "legend2"), (narrow | {"entrywidthmode": "fraction"}, None)):
