@@ -122,12 +122,11 @@ class Oil(Lubricant):
         0.02
         """
         T = real_array("temperature", temperature)
-        if not np.isfinite(T).all():
-            raise ValueError(f"temperature = {shown(temperature)} °C: must be finite")
-        if (-zero_Celsius > T).any():
-            raise ValueError(
-                f"temperature = {shown(temperature)} °C: below absolute zero, {-zero_Celsius} °C"
-            )
+        if not (np.isfinite(T) & (-zero_Celsius <= T)).all():
+            problem = f"below absolute zero, {-zero_Celsius} °C"
+            if not np.isfinite(T).all():
+                problem = "must be finite"
+            raise ValueError(f"temperature = {shown(temperature)} °C: {problem}")
         if self.law == "walther":
             ratio = (T + zero_Celsius) / (self.reference_temperature + zero_Celsius)
             # The law over its value at T_R: ln(ν + 0.7) goes as T^−B.

@@ -162,9 +162,9 @@ class Record:
             if isinstance(rule.check, type):
                 if not isinstance(value, rule.check):
                     raise ValueError(f"{name} = {shown(value)}: must be {_names(rule.check)}")
-            else:
+            elif (kept := rule.check.check(name, value)) is not value:
                 # Past the frozen dataclass: an integer or a NumPy number is stored as a float.
-                object.__setattr__(self, name, rule.check.check(name, value))
+                object.__setattr__(self, name, kept)
 
 
 R = TypeVar("R", bound=Record)

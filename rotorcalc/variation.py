@@ -6,8 +6,8 @@ bearing's geometry has its own, "bearing.geometry.preload".
 
 import functools
 import math
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields, replace
 from typing import Any, cast
 
 from rotorcalc.arguments import checked
@@ -129,12 +129,31 @@ def address(machine: Machine, field: str) -> tuple[str, ...]:
 
 def changed(record: R, changes: Mapping[tuple[str, ...], float]) -> R:
     """Return a record with the values at some paths changed, which `address` gives."""
-    # All at once: one change at a time may pass through an invalid record.
-    own: dict[str, Any] = {path[0]: value for path, value in changes.items() if len(path) == 1}
-    for name in {path[0] for path in changes if len(path) > 1}:
-        below = {path[1:]: value for path, value in changes.items() if path[0] == name}
-        own[name] = changed(getattr(record, name), below)
-    return replace(record, **own)
+    return maker(record, tuple(changes))(tuple(changes.values()))
+
+
+def maker(record: R, paths: Sequence[tuple[str, ...]]) -> Callable[[Sequence[float]], R]:
+    """Return what makes a record with other values at some paths, in their order."""
+    kept = {field.name: getattr(record, field.name) for field in fields(record)}
+    # Of each field that changes, the places of its values, and what makes it of them.
+    parts: dict[str, tuple[list[int], Callable[[Sequence[float]], Any]]] = {}
+    for name in {path[0] for path in paths}:
+        places = [i for i, path in enumerate(paths) if path[0] == name]
+        below = [paths[i][1:] for i in places]
+        parts[name] = places, maker(kept[name], below) if below[0] else _alone
+
+    def made(values: Sequence[float]) -> R:
+        # All at once: one change at a time may pass through an invalid record.
+        new = {name: make([values[i] for i in places]) for name, (places, make) in parts.items()}
+        return type(record)(**kept | new)
+
+    return made
+
+
+def _alone(values: Sequence[float]) -> float:
+    """Return the value of a field that is a number."""
+    [value] = values
+    return value
 
 
 @checked

@@ -23,7 +23,7 @@ from rotorcalc.onset.judge import is_unstable
 from rotorcalc.onset.many import onset_speeds
 from rotorcalc.tolerances.spreads import drawn
 from rotorcalc.tolerances.statistics import Influence, Probability, influence, probability
-from rotorcalc.variation import address, changed
+from rotorcalc.variation import address, maker
 
 # Machines of a part. In closed form thousands are solved at once; of any other film each may need a
 # table of its own, and a part of many would keep the others waiting.
@@ -181,8 +181,7 @@ class Part:
 
     def machines(self) -> Iterator[Machine]:
         """Yield the machine of each sample; raises ValueError where one is no valid machine."""
-        for row in self.values.tolist():
-            yield changed(self.machine, dict(zip(self.paths, row, strict=True)))
+        yield from map(maker(self.machine, self.paths), self.values.tolist())
 
 
 @dataclass(frozen=True, eq=False)
