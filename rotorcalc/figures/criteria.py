@@ -78,7 +78,7 @@ def decrement(shown: Stability, units: Units) -> Chart:
     least = np.full(2, LEAST_DECREMENT)
     ends = np.array([0.0, float(Q[-1])])
     traces = [
-        style.line(ends, least, f"least δ, {LEAST_DECREMENT:g}", style.GREY, dash="dash",
+        style.line(ends, least, f"required δ, {LEAST_DECREMENT:g}", style.GREY, dash="dash",
                    width=1.6, hoverinfo="skip"),
         style.line(Q, delta, "first forward mode", style.BLUE, hovertemplate=hover),
     ]  # fmt: skip

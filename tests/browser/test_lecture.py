@@ -56,6 +56,16 @@ answer = "Both."
     assert "this formula is faulty. ParseError" in words[1]
 
 
+def test_on_a_phone_a_long_legend_leaves_a_steps_chart_its_plot(app: AppPage) -> None:
+    app.page.set_viewport_size({"width": 390, "height": 844})
+    app.open("Lecture", step="10")
+    assert app.page.locator(".legendtext").count() == 4
+    plot = app.page.locator(".js-plotly-plot .bglayer").first.bounding_box()
+    assert plot
+    assert plot["height"] > 260
+    expect(app.page.locator(".modebar").first).to_be_hidden()
+
+
 def test_a_sheet_has_the_students_own_number(app: AppPage) -> None:
     app.open("Exercises", exercise="3", seed="4711")
     with app.page.expect_download() as came:

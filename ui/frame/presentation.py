@@ -103,6 +103,6 @@ def draw_sliders(visitor: Session) -> None:
 
 def _title(key: str) -> str:
     """Return a view's name from its chart's key."""
-    for page in ("home_", "orbits_"):
+    for page in ("home_", "orbits_", "tolerances_", "sweep_"):
         key = key.removeprefix(page)
     return key.replace("_", " ").capitalize()

@@ -132,34 +132,41 @@ function times(factor, holder, names) {
   }
 }
 
+// Enlarges type by a factor, to 16 px at least.
+function type(factor, font) {
+  times(factor, font, ["size"]);
+  if (typeof font?.size === "number") font.size = Math.max(16, font.size);
+  else if (Array.isArray(font?.size)) font.size = font.size.map((one) => Math.max(16, one));
+}
+
 // Enlarges type by a factor, with what must have room for it, and lines and marks by half of that.
 function enlarge({ data, layout }, factor) {
   const half = (1 + factor) / 2;
-  times(factor, layout.font, ["size"]);
+  type(factor, layout.font);
   times(factor, layout.margin, ["l", "r"]);
   times(half, layout.margin, ["t"]);
   times(layout.sliders ? 1 : factor, layout.margin, ["b"]); // Plotly makes room for what a slider needs
   times(factor, layout.legend, ["itemwidth"]);
   if (layout.legend?.entrywidthmode !== "fraction") times(factor, layout.legend, ["entrywidth"]);
   for (const note of layout.annotations ?? []) {
-    times(factor, note.font, ["size"]);
+    type(factor, note.font);
     times(factor, note, ["xshift", "yshift"]);
     times(half, note, ["arrowwidth"]);
   }
   for (const control of [...(layout.sliders ?? []), ...(layout.updatemenus ?? [])]) {
     times(factor, control.pad, ["b", "l", "r"]);
     times(half, control.pad, ["t"]); // ticks and title of an axis
-    times(factor, control.font, ["size"]);
-    times(factor, control.currentvalue?.font, ["size"]);
+    type(factor, control.font);
+    type(factor, control.currentvalue?.font);
   }
   for (const [name, axis] of Object.entries(layout)) {
     if (!name.includes("axis") || !axis.title) continue;
-    times(factor, axis.tickfont, ["size"]);
+    type(factor, axis.tickfont);
     axis.title.font = { size: layout.font.size }; // Plotly's own is larger still, and longer than a low axis
     times(factor, axis.title, ["standoff"]);
   }
   for (const trace of data) {
-    times(factor, trace.textfont, ["size"]);
+    type(factor, trace.textfont);
     times(half, trace.line, ["width"]);
     times(half, trace.marker, ["size"]);
     times(half, trace.marker?.line, ["width"]);

@@ -42,10 +42,10 @@ FORMULA = (
     r"B = 3\ \text{(impeller)},\ 1.5\ \text{(blades)}"
 )
 STABLE = (
-    "A stiffness Q at midspan stands for all that drives the disk forward. At $Q_A$ the first "
+    "A stiffness $Q$ at midspan stands for all that drives the disk forward. At $Q_A$ the first "
     "forward mode (the least damped, if several) must have δ ≥ 0.1, and $Q_0$, where δ vanishes, "
-    "must be at least 2 $Q_A$. A backward mode, which Q damps, is not judged, and drawn only where "
-    "it is damped less; a machine that it makes unstable fails. API 617, level I."
+    "must be at least 2 $Q_A$. A backward mode, which $Q$ damps, is not judged, and drawn only "
+    "where it is damped less; a machine that it makes unstable fails. API 617, level I."
 )
 CAMPBELL = (
     "Solid: forward modes, broken: backward ones. A mode on the line ω = Ω is driven by the "
