@@ -183,10 +183,21 @@ class Kind(Record):
     @classmethod
     def kinds(cls) -> "dict[str, type[Self]]":
         """Return this class's subclasses by their words, in order of definition."""
-        found: dict[str, type[Self]] = {cls.kind: cls} if cls.kind else {}
-        for below in cls.__subclasses__():
-            found |= below.kinds()
-        return found
+        return dict(cast("Mapping[str, type[Self]]", _kinds(cls)))
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:
+        """Have the new kind found among the others."""
+        super().__init_subclass__(**kwargs)
+        _kinds.cache_clear()
+
+
+@functools.cache
+def _kinds(cls: type[Kind]) -> Mapping[str, type[Kind]]:
+    """Return the kinds of a record; a page asks for them some hundred times."""
+    found: dict[str, type[Kind]] = {cls.kind: cls} if cls.kind else {}
+    for below in cls.__subclasses__():
+        found |= _kinds(below)
+    return found
 
 
 def _names(record: type[Record]) -> str:
