@@ -310,11 +310,14 @@ def stiffness_and_damping(
     ValueError
         Where a speed or a whirl ratio is not positive and finite.
     """
-    omega, ratio = checked_speed(speed), real_array("whirl_ratio", whirl_ratio)
+    omega = checked_speed(speed)
+    if type(whirl_ratio) is float and whirl_ratio == 1.0:
+        # Imbalance shakes the film at running speed, ν = 1: inner coordinates are eliminated at ω.
+        return reduced(_dynamics(machine, omega), omega)
+    ratio = real_array("whirl_ratio", whirl_ratio)
     if not np.all((ratio > 0.0) & np.isfinite(ratio)):
         raise ValueError(f"whirl_ratio = {shown(whirl_ratio)}: must be positive and finite")
     omega, ratio = np.broadcast_arrays(omega, ratio)
-    # Imbalance shakes the film at running speed, ν = 1: inner coordinates are eliminated at ω.
     return reduced(_dynamics(machine, omega), ratio * omega)
 
 

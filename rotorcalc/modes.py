@@ -273,8 +273,10 @@ def characteristic_polynomial(rotor: Rotor, K: Array, C: Array, *, flexible: boo
 @checked
 def film_terms(K: NDArray[Any], C: NDArray[Any]) -> NDArray[Any]:
     """Return the film's part in `characteristic_polynomial`: of det Z, tr Z and 1, (..., 6)."""
-    one = np.ones(K.shape[:-2], dtype=K.dtype)
-    return np.stack([*_determinant(K, C), _trace(K), _trace(C), one], axis=-1)
+    terms = np.ones((*K.shape[:-2], 6), dtype=K.dtype)
+    terms[..., 0], terms[..., 1], terms[..., 2] = _determinant(K, C)
+    terms[..., 3], terms[..., 4] = _trace(K), _trace(C)
+    return terms
 
 
 @checked
@@ -462,11 +464,13 @@ def _determinant(
     K: NDArray[Any], C: NDArray[Any]
 ) -> tuple[NDArray[Any], NDArray[Any], NDArray[Any]]:
     """Return det(K + λC): det K, K : adj C and det C, the coefficients of 1, λ and λ²."""
+    return _mixed(K, K), _mixed(K, C) + _mixed(C, K), _mixed(C, C)
 
-    def both(A: NDArray[Any], B: NDArray[Any]) -> NDArray[Any]:
-        return A[..., 0, 0] * B[..., 1, 1] - A[..., 0, 1] * B[..., 1, 0]
 
-    return both(K, K), both(K, C) + both(C, K), both(C, C)
+# Not within `_determinant`: its annotations would be evaluated at each call, for half of its time.
+def _mixed(A: NDArray[Any], B: NDArray[Any]) -> NDArray[Any]:
+    """Return the product of one matrix's first row and another's second in the determinant."""
+    return A[..., 0, 0] * B[..., 1, 1] - A[..., 0, 1] * B[..., 1, 0]
 
 
 def _trace(A: NDArray[Any]) -> NDArray[Any]:

@@ -59,6 +59,19 @@ def surely_crossed(polynomial: Array) -> BoolArray:
     return past & (determinant(polynomial) < 0.0)
 
 
+def surely_between(before: Array, after: Array) -> bool:
+    """Return whether all roots of one polynomial surely decay, and one pair of another's does not.
+
+    As `margin_bounds` and `surely_crossed` tell of each, in one of Routh's schemes for both.
+    """
+    bounds = _bounds(np.stack([before, after]))
+    with np.errstate(invalid="ignore", over="ignore"):
+        left = _left(np.concatenate([*bounds, after[None]]))
+        past = np.prod(left[:, 4:], axis=0) < 0.0
+    decays = np.all(bounds[0] > 0.0) and np.all(left[:, :4] > 0.0)
+    return bool(decays and np.all(past))
+
+
 def exact_determinant(polynomial: NDArray[np.object_]) -> Any:
     """Return `determinant` of one polynomial of decimals as a decimal."""
     return np.prod(_scheme(polynomial)[1])
@@ -93,7 +106,7 @@ def _left(polynomial: NDArray[Any]) -> Array:
 def _scheme(polynomial: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
     """Return the row of λ² in Routh's scheme, (2, ...), and the column of `_left`."""
     # The first two rows hold every other coefficient, from λⁿ and from λⁿ⁻¹ downwards.
-    falling = np.moveaxis(polynomial, -1, 0)[::-1]
+    falling = polynomial.transpose(-1, *range(polynomial.ndim - 1))[::-1]
     above, row = falling[0::2], falling[1::2]
     left: list[NDArray[Any]] = []
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):

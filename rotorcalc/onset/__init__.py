@@ -51,7 +51,7 @@ def onset_speed(machine: Machine, flexible: bool = True) -> Onset:
     ValueError
         Where `flexible` is neither True nor False.
     """
-    # First, as it errs by rounding alone at any load and takes 0.3 ms; the search takes 1.4 ms.
+    # First, as it errs by rounding alone at any load and takes 0.3 ms; the search takes 1.2 ms.
     if covers(machine):
         return closed_form_onset(machine, flexible=bool(flexible))
     return searched_onset(machine, bool(flexible))

@@ -12,7 +12,6 @@ from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial.polynomial import polyval
 from scipy.optimize import brentq
 
 from rotorcalc import heat, modes
@@ -211,7 +210,7 @@ def _in_floats(
         return None
     # A single sign change of the determinant between the two, proved at both ends.
     decays, grows = polynomials(np.array([stable, unstable]))
-    if routh.margin_bounds(decays)[1] > 0.0 or not routh.surely_crossed(grows):
+    if not routh.surely_between(decays, grows):
         return None
     low, high = sorted((stable, unstable))
     root = narrow_root(lambda speed: routh.determinant(polynomials(speed)), low, high, noise=NOISE)
@@ -219,7 +218,7 @@ def _in_floats(
     # The root counts only where the polynomial is provably stable before it and unstable after it.
     around = np.clip(root * np.array([1.0 - aside, 1.0, 1.0 + aside]), low, high)
     before, there, after = polynomials(around)
-    if routh.margin_bounds(before)[1] > 0.0 or not routh.surely_crossed(after):
+    if not routh.surely_between(before, after):
         return None
     frequency = _axis_frequency(there)
     if math.isnan(frequency):
@@ -232,12 +231,17 @@ def _axis_frequency(polynomial: Array) -> float:
 
     Routh's scheme gives it less accurately than the speed is known; Newton's method refines it.
     """
-    with np.errstate(invalid="ignore", over="ignore"):
-        root, step = 1j * float(routh.axis_frequency(polynomial)), 0.0j
-        slope = polynomial[1:] * np.arange(1, len(polynomial))
-        for _ in range(_REFINEMENTS):
-            step = complex(polyval(root, polynomial) / polyval(root, slope))
-            root -= step
+    root, step = 1j * float(routh.axis_frequency(polynomial)), 0.0j
+    falling: list[float] = polynomial[::-1].tolist()
+    for _ in range(_REFINEMENTS):
+        value = slope = 0.0j
+        for coefficient in falling:  # Horner's scheme, for the slope as well
+            slope = slope * root + value
+            value = value * root + coefficient
+        if slope == 0.0:
+            return math.nan
+        step = value / slope
+        root -= step
     on_axis = max(abs(step), abs(root.real)) <= _ON_AXIS * abs(root)
     return root.imag if on_axis else math.nan
 

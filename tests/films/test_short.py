@@ -416,10 +416,10 @@ def test_inverse_returns_the_eccentricity(eps):
     )
 
 
-@pytest.mark.parametrize(("tangents", "found"), [(1, False), (2, True)])
-def test_two_tangents_find_the_eccentricity(monkeypatch, tangents, found):
-    """The first begins so near that the second ends the search; one that has no end is an error."""
-    monkeypatch.setattr(static, "_MOST_ITERATIONS", tangents)
+@pytest.mark.parametrize(("steps", "found"), [(0, False), (1, True)])
+def test_one_step_finds_the_eccentricity(monkeypatch, steps, found):
+    """It begins so near that no other is needed; a search that has no end is an error."""
+    monkeypatch.setattr(static, "_MOST_ITERATIONS", steps)
     with nullcontext() if found else pytest.raises(RuntimeError, match="no eccentricity ratio"):
         short.eccentricity_ratio(np.geomspace(1e-300, 1e300, 20001))
 

@@ -200,22 +200,25 @@ def film_units(eps: Array, s2: Array) -> tuple[Array, Array]:
 def xy_stiffness(eps: Array, s2: Array, radial: Array, tangential: Array) -> Array:
     """Return Eq. 5.35 for K, scaled by `radial` and `tangential`."""
     fr2, ft2 = _direction(eps, s2)
+    k_r, k_t, along = radial / s2, tangential / s2, fr2 + 1.0 + 2.0 * eps**2
     # Each line is Eq. 5.30 turned by φ (Eq. 5.16), with f_r and f_t as cosine and sine of φ.
-    K_XX = radial / s2 * (fr2 + 1.0 + 2.0 * eps**2)
-    K_XY = tangential / s2 * (fr2 + 1.0 + 2.0 * eps**2)
+    K_XX = k_r * along
+    K_XY = k_t * along
     # Changes sign at ε² = π/(4+π), ε = 0.663: below it the cross terms have opposite signs.
-    K_YX = tangential / s2 * (fr2 - s2)
-    K_YY = radial / s2 * (ft2 + s2)  # the source prints f_r²
+    K_YX = k_t * (fr2 - s2)
+    K_YY = k_r * (ft2 + s2)  # the source prints f_r²
     return matrix(K_XX, K_XY, K_YX, K_YY)
 
 
 def xy_damping(eps: Array, s2: Array, radial: Array, tangential: Array) -> Array:
     """Return Eq. 5.35 for C, scaled by `radial` and `tangential`."""
     fr2, ft2 = _direction(eps, s2)
+    c_r, c_t, thicker = 2.0 * radial / s2, 2.0 * tangential / s2, 2.0 + eps**2
     # C_XY = C_YX, as C_rt = C_tr in Eq. 5.31: the film's damping is symmetric at every ε.
-    C_XX = 2.0 * tangential / s2 * ((2.0 + eps**2) * fr2 + s2)
-    C_XY = 2.0 * radial / s2 * ((2.0 + eps**2) * ft2 - s2)
-    C_YY = 2.0 * tangential / s2 * ((2.0 + eps**2) * ft2 - s2)  # the source prints f_r²
+    across = thicker * ft2 - s2
+    C_XX = c_t * (thicker * fr2 + s2)
+    C_XY = c_r * across
+    C_YY = c_t * across  # the source prints f_r²
     return matrix(C_XX, C_XY, C_XY, C_YY)
 
 
