@@ -58,6 +58,18 @@ def test_a_link_is_kept_on_every_page_until_a_slider_moves() -> None:
         assert at.query_params == {"preset": "sheet-1e7", "C": "80", "rpm": "3000", "k": "inf"}
 
 
+def test_a_moved_value_goes_into_the_address_bar_and_to_every_page() -> None:
+    at = visit(HOME)
+    move(at, "C", 85.0)
+    moved = dict(session_of(at).values)
+    assert moved["C"] == 85.0
+    for path in (HOME, *OTHERS):
+        at.switch_page(path).run()
+        assert at.query_params == {"C": "85"}, path
+        assert session_of(at).values == moved, path
+        assert _shown(at)["C"] == 85.0, path
+
+
 def _shown(at) -> dict[str, float | None]:
     """Return where the sliders stand."""
     return {"load": None} | {

@@ -80,7 +80,7 @@ class AppPage:
         self.url = url
         self.faults: list[str] = []
         self.session = ""  # by which the server knows the tab
-        self._finished = 0
+        self._begun = 0
         page.set_default_timeout(TIMEOUT)
         page.on("console", self._heard)
         page.on("pageerror", self._failed)
@@ -99,11 +99,14 @@ class AppPage:
 
     @contextmanager
     def run(self) -> Iterator[None]:
-        """Wait, after what is done inside, until the app has run and is at rest again."""
-        before = self._finished
+        """Wait, after what is done inside, until the app has run and is at rest again.
+
+        A run that had begun before may end meanwhile: it is not the one that is waited for.
+        """
+        before = self._begun
         yield
         end = time.monotonic() + TIMEOUT / 1000
-        while self._finished == before:
+        while self._begun == before:
             assert time.monotonic() < end, "nothing happened: the app did not run"
             self.page.wait_for_timeout(20)  # lets the websocket's messages in
         self.rest()
@@ -174,6 +177,16 @@ class AppPage:
         while read() == before and time.monotonic() < end:
             self.page.wait_for_timeout(50)
         return read() != before
+
+    def stands(self, read: Callable[[], Any]) -> bool:
+        """Wait until what is read stays as it is for half a second; on its way may be some more."""
+
+        def still() -> bool:
+            before = read()
+            self.page.wait_for_timeout(500)
+            return read() == before
+
+        return self.changes(still, False)
 
     def press(self, label: str, key: str) -> None:
         """Press a key on a slider."""
@@ -257,7 +270,7 @@ class AppPage:
         with suppress(DecodeError):
             if isinstance(frame, bytes):
                 message = ForwardMsg.FromString(frame)
-                self._finished += message.HasField("script_finished")
+                self._begun += message.HasField("new_session")
                 self.session = message.new_session.initialize.session_id or self.session
 
 

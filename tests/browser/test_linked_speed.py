@@ -26,7 +26,6 @@ _READ = """() => Object.fromEntries(
   [...window.rotorcalcCharts.get('chart_cross_section').element
     .querySelectorAll('.annotation-text')]
     .map(note => note.textContent.replaceAll('\u200b', '').split(' = ')).filter(row => row[1]))"""
-_NEXT_FRAME = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
 _STOPS = """() => [...document.querySelectorAll('.js-plotly-plot')].map(
   chart => chart.layout.sliders[0].active)"""
 
@@ -175,10 +174,8 @@ def test_play_moves_every_view_together_and_stops(app: AppPage) -> None:
 
     assert app.changes(goes_on, False)
     _chart(app, "home_threshold").get_by_role("button", name="Stop").click()
-    app.page.evaluate(_NEXT_FRAME)  # what was marked last may not be drawn yet
-    stopped = _labels(app)
-    app.page.wait_for_timeout(300)
-    assert _labels(app) == stopped
+    assert app.stands(lambda: _labels(app))
+    assert len(_labels(app)) == 4
     _leave(app)
     assert app.changes(lambda: bool(_labels(app)), True)
 

@@ -65,13 +65,13 @@ def test_link_survives_pages_and_reproduces_the_machine_elsewhere(
     assert _shown(elsewhere) == first
 
 
-def test_moved_value_goes_into_the_address_bar_and_to_every_page(app: AppPage) -> None:
+# On every page: tests/app/test_session.py.
+def test_moved_value_goes_into_the_address_bar_and_to_other_pages(app: AppPage) -> None:
     app.open("Machine")
     app.press("Radial clearance", "ArrowRight")
     assert app.query() == {"C": "60.5"}
-    for name in MACHINE_PAGES:
-        if name != "Machine":
-            app.go(name)
+    for name in ("Equilibrium", "Orbits", "Notes", "Machine"):
+        app.go(name)
         assert app.query() == {"C": "60.5"}
         assert app.value("Radial clearance") == "60.5"
 

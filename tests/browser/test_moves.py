@@ -5,7 +5,7 @@ import re
 import pytest
 from playwright.sync_api import expect
 
-from tests.browser.app_page import PATHS, AppPage
+from tests.browser.app_page import MACHINE_PAGES, AppPage
 
 FOCUS = """() => {
   const focus = document.activeElement;
@@ -13,7 +13,7 @@ FOCUS = """() => {
 }"""
 
 # Pages with results and charts of the machine.
-LIVE = [name for name in PATHS if name not in ("Bearings", "Notes")]
+LIVE = [name for name in MACHINE_PAGES if name not in ("Bearings", "Notes")]
 
 
 def _move(app: AppPage) -> None:
