@@ -5,6 +5,7 @@ one page. A value of a link or of a browser is untrusted: each widget says what 
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
@@ -76,9 +77,10 @@ class Choices:
         }
 
     def _look(self) -> None:
-        """Take over the present values of widgets."""
-        shown = (key for key in {*self.chosen, *self.defaults} if key in st.session_state)
-        self.chosen |= {key: st.session_state[key] for key in shown}
+        """Take over the present values of this page's widgets; no others can have changed."""
+        for key in self.defaults:
+            with suppress(KeyError):
+                self.chosen[key] = st.session_state[key]
 
 
 def choices() -> Choices:

@@ -42,16 +42,17 @@ class _Checked(BaseFigure):
 
 def show_chart(chart: Chart, *, key: str, alt: str) -> None:
     """Show a chart; `alt` is its text alternative."""
+    visitor = session()
     config: dict[str, Any] = {
         "displaylogo": False,
         "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d"],
-        "toImageButtonOptions": {"format": session().image_format, "filename": key, "scale": 2},
+        "toImageButtonOptions": {"format": visitor.image_format, "filename": key, "scale": 2},
     }
     drawn = themed(chart, dark=is_dark())
     if settings.live() == "off":
         st.plotly_chart(_Checked(drawn), key=chart_key(key), theme=None, config=config, alt=alt)
     else:
-        presenting = bool(session().present)
+        presenting = bool(visitor.present)
         _live().show_chart(drawn, key=chart_key(key), config=config, alt=alt, presenting=presenting)
 
 
