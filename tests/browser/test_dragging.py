@@ -100,7 +100,8 @@ def test_what_is_shown_while_held_is_what_a_run_shows(app: AppPage, page: str) -
     app.open(page, rpm="8000", cs="500")
     with app.run():
         app.page.get_by_role("button", name="Keep as A").click()
-    app.page.get_by_text("Where the model holds").click()
+    with app.run():
+        app.page.get_by_text("Where the model holds").click()
     for tab in app.tabs() or [""]:
         if tab:
             app.open_tab(tab)

@@ -122,6 +122,8 @@ def test_the_validity_panel_judges_a_moved_value_and_the_sidebar_keeps_it_when_t
     app.open("Machine")
     verdict = app.page.locator(".st-key-said_verdict")
     panel = app.page.locator(".st-key-said_assumptions")
+    with app.run():
+        app.page.get_by_text("Where the model holds").click()
     # The example's given temperature leaves 11 kW to a side flow of 0.7 l/min.
     expect(verdict).to_contain_text("Model strained: heat")
     expect(panel).not_to_contain_text("outside")

@@ -363,7 +363,7 @@ def _content(
         if visitor.drawn != visitor.framed():
             # A button of the content, such as a demonstration's, changed more than sliders show.
             st.rerun()
-        views = presentation.Views(st.container(key="views"))
+        views = presentation.Views(st.container(key="views") if visitor.present else None, visitor)
         page = replace(_page(places, views, unanswered or _stop), whole=whole)
         if visitor.asked:
             keep("before")  # the server may be lost while it computes

@@ -9,7 +9,7 @@ import streamlit as st
 from streamlit.delta_generator import DeltaGenerator
 
 from ui.inputs import inputs_of
-from ui.session import Session, session
+from ui.session import Session
 from ui.widgets import show_inputs
 
 # All of Streamlit's sizes are in rem. Where one chart is shown, a column without one has no place,
@@ -39,17 +39,18 @@ _MOST = 5
 class Views:
     """The charts of what is open, of which a presentation shows one.
 
-    `place` is where the choice between them is drawn.
+    `place` is where the choice between them is drawn, none at a desk.
     """
 
-    place: DeltaGenerator
+    place: DeltaGenerator | None
+    visitor: Session
     keys: list[str] = field(default_factory=list)
     shown: str = ""
 
     def shows(self, key: str) -> bool:
         """Return whether a chart is shown; all are asked in their order."""
         self.keys.append(key)
-        visitor = session()
+        visitor = self.visitor
         if not self.shown:
             known = visitor.views.get(key, ())
             self.shown = visitor.present if visitor.present in known else key
@@ -57,8 +58,8 @@ class Views:
 
     def draw(self) -> None:
         """Draw the choice, where there is one; run again where another chart was meant."""
-        visitor = session()
-        if not visitor.present or not self.keys:
+        visitor = self.visitor
+        if self.place is None or not self.keys:
             return
         first = self.keys[0]
         visitor.views[first] = tuple(self.keys)

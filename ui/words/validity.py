@@ -72,10 +72,11 @@ def draw(preview: Preview, set_film: Callable[[str], None]) -> None:
     `set_film` takes a film model over.
     """
     opened = st.expander("Where the model holds", key="validity", on_change="rerun")
+    if not opened.open:  # every run of the page would pay for what nobody reads
+        return
     with opened:
         preview.say("assumptions", lambda c: panel(c, preview.units))
-        # A bore that nobody asked before takes a tenth of a second: only where somebody reads it.
-        if opened.open and preview.computed.of_finite_length is not None:
+        if preview.computed.of_finite_length is not None:
             preview.say("short_error", short_error)
             st.button(
                 "Use the film of finite length", key="use_finite",
