@@ -56,3 +56,9 @@ def test_a_component_s_state_is_shown_with_what_was_sent() -> None:
         spared, own = shown(sent)
         assert spared == own == {"kept": 1} | more
     assert type(shown(None)[0]) is dict
+
+
+@pytest.mark.usefixtures("spared")
+def test_where_streamlit_names_its_state_otherwise_its_own_answer_stands() -> None:
+    make = spare.REPLACED[-1][2](lambda _: lambda value, _: f"{value} with what was sent")
+    assert make("sent")("kept", SimpleNamespace()) == "kept with what was sent"

@@ -35,8 +35,10 @@ def _as_it_is(make: Callable[..., _Presenter]) -> Callable[..., _Presenter]:
         with_sent = make(sent_to, *rest, **named)
 
         def present(value: Any, state: Any) -> Any:
-            sent = state._new_widget_state.get(sent_to)  # noqa: SLF001 - as Streamlit's own looks
-            return value if sent is None else with_sent(value, state)
+            sent = getattr(state, "_new_widget_state", None)  # as Streamlit's own looks
+            if sent is None or sent.get(sent_to) is not None:
+                return with_sent(value, state)
+            return value
 
         return present
 
