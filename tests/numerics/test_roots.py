@@ -68,6 +68,18 @@ def test_a_jump_is_found_in_a_few_calls_on_the_side_nearer_to_zero(at) -> None:
     assert len(looks) <= 14
 
 
+def test_rounding_beside_a_kink_is_that_of_the_function_not_of_what_is_left_of_it() -> None:
+    """Closer to its root a function is smaller, and its errors are not."""
+    looks: list[int] = []
+
+    def values(x):
+        looks.append(len(x))
+        return x - 1.02 + np.maximum(x - 1.04, 0.0) ** 3 + 2e-14 * np.sin(1e9 * x)
+
+    assert narrow_root(values, 0.985, 1.05, noise=1e-12) == pytest.approx(1.02, rel=1e-13)
+    assert looks == [18, 18]
+
+
 def test_a_root_at_an_end_is_found() -> None:
     assert narrow_root(lambda x: x - 1.0, 1.0, 1.1) == pytest.approx(1.0, rel=1e-14)
 
