@@ -116,8 +116,11 @@ def synchronous_response(
     unit = force / (W_xx * W_yy - W_xy * W_yx)  # times adj W (1, −j)
     x, y = unit * (W_yy + 1j * W_xy), -unit * (W_yx + 1j * W_xx)
     # d = (I + s Z) j: the shaft carries the film's force and the journal's inertia.
-    disk = np.stack([x + s * (Z_xx * x + Z_xy * y), y + s * (Z_yx * x + Z_yy * y)], axis=-1)
-    return disk, np.stack([x, y], axis=-1)
+    disk, journal = np.empty((2, *x.shape, 2), dtype=complex)
+    journal[..., 0], journal[..., 1] = x, y
+    disk[..., 0] = x + s * (Z_xx * x + Z_xy * y)
+    disk[..., 1] = y + s * (Z_yx * x + Z_yy * y)
+    return disk, journal
 
 
 def orbit_ellipse(x: ArrayLike, y: ArrayLike | None = None) -> OrbitEllipse:

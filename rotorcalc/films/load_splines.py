@@ -19,7 +19,9 @@ GROWTH = 1.25
 
 def half_whirl(C: Array) -> Array:
     """Return ½C·J: the stiffness of a film without pressure, whose force is that of a whirl."""
-    return 0.5 * np.stack([-C[..., 1], C[..., 0]], axis=-1)
+    K = np.empty_like(C)
+    K[..., 0], K[..., 1] = -0.5 * C[..., 1], 0.5 * C[..., 0]
+    return K
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,9 +59,10 @@ class LoadSplines:
     def at(self, load: Array) -> Array:
         """Return the values at loads (...) up to the heaviest, (..., k)."""
         lightest = self.load[0]
-        inside = np.clip(load, lightest, self.load[-1])
+        inside = np.minimum(np.maximum(load, lightest), self.load[-1])
         values = np.asarray(self._spline(np.log(inside)))
-        values *= ((1.0 + inside / self.scale) ** GROWTH)[..., None]
+        if self.scale < math.inf:
+            values *= ((1.0 + inside / self.scale) ** GROWTH)[..., None]
         light = load < lightest
         if light.any():
             share = (load[light] / lightest)[:, None]
@@ -83,5 +86,5 @@ class CoefficientSplines:
     def at(self, load: Array) -> tuple[Array, Array]:
         """Return stiffness and damping at loads (...), each (..., 2, 2)."""
         values = self._splines.at(load)
-        C = values[..., [0, 1, 1, 2]].reshape(*load.shape, 2, 2)
+        C = values.take((0, 1, 1, 2), axis=-1).reshape(*load.shape, 2, 2)
         return values[..., 3:].reshape(*load.shape, 2, 2) + half_whirl(C), C

@@ -108,11 +108,11 @@ def _scheme(polynomial: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
     # The first two rows hold every other coefficient, from λⁿ and from λⁿ⁻¹ downwards.
     falling = polynomial.transpose(-1, *range(polynomial.ndim - 1))[::-1]
     above, row = falling[0::2], falling[1::2]
-    left: list[NDArray[Any]] = []
+    left = np.empty((len(falling) - 3, *falling.shape[1:]), dtype=polynomial.dtype)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        for whole in falling[2:-1]:
+        for step, whole in enumerate(falling[2:-1]):
             below = above[1:].copy()
             below[: len(row) - 1] -= above[0] / row[0] * row[1:]
-            left.append(below[0] / whole)
+            left[step] = below[0] / whole
             above, row = row, below
-    return above, np.stack(left)
+    return above, left

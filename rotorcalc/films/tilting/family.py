@@ -43,7 +43,8 @@ _SHARES = np.array(
 _BESIDE, _AT_CENTRE = 1e-3, -5e-4
 # Films beyond the beginning, by which it is found, and the least step in direction after it [rad].
 _OVER, _APART = 4, 5e-3
-_SCAN_SWEEPS, _MOST_STEPS, _TOLERANCE, _SETTLED = 4, 12, 1e-9, 1e-4
+# Newton's method ends at a step below the tolerance, of which the square is left.
+_SCAN_SWEEPS, _MOST_STEPS, _TOLERANCE, _SETTLED = 4, 12, 1e-6, 1e-4
 # Values grow about as the film's thickness at the pivot to these powers.
 _POWERS = np.array([0.0, -1.75, *4 * [-2.75], *3 * [-1.75], -0.5, 0.0, -1.75, 0.0, 1.0])
 COLUMNS = len(_POWERS)
@@ -274,18 +275,22 @@ def _turning(rough: Mesh, e: Array, gamma: Array) -> tuple[Array, BoolArray]:
 def _on_branch(fine: Mesh, gamma: Array, e: Array, wet: BoolArray) -> _Branch:
     """Return where F_η = 0 in directions γ, by Newton's method along them."""
     n = np.stack([np.cos(gamma), np.sin(gamma)], axis=-1)
-    step = np.full_like(e, np.inf)
+    e, wet, step = e.copy(), wet.copy(), np.full_like(e, np.inf)
+    rows = np.arange(len(e))
     for _ in range(_MOST_STEPS):
-        found = films(fine, e[:, None] * n)
-        at = solved(found, wet)
-        slope = -(stiffness(found, at)[:, 1] * n).sum(axis=-1)
-        longest = 0.5 * np.minimum(e, gap(fine.pads, e[:, None] * n))
+        position = e[rows, None] * n[rows]
+        found = films(fine, position)
+        at = solved(found, wet[rows])
+        slope = -(stiffness(found, at)[:, 1] * n[rows]).sum(axis=-1)
+        longest = 0.5 * np.minimum(e[rows], gap(fine.pads, position))
         # Without any film there is no way to one.
-        step = np.where(slope < 0.0, -at.force[:, 1] / np.minimum(slope, -1e-300), np.nan)
-        e = e + np.nan_to_num(np.clip(step, -longest, longest))
-        still = np.array_equal(at.next_wet, wet)
-        wet = at.next_wet
-        if still and not np.any(np.abs(step) > _TOLERANCE):
+        step[rows] = np.where(slope < 0.0, -at.force[:, 1] / np.minimum(slope, -1e-300), np.nan)
+        e[rows] += np.nan_to_num(np.clip(step[rows], -longest, longest))
+        after = at.next_wet
+        moves = (after != wet[rows]).any(axis=(1, 2, 3)) | (np.abs(step[rows]) > _TOLERANCE)
+        wet[rows] = after
+        rows = rows[moves]
+        if not rows.size:
             break
     good = np.abs(step) <= _SETTLED * e
     return _Branch(gamma[good], e[good], wet[good])
