@@ -3,22 +3,26 @@
 An input is named by its field, "radial_clearance" or "bearing.geometry.preload".
 """
 
+import math
 from collections.abc import Callable
 from concurrent.futures import Executor
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotorcalc.analysis import analyse
+from rotorcalc import modes
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, checked_speed, real_array
-from rotorcalc.comparison import log_decrement
+from rotorcalc.coefficients import Equilibrium, dynamics, equilibrium
 from rotorcalc.display import Result
+from rotorcalc.films import film_of
 from rotorcalc.machine import Machine
 from rotorcalc.numerics.parts import in_parts
 from rotorcalc.onset.closed_form import covers
+from rotorcalc.onset.eigenvalues import certain_eigenvalues, eigenvalues_of
 from rotorcalc.onset.many import onset_speeds
 from rotorcalc.variation import address, changed
 
@@ -117,18 +121,45 @@ def _solved(machine: Machine, path: tuple[str, ...], speed: float, values: Array
     found = np.full((len(values), 3), np.nan)
     answered: list[int] = []
     machines: list[Machine] = []
+    rests: list[Equilibrium] = []
     for i, value in enumerate(values.tolist()):
-        try:
+        with suppress(ValueError):
             one = changed(machine, {path: value})
-            point = analyse(one, speed)
-        except ValueError:
-            continue
-        found[i, 1:] = log_decrement(point), point.minimum_film_thickness
-        answered.append(i)
-        machines.append(one)
+            rests.append(equilibrium(one, speed))
+            machines.append(one)
+            answered.append(i)
     found[answered, 0] = _onsets(machines)
-    found[np.isnan(found[:, 0])] = np.nan  # no number where the onset has none
+    found[answered, 1] = _decrements(machines, rests)
+    found[answered, 2] = [float(rest.minimum_film_thickness) for rest in rests]
+    found[np.isnan(found[:, :2]).any(axis=1)] = np.nan  # no number where the onset has none
     return found
+
+
+def _decrements(machines: list[Machine], rests: list[Equilibrium]) -> Array:
+    """Return log decrements; those of one rotor on films of K and C together."""
+    is_plain = not any(film_of(one.bearing).frequency_dependent for one in machines)
+    if not machines or not is_plain or len({one.rotor for one in machines}) > 1:
+        return np.array([_decrement(*one) for one in zip(machines, rests, strict=True)])
+    K = np.stack([rest.stiffness for rest in rests])
+    C = np.stack([rest.damping for rest in rests])
+    try:
+        values = modes.least_damped(eigenvalues_of(machines, float(rests[0].speed), K, C))
+    except ValueError:
+        return np.array([_decrement(*one) for one in zip(machines, rests, strict=True)])
+    oscillates = ~np.isnan(values.real)
+    return np.where(oscillates, modes.logarithmic_decrement(values), np.inf)
+
+
+def _decrement(machine: Machine, rest: Equilibrium) -> float:
+    """Return the log decrement of a machine, NaN where its eigenvalues are not known."""
+    try:
+        film = dynamics(machine, rest.speed)
+        value = complex(
+            modes.least_damped(certain_eigenvalues(machine, rest.speed, film, flexible=True))
+        )
+    except ValueError:
+        return math.nan
+    return math.inf if math.isnan(value.real) else float(modes.logarithmic_decrement(value))
 
 
 def _onsets(machines: list[Machine]) -> Array:

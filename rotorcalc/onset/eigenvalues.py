@@ -5,6 +5,7 @@ shaft or a light journal, it exceeds the growth rate of the whirl; there the eig
 of the characteristic polynomial in sixty digits. All others are LAPACK's.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -13,6 +14,7 @@ from scipy.optimize import linear_sum_assignment
 from rotorcalc import modes
 from rotorcalc.arrays import Array, BoolArray, ComplexArray
 from rotorcalc.films import FilmDynamics
+from rotorcalc.films.dynamics import NO_INERTIA
 from rotorcalc.impedance_modes import impedance_modes
 from rotorcalc.machine import Machine
 from rotorcalc.numerics.polynomial_roots import error_bounds, simultaneous_roots
@@ -52,6 +54,32 @@ def certain_eigenvalues(
         return refined(machine.rotor, film, flexible)
     values = modes.eigenvalues(machine.rotor, film.stiffness, film.damping, flexible=flexible)
     return _certain(machine, speed, film, values, flexible=flexible)
+
+
+def eigenvalues_of(
+    machines: Sequence[Machine], speed: float, stiffness: Array, damping: Array
+) -> ComplexArray:
+    """Return the eigenvalues of machines with one rotor, on films of K and C alone.
+
+    Parameters
+    ----------
+    machines : sequence of Machine, m
+        The machines, all with the same rotor.
+    speed : float
+        Running speed, Ω [rad/s].
+    stiffness, damping : array, (m, 2, 2)
+        Their films there [N/m], [N·s/m].
+
+    Returns
+    -------
+    complex array, (m, n)
+        λ [1/s] of each, as `certain_eigenvalues` gives them.
+    """
+    values = modes.eigenvalues(machines[0].rotor, stiffness, damping)
+    for i in np.flatnonzero(_is_near_axis(values)).tolist():
+        film = FilmDynamics(stiffness[i], damping[i], NO_INERTIA)
+        values[i] = _certain(machines[i], np.asarray(speed), film, values[i], flexible=True)
+    return values
 
 
 def certain_mode_shapes(
@@ -108,13 +136,18 @@ def _in_doubt(
     machine: Machine, film: FilmDynamics, values: ComplexArray, flexible: bool
 ) -> BoolArray:
     """Return where the sign of some real part is not proved."""
-    smallest = np.abs(values.real).min(axis=-1)
-    doubt = np.asarray(smallest <= _PLAIN * np.abs(values).max(axis=-1))
+    doubt = _is_near_axis(values)
     if np.any(doubt):
         polynomial = polynomial_on(_at(film, doubt), machine.rotor, flexible)
         errors = error_bounds(polynomial, values[doubt])
         doubt[doubt] = np.any(errors > _SURE * np.abs(values[doubt].real), axis=-1)
     return doubt
+
+
+def _is_near_axis(values: ComplexArray) -> BoolArray:
+    """Return where some real part needs a proof of its sign, (...)."""
+    smallest = np.abs(values.real).min(axis=-1)
+    return np.asarray(smallest <= _PLAIN * np.abs(values).max(axis=-1))
 
 
 def _at(film: FilmDynamics, places: BoolArray) -> tuple[Array, Array]:
