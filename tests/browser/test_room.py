@@ -13,10 +13,8 @@ WIDTHS = (800, 1024, 1152, 1280, 1440, 1680, 1920)
 # A browser's zoom makes the window smaller in CSS pixels by so much.
 ZOOMS = (1.0, 1.5, 2.0)
 HEIGHT = 900
-# Criteria has a table first, Your data the file.
-CHARTS = [
-    name for name in MACHINE_PAGES if name not in ("Bearings", "Criteria", "Your data", "Notes")
-]
+# Criteria has a table first.
+CHARTS = [name for name in MACHINE_PAGES if name not in ("Bearings", "Criteria", "Notes")]
 
 # Texts of results, tabs, buttons and links that are wider than their box, and hidden there.
 CUT = """() => {

@@ -27,7 +27,7 @@ html {font-size: clamp(100%, min(1.39vw, 2.22vh), 175%);}
 .stMain .stHorizontalBlock:has(.stMetric):not(:has(.live-chart)):has(> .stColumn),
 .stMain .stColumn [data-testid="stPageLink"] {display: none;}
 [data-testid="stLayoutWrapper"]:has(> :is(
-  .st-key-release, .st-key-outcome, .st-key-ask, .st-key-criteria_ask,
+  .st-key-release, .st-key-outcome, .st-key-ask, .st-key-own_ask, .st-key-criteria_ask,
   .st-key-said_modes)) {order: 1;}
 [class*="st-key-results_"] .stPopover {display: none;}
 </style>"""

@@ -74,7 +74,8 @@ _SAMPLE = 24
 
 def draw(page: Page) -> None:
     """Draw the tab."""
-    left, middle, right = st.columns((5, 4, 3))
+    with st.container(key="own_ask"):
+        left, middle, right = st.columns((5, 4, 3))
     with left:
         upload = st.file_uploader(
             "A file of one bearing's stiffness and damping over speed", type=_TYPES, key="own_file",
