@@ -107,7 +107,8 @@ def in_time(page: Page, asked: ask.Ask) -> None:
             key="orbits_growth",
             **of_release(draw.growth, page, asked),
             alt="Distance from equilibrium over revolutions, logarithmic.",
-            caption="Largest distance over each two revolutions; dashed: e^(Re λ t). Eq. 5.38.",
+            caption="Largest distance over each two revolutions; dashed: "
+            "$e^{\\mathrm{Re}\\,λ\\,t}$. Eq. 5.38.",
         )
     with right:
         page.chart(

@@ -41,8 +41,8 @@ def scaled(function, factor):
     ("module", "name", "factor", "check"),
     [
         (short, "film_stiffness", 1 + 1e-6, "K of Eq. 5.35 and of Eq. 5.30"),
-        (short, "film_stiffness", 1 + 1e-6, "K_ij and −∂Fᵢ/∂X_j of the nonlinear force"),
-        (short, "film_damping", 1 + 1e-6, "C_ij and −∂Fᵢ/∂Ẋⱼ of the nonlinear force"),
+        (short, "film_stiffness", 1 + 1e-6, "K_ij and −∂F_i/∂X_j of the nonlinear force"),
+        (short, "film_damping", 1 + 1e-6, "C_ij and −∂F_i/∂v_j of the nonlinear force"),
         (short, "radial_damping", 1 + 1e-6, "C_XX + C_YY and C_rr + C_tt"),
         (short, "film_force", 1 + 1e-6, "Nonlinear force at rest and the load"),
         (short, "pressure", 1 + 1e-6, "Force and the pressure summed"),

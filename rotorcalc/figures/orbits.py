@@ -117,7 +117,7 @@ def growth(let_go: Release, units: Units) -> Chart:
     inside = np.where((predicted < 2.0 * C) & (predicted > 0.5 * floor), predicted, np.nan)
     traces = [
         style.line(at, np.where(shown > 0.0, shown, np.nan), "journal", style.JOURNAL),
-        style.line(at, inside, "linear theory, e^(Re λ t)", LINEAR, dash="dash"),
+        style.line(at, inside, "linear theory, e<sup>Re λ t</sup>", LINEAR, dash="dash"),
         style.mark(at[-1], max(float(shown[-1]), 0.8 * floor), "end"),
     ]
     return _over_turns(style.chart(traces, x, y, margin=_MARGIN, legend=_LEGEND), let_go)

@@ -31,8 +31,8 @@ def coefficients() -> list[Case]:
     turned, slopes = "Eq. 5.16, ε = 0.05 … 0.95", "by differences, ε = 0.05 … 0.95"
     trace, force = "the trace is invariant under rotation", "of the nonlinear force"
     return [
-        alike(group, f"K_ij and −∂Fᵢ/∂X_j {force}", (K, -by_place), slopes, tolerance=1e-8),
-        alike(group, f"C_ij and −∂Fᵢ/∂Ẋⱼ {force}", (C, -by_speed), slopes, tolerance=1e-8),
+        alike(group, f"K_ij and −∂F_i/∂X_j {force}", (K, -by_place), slopes, tolerance=1e-8),
+        alike(group, f"C_ij and −∂F_i/∂v_j {force}", (C, -by_speed), slopes, tolerance=1e-8),
         alike(group, "K of Eq. 5.35 and of Eq. 5.30", (K, rotate(K_rt, phi)), turned),
         alike(group, "C of Eq. 5.35 and of Eq. 5.31", (C, rotate(C_rt, phi)), turned),
         alike(group, "K_XX + K_YY and K_rr + K_tt", (_trace(K), _trace(K_rt)), trace),

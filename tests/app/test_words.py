@@ -9,7 +9,8 @@ import pytest
 from rotorcalc.figures import root_locus
 from rotorcalc.units import SI
 from tests.app.session import NOTES, PAGES
-from tests.words import STATES, once, toured
+from tests.words import STATES, once, staged, toured
+from ui.bearing import kinds
 from ui.cases import computed
 from ui.computed import computed_from
 from ui.exercises.collection import EXERCISES, Exercise, of_student
@@ -85,6 +86,14 @@ def test_what_an_exercise_says_keeps_to_the_rules(exercise: Exercise) -> None:
     text, _ = of_student(exercise, 1)
     said = (text, exercise.hint, exercise.solution, *(ask.words for ask in exercise.asks))
     assert [fault for words in said for fault in _faults(exercise.title, words)] == []
+
+
+def test_the_list_has_every_kind_of_bearing_the_lecture_and_the_exercises() -> None:
+    own = {kind for kind, bore in kinds().items() if bore.__module__.startswith("rotorcalc.")}
+    assert own <= {query.get("bearing", "plain") for query in STATES.values()}
+    assert next(where for where, _ in staged() if "answered" in where) == (
+        "Lecture, step 1, answered"
+    )
 
 
 def test_the_list_has_the_cases_of_its_link() -> None:

@@ -36,7 +36,8 @@ CAPTIONS = {
     "natural": r"|λ|, beside $\sqrt{K_{eq}/M}$ of a rigid rotor on the film (Eq. 5.47) and "
     r"$\sqrt{K_{rot}/M}$ of the shaft in rigid bearings. The rigid rotor's onset is where its mode "
     r"meets $\sqrt{K_{eq}/M}$.",
-    "decrement": "δ = −2π Re λ/|Im λ|: each cycle's amplitude is e^(−δ) times the previous one's.",
+    "decrement": "δ = −2π Re λ/|Im λ|: each cycle's amplitude is $e^{-δ}$ times that of the one "
+    "before.",
     "shape": "Right eigenvector of λ, scaled to a largest displacement of 1, about equilibrium. X "
     "points down along the load, the shaft turns counterclockwise, from X to Y.",
 }
