@@ -22,7 +22,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.constants import g
-from scipy.optimize import brentq
 
 from rotorcalc import heat
 from rotorcalc.analysis import analyse
@@ -33,6 +32,7 @@ from rotorcalc.coefficients import rising_speed, stiffness_and_damping
 from rotorcalc.display import Result
 from rotorcalc.machine import Machine
 from rotorcalc.numerics.first_answer import from_first_answer
+from rotorcalc.numerics.roots import narrow_root
 from rotorcalc.onset import judge
 from rotorcalc.unbalance_peaks import both_peaks
 from rotorcalc.unbalance_response import orbit_sizes, synchronous_response
@@ -46,6 +46,8 @@ _BELOW, _ABOVE = np.geomspace(1e-9, 0.999, 400), np.geomspace(1e-9, 3.0, 400)
 # Speeds of the sweep where none are given, and its ends over the largest natural frequency that
 # shaft or load suggest.
 _SPEEDS, _FIRST, _LAST = 400, 0.01, 4.0
+# Rounding errors of a response over its largest difference from half the power between two speeds.
+_NOISE = 1e-11
 
 
 @dataclass(frozen=True, eq=False)
@@ -229,7 +231,7 @@ def _half_power_speeds(
         if not lower.size:
             return None
         near, far = row[lower[0] - 1 : lower[0] + 1].tolist()
-        return brentq(lambda speed: float(over(np.array([speed]))[0]), near, far, rtol=1e-13)
+        return narrow_root(over, *sorted((near, far)), noise=_NOISE)
 
     below, above = crossing(peak * (1.0 - _BELOW)), crossing(peak * (1.0 + _ABOVE))
     return 0.0 if below is None else below, math.inf if above is None else above

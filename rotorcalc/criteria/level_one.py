@@ -25,7 +25,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq
 
 from rotorcalc import modes
 from rotorcalc.arguments import checked
@@ -35,6 +34,7 @@ from rotorcalc.criteria.coupled_modes import coupled_eigenvalues, disk_whirls_fo
 from rotorcalc.display import Result
 from rotorcalc.films import FilmDynamics
 from rotorcalc.machine import Machine, Rotor
+from rotorcalc.numerics.roots import narrow_root
 
 # B of the anticipated cross-coupling.
 CENTRIFUGAL, AXIAL = 3.0, 1.5
@@ -43,6 +43,8 @@ LEAST_DECREMENT, LEAST_RATIO = 0.1, 2.0
 # Steps in which Q is raised until the machine is unstable, each fourfold; and places from a
 # millionth of that Q up at which the growth is computed to find the first crossing.
 _RAISED, _PLACES = 80, 121
+# Rounding errors of a growth rate over its largest value between two of these places.
+_NOISE = 1e-10
 
 
 @dataclass(frozen=True, eq=False)
@@ -221,4 +223,4 @@ def _zero_decrement(rotor: Rotor, film: FilmDynamics) -> float:
     places = np.concatenate([[0.0], np.geomspace(1e-6 * high, high, _PLACES)])
     first = int(np.argmax(growth(places) > 0.0))
     low, high = places[first - 1], places[first]
-    return float(brentq(lambda Q: float(growth(np.array([Q]))[0]), low, high, rtol=1e-13))
+    return narrow_root(growth, low, high, noise=_NOISE)
