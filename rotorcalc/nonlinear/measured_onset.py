@@ -7,6 +7,7 @@ vanishes. The start lies on the linear theory's mode that decays slowest, since 
 excite other modes; the growth rate is the nonlinear motion's own.
 """
 
+import functools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -19,6 +20,7 @@ from rotorcalc import modes
 from rotorcalc.analysis import analyse
 from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
+from rotorcalc.coefficients import equilibrium
 from rotorcalc.display import Result
 from rotorcalc.films import film_of
 from rotorcalc.machine import Machine
@@ -38,8 +40,11 @@ _WHIRLS, _LIFETIMES, _FEWEST, _MOST, _SAMPLES = 8.0, 3.0, 2.0, 400, 200
 # Errors of the integrator, relative to such a motion.
 _NOISE = 1e-6
 # Speeds over the guess that bracket the onset, tried outwards; and the tolerance of the result.
-_SPREAD = (0.97, 1.03, 0.9, 1.1, 0.75, 1.3, 0.5, 2.0)
+_SPREAD = (0.98, 1.02, 0.9, 1.1, 0.75, 1.3, 0.5, 2.0)
 _SHARP = 1e-6
+# Speeds over the onset at which a curve of growth is measured: the narrowest of the brackets are
+# among them.
+_MEASURED = np.array([0.82, 0.86, 0.9, 0.94, 0.98, 1.02, 1.06, 1.1, 1.14, 1.18])
 # Relative difference up to which the three onsets of a film that is known exactly agree.
 _AGREE = 1e-3
 
@@ -128,6 +133,47 @@ def onsets(machine: Machine, *, progress: Callable[[float], object] | None = Non
     ValueError
         Where the machine has no onset, or whirls at any speed without load.
     """
+    return _onsets(machine, _rates(machine), progress)
+
+
+@checked
+def onsets_and_growth(machine: Machine) -> tuple[Onsets, GrowthCurve]:
+    """Return `onsets` of a machine and its `growth_curve` about them, which share their releases.
+
+    Parameters
+    ----------
+    machine : Machine
+        The machine; its imbalance plays no part.
+
+    Returns
+    -------
+    Onsets, GrowthCurve
+        As these functions give them.
+
+    Raises
+    ------
+    ValueError
+        As `onsets` does.
+    """
+    rates = _rates(machine)
+    found = _onsets(machine, rates, None)
+    return found, _growth_curve(machine, found.eigenvalues, rates)
+
+
+def _rates(machine: Machine) -> Callable[[float], float]:
+    """Return the growth rates of a machine over speed, each measured once."""
+
+    def rate(speed: float) -> float:
+        return measured_growth(machine, speed)
+
+    return functools.cache(rate)
+
+
+def _onsets(
+    machine: Machine,
+    rates: Callable[[float], float],
+    progress: Callable[[float], object] | None,
+) -> Onsets:
     by_eigenvalues = searched_onset(machine).speed  # not by the closed form
     if not 0.0 < by_eigenvalues < math.inf:
         why = "whirls at any speed" if by_eigenvalues == 0.0 else "has no onset"
@@ -136,7 +182,7 @@ def onsets(machine: Machine, *, progress: Callable[[float], object] | None = Non
     return Onsets(
         closed_form=closed,
         eigenvalues=by_eigenvalues,
-        measured=measured_onset(machine, near=by_eigenvalues, progress=progress),
+        measured=_measured_onset(rates, by_eigenvalues, progress),
         tolerance=max(_AGREE, _apart(machine)),
     )
 
@@ -175,13 +221,13 @@ def measured_growth(machine: Machine, speed: float) -> float:
         Where the speed is not positive and finite.
     """
     balanced = replace(machine, rotor=replace(machine.rotor, imbalance=0.0))
-    point = analyse(balanced, speed)
+    rest = equilibrium(balanced, speed)
     time = _watched(linear_theory(balanced, speed).whirl, speed)
     if math.isnan(time):
         return math.nan
     turns = time * speed / (2.0 * math.pi)
     revolutions = math.ceil(turns)
-    film = float(point.minimum_film_thickness)
+    film = float(rest.minimum_film_thickness)
     share = max(_WHIRL, _apart(machine))
     whirl = min(share * machine.bearing.radial_clearance, max(_OF_FILM, share) * film)
     try:
@@ -196,7 +242,8 @@ def measured_growth(machine: Machine, speed: float) -> float:
         return math.nan
     # The allowance keeps rounding from dropping the last sample.
     watched = motion.journal[motion.time <= time * (1.0 + 1e-9)]
-    values = fitted_modes(watched - point.journal_position, float(motion.time[1]), noise=_NOISE)
+    place = rest.film.position * machine.bearing.radial_clearance
+    values = fitted_modes(watched - place, float(motion.time[1]), noise=_NOISE)
     # The mode with the largest share comes first: the one that the motion was started on.
     waves = values[values.imag > 0.0]
     return float(waves[0].real) if len(waves) else math.nan
@@ -235,6 +282,12 @@ def measured_onset(
         Speed [rad/s] to a millionth; NaN where the whirl grows, or dies, at every speed
         from half to twice the first guess.
     """
+    return _measured_onset(_rates(machine), near, progress)
+
+
+def _measured_onset(
+    rates: Callable[[float], float], near: float, progress: Callable[[float], object] | None
+) -> float:
     releases = 0
 
     def rate(speed: float) -> float:
@@ -243,7 +296,7 @@ def measured_onset(
         if progress is not None:
             # How many releases are needed is not known ahead: the share rises, but never to 1.
             progress(1.0 - 1.0 / (1.0 + 0.2 * releases))
-        return measured_growth(machine, speed)
+        return rates(speed)
 
     lower, upper = _SPREAD[0::2], _SPREAD[1::2]
     for low, high in zip(lower, upper, strict=True):
@@ -275,12 +328,16 @@ def growth_curve(machine: Machine, onset: float) -> GrowthCurve:
     ValueError
         Where the speed is not positive and finite.
     """
-    speeds, measured = np.linspace(0.8, 1.2, 81) * onset, np.linspace(0.82, 1.18, 10) * onset
+    return _growth_curve(machine, onset, _rates(machine))
+
+
+def _growth_curve(machine: Machine, onset: float, rates: Callable[[float], float]) -> GrowthCurve:
+    speeds, measured = np.linspace(0.8, 1.2, 81) * onset, _MEASURED * onset
     return GrowthCurve(
         speed=speeds,
         rate=modes.leading(analyse(machine, speeds).flexible_eigenvalues).real,
         measured_speed=measured,
-        measured=np.array([measured_growth(machine, float(speed)) for speed in measured]),
+        measured=np.array(list(map(rates, measured.tolist()))),
         running_speed=math.nan,
         running_rate=math.nan,
     )

@@ -99,3 +99,18 @@ def test_a_machine_without_oscillating_modes_has_no_whirl_growth():
     assert math.isnan(measured_growth(machine, speed))
     with pytest.raises(ValueError, match="none of its modes oscillates"):
         start_on_mode(machine, speed, 1e-4 * C)
+
+
+def test_onsets_and_growth_share_their_releases_and_are_those_of_each_alone(monkeypatch):
+    machine, speeds = balanced(ROTORS["rigid"]), []
+
+    def counted(machine, speed):
+        speeds.append(speed)
+        return measured_growth(machine, speed)
+
+    monkeypatch.setattr(measured_onset, "measured_growth", counted)
+    found, curve = measured_onset.onsets_and_growth(machine)
+    assert len(speeds) == len(set(speeds)) < len(curve.measured) + 6
+    alone = measured_onset.growth_curve(machine, found.eigenvalues)
+    assert found == onsets(machine)
+    assert list(curve.measured) == list(alone.measured)

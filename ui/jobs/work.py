@@ -17,7 +17,6 @@ from rotorcalc import (
     bifurcation,
     compare_bearings,
     design,
-    onsets,
     tolerance,
 )
 from rotorcalc import input_sweep as sweeps
@@ -27,7 +26,7 @@ from rotorcalc.geometry import Geometry
 from rotorcalc.input_sweep import InputSweep
 from rotorcalc.nonlinear import release as releases
 from rotorcalc.nonlinear import run_up as run_ups
-from rotorcalc.nonlinear.measured_onset import GrowthCurve, growth_curve
+from rotorcalc.nonlinear.measured_onset import GrowthCurve, onsets_and_growth
 from rotorcalc.nonlinear.run_up import RunUp
 
 Progress = Callable[[float], object]
@@ -82,8 +81,7 @@ def cycles(
 
 def three_onsets(machine: Machine) -> tuple[Onsets, GrowthCurve]:
     """Return the onset found three ways, and growth over speed without a running speed."""
-    found = onsets(machine)
-    return found, growth_curve(machine, found.eigenvalues)
+    return onsets_and_growth(machine)
 
 
 def onset_map(
