@@ -17,7 +17,7 @@ from scipy.constants import g
 
 from rotorcalc import JournalBearing, Machine, Oil, Rotor
 from rotorcalc.geometry import MultiDam, Plain
-from rotorcalc.records import Bound, Record, from_tree, to_tree
+from rotorcalc.records import Bound, Kind, Record, from_tree, to_tree
 from tests.machines import EPS, SHEET, with_rotor
 
 GOOD = {
@@ -593,3 +593,20 @@ def test_the_default_film_by_its_name_is_the_default():
     assert named == SHEET.bearing
     assert hash(named) == hash(SHEET.bearing)
     assert named.model == "short"
+
+
+def test_a_kind_is_found_among_the_others_whenever_it_is_defined():
+    class Shape(Kind):
+        pass
+
+    class Round(Shape):
+        kind = "round"
+
+    assert Shape.kinds() == {"round": Round}
+
+    class Square(Shape):
+        kind = "square"
+
+    assert Shape.kinds() == {"round": Round, "square": Square}
+    Shape.kinds().clear()
+    assert len(Shape.kinds()) == 2

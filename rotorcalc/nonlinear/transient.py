@@ -166,7 +166,7 @@ def simulate(  # noqa: PLR0913 - how long, from where, to which speed
     absolute : float or None
         Error allowed in each step besides, in clearances and CΩ, within the same bounds; None for a
         hundredth of the relative one. A position is near 1: there a larger one changes little, but
-        velocities and displacements that cross zero then take half as many steps.
+        where velocities and displacements cross zero the steps become up to twice as long.
     progress : callable or None
         Called repeatedly with the share done, 0 to 1. An exception that it raises ends the work.
 

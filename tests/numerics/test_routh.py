@@ -43,3 +43,15 @@ def test_with_a_light_journal_stability_still_changes_once():
     assert not unstable[0]
     assert unstable[-1]
     assert np.count_nonzero(np.diff(unstable)) == 1
+
+
+def test_a_crossing_is_judged_as_both_of_its_ends_are():
+    machine = with_rotor(disk_damping=5e3, journal_mass=10.0)
+    K, C = stiffness_and_damping(machine, np.linspace(3000, 20000, 12) * RPM)
+    polynomials = modes.characteristic_polynomial(machine.rotor, K, C)
+    judged = [[routh.surely_between(a, b) for a in polynomials] for b in polynomials]
+    decays = routh.margin_bounds(polynomials)[1] <= 0.0
+    crossed = routh.surely_crossed(polynomials)
+    assert np.array_equal(judged, crossed[:, None] & decays)
+    assert crossed.any()
+    assert decays.any()
