@@ -33,6 +33,9 @@ PUSHES = 5e-3
 WHIRLS = 0.1
 # Orders in which whirl is looked for, clear of the synchronous line and its window's flanks.
 _WHIRL = (0.2, 0.85)
+# A whirl that linear theory puts below them is looked for from this share of its order on; slower
+# than the other it would lie on the flanks of the mean position's line.
+_BELOW, _SLOWEST = 0.7, 0.09
 # 16 samples a revolution resolve orders up to 8; a waterfall ends at 1.5. Its windows are so long
 # that orders 1/32 apart are two lines, and as many as there are lines on a screen for.
 _SAMPLES, _SPECTRA, _WIDTH = 16, 300, 64
@@ -68,8 +71,10 @@ class Passage(Result):
     @property
     def whirl(self) -> Array:
         """Amplitude of the whirl's line in each spectrum [m], (k,)."""
-        order = self.seen.order
-        near = (order > _WHIRL[0]) & (order < _WHIRL[1])
+        order, slow = self.seen.order, self.whirl_order[self.whirl_order > _SLOWEST]
+        # A floating ring whirls slower than any film: at half of its own speed.
+        low = min(_WHIRL[0], _BELOW * float(slow.min(initial=math.inf)))
+        near = (order > low) & (order < _WHIRL[1])
         return self.seen.amplitude[:, near].max(axis=1)
 
 

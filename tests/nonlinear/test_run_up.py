@@ -11,7 +11,8 @@ from rotorcalc.nonlinear import run_up as module
 from rotorcalc.nonlinear.limit_cycles import start_on_cycle
 from rotorcalc.nonlinear.measured_onset import growth_curve
 from rotorcalc.nonlinear.release import affordable_revolutions
-from rotorcalc.nonlinear.run_up import delay, run_up
+from rotorcalc.nonlinear.run_up import Passage, RunUp, delay, run_up
+from rotorcalc.nonlinear.signals import Waterfall
 from tests.machines import ROTORS, RPM, SHEET, C, balanced, near_hopf
 
 SUBCRITICAL, *_ = near_hopf(0.06, 1.0)
@@ -152,3 +153,16 @@ def test_a_release_is_followed_for_800_swings_of_the_fastest_mode_and_16_revolut
         most = affordable_revolutions(point)
         assert most == 16 or most * max(swings, 1.0) == pytest.approx(800, rel=0.04)
     assert affordable_revolutions(analyse(SHEET, 1.0)) == 16
+
+
+def test_a_whirl_far_below_half_speed_is_seen_where_the_linear_theory_has_it():
+    """On a floating ring the first whirl is at 0.17 of the speed."""
+    order, speed = np.linspace(0.0, 1.5, 97), np.array([900.0, 1000.0])
+    line = np.exp(-(((order - 0.17) / 0.01) ** 2))
+    seen = Waterfall(speed=speed, order=order, amplitude=C * np.outer([0.01, 0.5], line))
+    passage = Passage(speed, np.zeros(2), seen, np.array([0.18, 0.17]))
+    whirls = RunUp(passage, passage, 1.0, C).whirls_from
+    assert whirls == 1000.0
+    # Without such a mode it may be a slow change of the mean position.
+    other = Passage(speed, np.zeros(2), seen, np.array([0.5, 1.3]))
+    assert math.isnan(RunUp(other, other, 1.0, C).whirls_from)
