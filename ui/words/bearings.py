@@ -46,7 +46,8 @@ _SLOW = ("tilting-pads", "hydrostatic")
 # A machine, its running speed, and another bore in place of its own.
 _Asked: TypeAlias = tuple[Machine, float, Geometry | None]
 
-_results = cache.Cached(work.bearing, entries=256, megabytes=4, turns=ROWS)
+# Every row of some 150 visitors: a page that runs again for a button or a unit computes nothing.
+_results = cache.Cached(work.bearing, entries=2048, megabytes=4, turns=ROWS)
 
 
 @dataclass(frozen=True)
