@@ -198,7 +198,7 @@ def test_bearings_that_do_not_whirl_are_named(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(words.st, "info", said.append)
     words.say_exceptions(results)
     assert said == ["No onset was found on: elliptical (two-lobe), tilting pads."]
-    assert any("none against" in said for said in words.here(results[3], results, SI))
+    assert any("none found against" in said for said in words.here(results[3], results, SI))
 
 
 def test_results_are_shown_as_they_come(monkeypatch: pytest.MonkeyPatch) -> None:
