@@ -36,3 +36,14 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Put long files first."""
     turns = distribution.turns([item.nodeid for item in items])
     items[:] = [items[i] for i in sorted(range(len(items)), key=turns.__getitem__)]
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Say by how much the workers ended apart: one that goes on alone leaves a core idle."""
+    ends: dict[str, float] = {}
+    for report in (one for reports in terminalreporter.stats.values() for one in reports):
+        if node := getattr(report, "node", None):
+            ends[node.gateway.id] = max(report.stop, ends.get(node.gateway.id, 0.0))
+    last = max(ends.values(), default=0.0)
+    for name in sorted(ends):
+        terminalreporter.write_line(f"{name} ended {last - ends[name]:.1f} s before the last")
