@@ -191,12 +191,24 @@ def release(  # noqa: PLR0913 - from where, for how long, how exactly
         whirl=theory.whirl,
         film=C * film_gap(machine.bearing, motion.journal / C, inner),
         # Fewer revolutions make no spectrum, see `signals.spectrum`.
-        spectrum=spectrum(motion, last=max(int(_SETTLED * revolutions), 4)),
+        spectrum=spectrum(
+            motion,
+            last=max(int(_SETTLED * revolutions), 4),
+            slowest=_slowest(theory.whirl.imag / speed),
+        ),
         points=poincare_points(motion),
         stopped=stopped,
         lowest_pressure=lowest_pressure(machine, motion),
         ring=_ring(machine.bearing, motion),
     )
+
+
+def _slowest(order: float) -> float:
+    """Return from which order on whirl is looked for: below 0.2 where linear theory has it there.
+
+    A floating ring whirls at half of its own speed.
+    """
+    return min(0.2, 0.7 * order) if order > 0.1 else 0.2
 
 
 def _ring(bearing: Bearing, motion: Transient) -> Array | None:

@@ -82,7 +82,9 @@ class Waterfall(Result):
 
 
 @checked
-def spectrum(motion: Motion, *, of: str = "journal", last: int | None = None) -> Spectrum:
+def spectrum(
+    motion: Motion, *, of: str = "journal", last: int | None = None, slowest: float = _WHIRL[0]
+) -> Spectrum:
     """Return the spectrum of a motion, windowed by Hann, over orders of running speed.
 
     Parameters
@@ -94,6 +96,8 @@ def spectrum(motion: Motion, *, of: str = "journal", last: int | None = None) ->
         "journal" or "disk"; a recorded motion is the journal's.
     last : int or None
         Number of final revolutions to take, where the motion has settled; None for all.
+    slowest : float
+        Order from which whirl is looked for; a floating ring's is below the usual.
 
     Returns
     -------
@@ -111,7 +115,7 @@ def spectrum(motion: Motion, *, of: str = "journal", last: int | None = None) ->
     size = np.abs(circles)
     at_1x, radius_1x = _line(order, size, _SYNCHRONOUS)
     # Whirl and imbalance are read in separate ranges: a large 1× line would hide a small whirl.
-    ratio, radius = _line(order, size, _WHIRL)
+    ratio, radius = _line(order, size, (slowest, _WHIRL[1]))
     least = max(_LEAST_LINE * size.max(), _OVER_NOISE * float(np.median(size)))
     exists = radius > least and not math.isnan(ratio)
     return Spectrum(

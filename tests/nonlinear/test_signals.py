@@ -40,6 +40,12 @@ def test_lines_between_the_points_of_a_spectrum_are_found(order, whirl, synchron
     assert found.synchronous == pytest.approx(synchronous * C, rel=0.01)
 
 
+def test_a_slow_whirl_is_found_where_it_is_looked_for():
+    motion = made({0.17: 0.4 * C, 1.0: 0.1 * C})
+    assert spectrum(motion, slowest=0.12).whirl_ratio == pytest.approx(0.17, abs=1e-3)
+    assert math.isnan(spectrum(motion).whirl_ratio)
+
+
 def test_a_backward_circle_stands_at_a_negative_order():
     found = spectrum(made({-1.0: 0.4 * C, 1.0: 0.1 * C}))
     assert found.order[np.argmax(found.amplitude)] == -1.0
