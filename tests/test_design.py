@@ -435,7 +435,11 @@ def test_an_onset_at_infinity_is_bracketed_too(monkeypatch: pytest.MonkeyPatch) 
         loads = np.array([one.static_load for one in machines])
         return np.where(loads < 1000.0, loads, np.inf)
 
+    def unknown(_machine: Machine, _speed: float) -> float:
+        raise ValueError("no film")
+
     monkeypatch.setattr(design, "onset_speeds", vanish)
+    monkeypatch.setattr(design, "edge", unknown)  # then the onset itself is bracketed
     found = design.solve_onset(SHEET, vary="load", target=700.0, low=500.0, high=2000.0)
     assert found.solutions == pytest.approx([700.0])
     assert math.isinf(found.reachable[1])
