@@ -16,6 +16,7 @@ whole grids of machines are solved at once. For massless journals it is Eq. 5.50
 Source: San Andrés, Notes 5, Eqs. 5.8, 5.45, 5.46 and 5.50; journal mass by the same balance.
 """
 
+import functools
 import math
 from collections.abc import Sequence
 from typing import Any
@@ -28,7 +29,7 @@ from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array
 from rotorcalc.films import FilmUnits, film_of, film_state
 from rotorcalc.machine import Machine
-from rotorcalc.numerics.roots import narrow_root
+from rotorcalc.numerics.roots import narrow_root, narrow_roots
 from rotorcalc.onset.curves import SIGMA, curves, table
 from rotorcalc.onset.warming import warm_onset, warm_onsets
 from rotorcalc.onset.whirl import Onset, whirl_onset
@@ -39,6 +40,8 @@ _CURVE = "short"
 _LARGEST = 1e140
 # Only the relative step ends the search, as σ spans many decades.
 _ROOT: Any = {"xatol": 0.0, "xrtol": 1e-15, "fatol": 0.0, "frtol": 0.0}
+# As many as are solved one by one as fast as together.
+_ONE_BY_ONE = 6
 
 
 def covers(machine: Machine) -> bool:
@@ -114,14 +117,33 @@ def closed_onsets(machines: Sequence[Machine]) -> Array:
     if not loaded:
         return speeds
     a, b, beta, speed_of = np.array([_numbers(machines[i], True) for i in loaded]).T
-    # The stubs lack what find_root returns for arrays of arguments.
-    found: Any = elementwise.find_root(
-        _excess, _bracket(a, b, beta), args=(a, b, beta), tolerances=_ROOT
+    speeds[loaded] = _roots(a, b, beta) * speed_of
+    return speeds
+
+
+def _roots(a: Array, b: Array, beta: Array) -> Array:
+    """Return σ at the onsets of machines, (m,)."""
+    low, high = _bracket(a, b, beta)
+    roots = narrow_roots(
+        lambda sigma: _excess(sigma, *(x[:, None] for x in (a, b, beta))), low, high
     )
+    # What is left lies at the kink where the product is held, or beyond the table.
+    left = np.flatnonzero(np.isnan(roots))
+    if len(left) > _ONE_BY_ONE:
+        roots[left] = _bracketed(a[left], b[left], beta[left], low[left], high[left])
+        return roots
+    for i in left.tolist():
+        excess = functools.partial(_excess, a=a[i], b=b[i], beta=beta[i])
+        roots[i] = narrow_root(excess, float(low[i]), float(high[i]))
+    return roots
+
+
+def _bracketed(a: Array, b: Array, beta: Array, low: Array, high: Array) -> Array:
+    # The stubs lack what find_root returns for arrays of arguments.
+    found: Any = elementwise.find_root(_excess, (low, high), args=(a, b, beta), tolerances=_ROOT)
     if not np.all(found.success):
         raise RuntimeError("no onset found within the search's iterations")
-    speeds[loaded] = found.x * speed_of
-    return speeds
+    return found.x
 
 
 def _numbers(machine: Machine, flexible: bool) -> tuple[float, float, float, float]:
