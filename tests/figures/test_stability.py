@@ -300,6 +300,9 @@ def test_a_map_without_load_says_that_all_of_it_is_unstable() -> None:
     assert _words(chart) == ["unstable"]
     assert chart["data"][0]["showscale"] is False
     assert "All machines of this map are **unstable**" in moves.sides(computed, onsets, SI)
+    few = replace(onsets, speed=onsets.speed[:12, :12])
+    assert "at 12 × 12 points" in moves.sides(computed, few, SI)
+    assert "points" not in moves.sides(computed, replace(onsets, speed=np.zeros((61, 61))), SI)
 
 
 def test_a_machine_beyond_its_axis_is_named_at_the_edge() -> None:

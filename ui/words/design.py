@@ -196,7 +196,17 @@ def onset_map(computed: Computed, x: str, y: str, units: Units) -> design.OnsetM
 
 
 def sides(computed: Computed, onsets: design.OnsetMap, units: Units) -> str:
-    """Return in words what of a map is stable at the running speed."""
+    """Return in words what of a map is stable at the running speed, and how coarse it is."""
+    rows, columns = onsets.speed.shape
+    coarse = (
+        f" The onset is computed at {columns} × {rows} points, and interpolated between them."
+        if rows <= _COARSE + 1
+        else ""
+    )
+    return f"{_sides(computed, onsets, units)}{coarse}"
+
+
+def _sides(computed: Computed, onsets: design.OnsetMap, units: Units) -> str:
     speed = onsets.speed[~np.isnan(onsets.speed)]
     running = amount(units.speed, computed.speed)
     if not np.any(speed < computed.speed):
