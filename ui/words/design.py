@@ -22,6 +22,7 @@ from ui.computed import Computed
 from ui.format import amount
 from ui.inputs import GAS, INPUTS, OIL, inputs_of, usual, values_of
 from ui.jobs import cache, work
+from ui.jobs.bar import show_progress
 from ui.words.citation import without_load
 
 # Whose effect goes by ratios: drawn and searched over a logarithmic axis.
@@ -189,8 +190,8 @@ def onset_map(computed: Computed, x: str, y: str, units: Units) -> design.OnsetM
     axes = [_axis(key, machine, units) for key in (x, y)]
     if computed.onset.method == "closed form" and "cs" not in {x, y}:
         return _onset_map(machine, *axes, _FINE)
-    bar = st.progress(0.0, "The onset at every point of the map …")
-    found = _onset_map(machine, *axes, _COARSE, tell=bar.progress)
+    bar, tell = show_progress("The onset at every point of the map …")
+    found = _onset_map(machine, *axes, _COARSE, tell=tell)
     bar.empty()
     return found
 

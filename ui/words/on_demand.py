@@ -27,6 +27,7 @@ from ui.computed import Computed
 from ui.format import amount, digits
 from ui.frame.page import Page
 from ui.jobs import cache, work
+from ui.jobs.bar import show_progress
 from ui.jobs.work import Progress
 from ui.results.stability import fastest_growing
 from ui.session import session
@@ -96,10 +97,10 @@ def on_demand(
     with place.container():
         if again:
             st.info(again)
-        bar = st.progress(0.0, "Computing …")
+        _, tell = show_progress("Computing …")
         st.button("Cancel", key=f"{key}_cancel", on_click=visitor.ask_no_more, args=(key,))
     visitor.begun.add(key)
-    result = work(bar.progress)
+    result = work(tell)
     if again:
         place.info(again)
     else:

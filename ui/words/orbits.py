@@ -16,6 +16,7 @@ from ui.format import amount, digits
 from ui.frame.page import Page
 from ui.inputs import INPUTS, PRESET_VALUES
 from ui.jobs import cache, queue, work
+from ui.jobs.bar import show_progress
 from ui.jobs.work import Progress
 from ui.preview import Preview, Text, not_at_once
 from ui.ring import has_ring
@@ -205,9 +206,9 @@ def try_out(page: Page, ask: Ask) -> Page | None:
     ask = _affordable(page.computed, ask)
     if not _asked_for(page, ask):
         return None
-    bar = st.progress(0.0, "Integrating …") if ask.revolutions >= work.LONG else None
+    bar, tell = show_progress("Integrating …") if ask.revolutions >= work.LONG else (None, None)
     try:
-        let_go(page.computed, ask, None if bar is None else bar.progress)
+        let_go(page.computed, ask, tell)
     except (ValueError, TransientError) as error:
         st.error(f"{error}", title="This release cannot be computed")
         st.stop()
