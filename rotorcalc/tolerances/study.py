@@ -16,6 +16,7 @@ from rotorcalc.arguments import checked
 from rotorcalc.arrays import Array, BoolArray, checked_speed
 from rotorcalc.coefficients import equilibrium
 from rotorcalc.display import Result
+from rotorcalc.films import film_of
 from rotorcalc.machine import Machine
 from rotorcalc.numerics.parts import in_parts
 from rotorcalc.onset.closed_form import covers
@@ -31,6 +32,8 @@ _CLOSED, _OTHERS = 10_000, 250
 # Parts at least, so that several processes have something to do; in closed form none of fewer than
 # so many, which take a few hundredths of a second.
 _PARTS, _FEWEST = 16, 1000
+# And of machines on the short film, whose onsets are searched together.
+_FEWEST_SHORT = 25
 # Ten million samples of ten inputs are a gigabyte.
 MOST_SAMPLES = 10_000_000
 # What a film that has no answer raises.
@@ -288,5 +291,7 @@ def _parts(
     size = min(_CLOSED if closed else _OTHERS, math.ceil(len(values) / _PARTS))
     if closed:
         size = max(size, _FEWEST)
+    elif film_of(machine.bearing).curve == "short" and machine.supply is None:
+        size = max(size, _FEWEST_SHORT)
     for first in range(0, len(values), size):
         yield Part(machine, paths, values[first : first + size], speed, first)

@@ -242,7 +242,7 @@ def _dask() -> Iterator[Executor]:
 def test_any_executor_gives_the_same_answer(executor: Executor) -> None:
     told: list[float] = []
     damped = with_rotor(disk_damping=5e3)
-    # In closed form a part is of a thousand machines at least.
+    # In closed form a part is of a thousand machines at least, else on the short film of 25.
     for machine, spread, n in (
         (SHEET, SPREADS, 2500), (damped, {"load": SPREADS["load"]}, 64),
     ):  # fmt: skip
@@ -251,7 +251,7 @@ def test_any_executor_gives_the_same_answer(executor: Executor) -> None:
         for name in ("values", "onset", "margin", "unstable", "answered"):
             np.testing.assert_array_equal(getattr(alone, name), getattr(shared, name))
         assert alone.influences == shared.influences
-    assert told == pytest.approx([*np.arange(1, 4) / 3, *np.arange(1, 17) / 16])
+    assert told == pytest.approx([*np.arange(1, 4) / 3, *np.arange(1, 4) / 3])
     xs, ys = np.array([50e-6, 80e-6]), np.array([1e3, 5e3])
     axes = {"x": "radial_clearance", "xs": xs, "y": "disk_damping", "ys": ys}
     one, many = (rc.onset_map(SHEET, executor=each, **axes) for each in (None, executor))
