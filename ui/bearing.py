@@ -8,7 +8,6 @@ import functools
 import math
 from collections.abc import Mapping
 from dataclasses import MISSING, dataclass
-from types import MappingProxyType
 
 from rotorcalc import CoefficientTable, JournalBearing
 from rotorcalc.coefficient_table import OWN, UnknownBore
@@ -115,10 +114,9 @@ class OwnField(Field):
 _OWN = {TABLE: OwnField(TABLE, TABLE, "Coefficients", Rule(Choice(()), True, None))}
 
 
-@functools.cache
 def kinds() -> Mapping[str, type[Geometry]]:
-    """Return the kinds of bearings by their words; a run asks some forty times."""
-    return MappingProxyType(Geometry.kinds() | {OWN: UnknownBore})
+    """Return the kinds of bearings by their words, those defined later too."""
+    return Geometry.kinds() | {OWN: UnknownBore}
 
 
 def fields_of(kind: object) -> dict[str, Field]:
