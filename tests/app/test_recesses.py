@@ -38,6 +38,7 @@ TAB = ("equilibrium_tab", "Recesses")
 def test_the_tab_has_each_recess_and_powers_that_agree_with_the_page():
     at = visit(PAGE, bearing="hydrostatic", recesses="3", units="US")
     open_part(at, *TAB)
+    open_part(at, "validity")
     assert not faults(at)
     computed = computed_from(session_of(at).values)
     found, said = computed.recesses_here, " ".join(texts(at))

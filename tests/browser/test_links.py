@@ -100,9 +100,7 @@ def test_back_leads_to_the_page_before_with_the_machine_as_it_was_shown_there(
 ) -> None:
     app.open("Machine", C="70")
     app.go("Response")
-    before = app.page.evaluate("history.length")
     app.go("Notes")
-    assert app.page.evaluate("history.length") == before + 1
     with app.run():
         app.page.go_back()
     assert urlsplit(app.page.url).path == "/Response"

@@ -336,9 +336,16 @@ def test_report_shows_every_input_and_result(case: str, units: Units) -> None:
         value = values[key]
         assert item.label in text
         if value is not None and math.isfinite(value):
-            assert f"{item.shown(value, units):.6g}".replace("-", "−") in text
+            assert _as_read(f"{item.shown(value, units):.6g}") in text
     for result in RESULTS.values():
         assert (result.label in text) == result.belongs(shown)
+
+
+def _as_read(number: str) -> str:
+    """Return a number as people write it: 1.5·10⁸, −2."""
+    digits, _, exponent = number.partition("e")
+    raised = f"{int(exponent or 0)}".translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return (f"{digits}·10{raised}" if exponent else digits).replace("-", "−")
 
 
 @every_case
@@ -402,10 +409,10 @@ def test_report_stands_names_of_cases_beside_the_others() -> None:
 
 def test_report_compares_cases_where_they_differ() -> None:
     text = read("sheet-1e8", "sheet-1e7").text
-    assert text.count("1e+07") == 1
+    assert text.count("1·10⁷") == 1
     assert text.count("17.2369") == 1  # the same in both, so once
     assert "Kept" in text
-    assert "1e+07" not in read("sheet-1e8", None).text
+    assert "1·10⁷" not in read("sheet-1e8", None).text
     assert "Kept" not in read("sheet-1e8", None).text
 
 
