@@ -317,15 +317,15 @@ class _Column:
 _COLUMNS = (
     _Column("Onset", "onset", "speed", 0, 88, "Speed at which the rotor begins to whirl; "
             "without a number, none was found.", bars=True),
-    _Column("Margin", "margin", "percent", 0, 70, "Onset over running speed, less one."),
+    _Column("Margin", "margin", "percent", 0, 76, "Onset over running speed, less one."),
     _Column("Whirl", "whirl_ratio", "number", 3, 54, "Whirl ratio at the running speed; without a "
             "number, the film feeds no whirl there."),
     _Column("Log dec.", "log_decrement", "number", 3, 62,
             "Logarithmic decrement of the least damped mode at the running speed."),
     _Column("h min", "minimum_film_thickness", "film", 1, 78, "Smallest film.", bars=True),
     _Column("Power", "power_loss", "power", 2, 80, "Power loss of one bearing.", bars=True),
-    _Column("Flow", "side_flow", "flow", 2, 78, "Side flow of one bearing."),
-    _Column("Peak", "peak_response", "amplitude", 0, 86,
+    _Column("Flow", "side_flow", "flow", 2, 84, "Side flow of one bearing."),
+    _Column("Peak", "peak_response", "amplitude", 1, 104,
             "Highest peak of the disk's imbalance response up to 1.5 times the running speed.",
             bars=True),
 )  # fmt: skip
@@ -345,17 +345,21 @@ def _table(found: Sequence[BearingResult], page: Page, *, done: bool) -> None:
         (
             "Bearing",
             [own, *(name_of(one.geometry.kind) for one in bearings[1:])],
-            config.TextColumn(width=136, pinned=True),
+            config.TextColumn(width=_wide(143), pinned=True),
         ),
-        ("Bore", [picture_address(one) for one in bearings], config.ImageColumn("", width=40)),
+        (
+            "Bore",
+            [picture_address(one) for one in bearings],
+            config.ImageColumn("", width=_wide(40)),
+        ),
         (
             "Use",
             ["Use" if done and one != bearings[0] else "" for one in bearings],
             config.ButtonColumn(
-                "", width=48, key=_CLICKED, on_click=_take, args=(bearings,), help=_USE
+                "", width=_wide(48), key=_CLICKED, on_click=_take, args=(bearings,), help=_USE
             )
             if done  # a key stands for one table of a run
-            else config.TextColumn("", width=48),
+            else config.TextColumn("", width=_wide(48)),
         ),
         *(_numbers(column, found, page.units) for column in (*_COLUMNS, *film)),
     ]
@@ -371,8 +375,13 @@ def _table(found: Sequence[BearingResult], page: Page, *, done: bool) -> None:
     first = f"{name_of(bearings[0].geometry.kind)}, {film_name(page.preview.values)}".lower()
     st.caption(
         f"First this machine's own bearing ({first}), then each kind at its usual shape, on the "
-        "film of finite length, a foil on air. A click on a column's head sorts by it."
+        "film of finite length, a foil on air. A click on a column's head sorts."
     )
+
+
+def _wide(width: int) -> int:
+    """Return a column's width [px] for the type as it is shown."""
+    return round(1.15 * width) if session().present else width
 
 
 def _numbers(
@@ -389,10 +398,12 @@ def _numbers(
     most = max((value for value in shown if value is not None), default=0.0)
     if column.bars and most > 0.0:
         bar = st.column_config.ProgressColumn(
-            head, format=number, max_value=most, width=column.width, help=column.help
+            head, format=number, max_value=most, width=_wide(column.width), help=column.help
         )
         return head, shown, bar
-    plain = st.column_config.NumberColumn(head, format=number, width=column.width, help=column.help)
+    plain = st.column_config.NumberColumn(
+        head, format=number, width=_wide(column.width), help=column.help
+    )
     return head, shown, plain
 
 
