@@ -1,6 +1,7 @@
 """Links: every page opens cold, and the address bar carries the whole machine everywhere."""
 
 import itertools
+import re
 from urllib.parse import parse_qsl, urlsplit
 
 import pytest
@@ -93,6 +94,19 @@ def test_a_link_to_another_page_contains_the_machine(app: AppPage) -> None:
     other.rest()
     assert other.query() == machine
     other.page.close()
+
+
+def test_a_link_clicked_as_soon_as_a_value_is_typed_leads_to_the_machine_with_it(
+    app: AppPage,
+) -> None:
+    """As a tap is: between its press, which leaves the field, and its click there is no time."""
+    app.open("Machine", C="70")
+    app.page.get_by_label(re.compile("^Radial clearance.*typed$")).fill("75")
+    with app.run():
+        app.page.get_by_role("link", name="Equilibrium", exact=True).first.click()
+    assert app.changes(app.query, {"C": "70"})
+    assert (urlsplit(app.page.url).path, app.query()) == ("/Equilibrium", {"C": "75"})
+    assert app.page.get_by_test_id("stException").count() == 0
 
 
 def test_back_leads_to_the_page_before_with_the_machine_as_it_was_shown_there(

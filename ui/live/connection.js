@@ -16,6 +16,8 @@ const LOOK = 1000;
 const BEGIN = 3000;
 const PATIENCE = 4000;
 const BUSY = 15000;
+// Between two looks whether a page that was reloaded is drawn.
+const REST = 100;
 
 const STORE = "rotorcalc";
 const address = () => location.pathname + location.search;
@@ -58,8 +60,14 @@ class Connection {
 
   update(health, keep, send) {
     Object.assign(this, { health, keep });
-    if (this.stored && !this.sent) send("reloaded", this.stored);
+    if (this.stored && !this.sent) this.restore(send);
     this.sent = true;
+  }
+
+  // Once the whole page is drawn: what is sent before has not all of its fields, and these would lose their values.
+  restore(send) {
+    if (running()) setTimeout(() => this.restore(send), REST);
+    else send("reloaded", this.stored);
   }
 
   // What a session sends before it has taken over the last one's state is not to be kept.

@@ -6,6 +6,10 @@
 
 let names = []; // of choices, which belong to the page that is left
 
+// Milliseconds in which a field that is left by the click sends what was typed into it, still to its own page. A tap
+// leaves no time between press and click.
+const A_MOMENT = 60;
+
 const STREAMLITS = '[data-testid="stPageLink-NavLink"]';
 const connected = () => document.querySelector('[data-testid="stApp"]')?.dataset.testConnectionState === "CONNECTED";
 
@@ -28,9 +32,13 @@ function follow(event) {
   event.stopPropagation(); // Streamlit would go there without the machine
   if (event.ctrlKey || event.metaKey || event.shiftKey || event.altKey) return; // the browser opens or saves it
   event.preventDefault();
+  const { href, pathname } = link;
+  setTimeout(() => go(href, pathname), A_MOMENT);
+}
+
+function go(href, pathname) {
   if (!connected()) return;
-  const isHere = link.pathname === location.pathname;
-  history[isHere ? "replaceState" : "pushState"]({}, "", link.href);
+  history[pathname === location.pathname ? "replaceState" : "pushState"]({}, "", href);
   window.dispatchEvent(new PopStateEvent("popstate"));
 }
 
