@@ -53,7 +53,7 @@ def drawn_values(draw: st.DrawFn, preset: str) -> Values:
     values[LAW] = draw(st.sampled_from(sorted(LAWS)))
     if values[LAW] == "walther":  # which neither so thin an oil has, nor one far from its reference
         values["mu"] = max(values["mu"], tidy(1e-3 * values["rho"]))
-        values["T"] = None if values["T"] is None else values["TR"]
+        values["T_in" if values["T"] is None else "T"] = values["TR"]
     # µm: less than a tenth of the radius
     values["C"] = min(values["C"], tidy(49.0 * values["D"]))
     bearing = bearing_values(BEARINGS[draw(st.sampled_from(sorted(BEARINGS)))])
