@@ -276,8 +276,7 @@ def _refused(machine: Machine, reason: str) -> BearingResult:
 
 def log_decrement(sweep: Sweep) -> float:
     """Return the smallest decrement of an oscillating mode, infinite where there is none."""
-    value = complex(modes.least_damped(sweep.flexible_eigenvalues))
-    return math.inf if math.isnan(value.real) else float(modes.logarithmic_decrement(value))
+    return float(modes.smallest_decrement(sweep.flexible_eigenvalues))
 
 
 def _largest_peak(machine: Machine, speed: float) -> tuple[float, float]:

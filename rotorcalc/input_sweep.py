@@ -143,23 +143,20 @@ def _decrements(machines: list[Machine], rests: list[Equilibrium]) -> Array:
     K = np.stack([rest.stiffness for rest in rests])
     C = np.stack([rest.damping for rest in rests])
     try:
-        values = modes.least_damped(eigenvalues_of(machines, float(rests[0].speed), K, C))
+        values = eigenvalues_of(machines, float(rests[0].speed), K, C)
     except ValueError:
         return np.array([_decrement(*one) for one in zip(machines, rests, strict=True)])
-    oscillates = ~np.isnan(values.real)
-    return np.where(oscillates, modes.logarithmic_decrement(values), np.inf)
+    return modes.smallest_decrement(values)
 
 
 def _decrement(machine: Machine, rest: Equilibrium) -> float:
     """Return the log decrement of a machine, NaN where its eigenvalues are not known."""
     try:
         film = dynamics(machine, rest.speed)
-        value = complex(
-            modes.least_damped(certain_eigenvalues(machine, rest.speed, film, flexible=True))
-        )
+        values = certain_eigenvalues(machine, rest.speed, film, flexible=True)
     except ValueError:
         return math.nan
-    return math.inf if math.isnan(value.real) else float(modes.logarithmic_decrement(value))
+    return float(modes.smallest_decrement(values))
 
 
 def _onsets(machines: list[Machine]) -> Array:

@@ -354,6 +354,23 @@ def least_damped(eigenvalues: ArrayLike) -> ComplexArray:
     return _oscillating_at(least_damped_place(values), values)
 
 
+def smallest_decrement(eigenvalues: ArrayLike) -> Array:
+    """Return the logarithmic decrement of the least damped mode.
+
+    Parameters
+    ----------
+    eigenvalues : array_like, (..., n)
+        λ of all modes [1/s].
+
+    Returns
+    -------
+    array, (...)
+        −2π Re λ/|Im λ| of `least_damped` [-]; infinite where no mode oscillates.
+    """
+    values = least_damped(eigenvalues)
+    return np.where(np.isnan(values.real), np.inf, logarithmic_decrement(values))
+
+
 @checked
 def least_damped_place(eigenvalues: ComplexArray) -> IntArray:
     """Return the index of `least_damped`, (...); of the largest real part where none oscillates."""
